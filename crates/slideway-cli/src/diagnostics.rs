@@ -6,7 +6,7 @@ use crate::faulty_input::FaultyInput;
 use annotate_snippets::{
     Annotation, AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet, Title,
 };
-use slideway::fault::{Fault, FaultKind, Source};
+use slideway::fault::{Fault, FaultKind, Place, Source};
 use slideway::model::SettingKind;
 use slideway::printable;
 use slideway::raw_problem::{RawFault, RawFaults};
@@ -25,13 +25,14 @@ pub(crate) struct Note {
 
 /// The message with its hint; coloured, for a stream that strips colours where they are not wanted.
 pub(crate) fn note(note: &Note) -> String {
-    let group = Group::with_title(title(&note.message)).elements(note.hint.as_deref().map(help));
+    let group =
+        Group::with_title(title(Level::ERROR, &note.message)).elements(note.hint.as_deref().map(help));
     Renderer::styled().render(&[group])
 }
 
 /// What is wrong.
-fn title(message: &str) -> Title<'static> {
-    Level::ERROR.primary_title(printable::line(message).into_owned())
+fn title(level: Level<'static>, message: &str) -> Title<'static> {
+    level.primary_title(printable::line(message).into_owned())
 }
 
 /// What to do about it.
@@ -49,24 +50,41 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
     let texts = Texts::of(faulty);
     let sorted = faulty.faults.sorted();
     let renderer = Renderer::styled();
-    let mut parts: Vec<String> =
-        sorted.iter().take(SHOWN).map(|fault| renderer.render(&[texts.group(fault)])).collect();
-    parts.push(renderer.render(&[Group::with_title(title(&closing_line(&sorted, &texts.model_name)))]));
+    // Warnings beside faults may be the reason for them; by themselves they have been made faults.
+    let (warnings, others): (Vec<&Fault>, Vec<&Fault>) = sorted.iter().partition(|fault| is_warning(fault));
+    let counted = if others.is_empty() { warnings } else { others };
+    let part = |fault: &&Fault| {
+        let level = if counted.contains(fault) { Level::ERROR } else { Level::WARNING };
+        renderer.render(&[texts.group(fault, level)])
+    };
+    let mut parts: Vec<String> = sorted.iter().take(SHOWN).map(part).collect();
+    let closing = closing_line(&counted, &texts.model_name);
+    parts.push(renderer.render(&[Group::with_title(title(Level::ERROR, &closing))]));
     parts.join("\n\n")
+}
+
+/// All warnings of an input in the order of their places.
+pub(crate) fn warnings(doubtful: &FaultyInput) -> String {
+    let texts = Texts::of(doubtful);
+    let renderer = Renderer::styled();
+    let part = |fault: &&Fault| renderer.render(&[texts.group(fault, Level::WARNING)]) + "\n";
+    doubtful.faults.sorted().iter().map(part).collect::<Vec<_>>().join("\n")
 }
 
 /// All faults of a problem given by matrices, and how many there are.
 pub(crate) fn raw_faults(name: &str, faults: &RawFaults) -> String {
     let renderer = Renderer::styled();
     let part = |fault: &RawFault| {
-        let group = Group::with_title(title(&fault.to_string())).element(origin(name));
+        let group = Group::with_title(title(Level::ERROR, &fault.to_string())).element(origin(name));
         renderer.render(&[group.elements(fault.hint().as_deref().map(help))])
     };
     let mut parts: Vec<String> = faults.iter().take(SHOWN).map(part).collect();
     let count = faults.iter().len();
     let more = if count > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
     let count = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
-    parts.push(renderer.render(&[Group::with_title(title(&format!("{count} in {name}{more}")))]));
+    parts.push(
+        renderer.render(&[Group::with_title(title(Level::ERROR, &format!("{count} in {name}{more}")))]),
+    );
     parts.join("\n\n")
 }
 
@@ -93,21 +111,22 @@ impl Texts {
         Self { model_name: faulty.name.clone(), model: faulty.text.clone(), settings: settings.collect() }
     }
 
-    fn group(&self, fault: &Fault) -> Group<'static> {
-        let group = Group::with_title(title(&fault.kind.to_string()));
-        let group = match &fault.place {
+    fn group(&self, fault: &Fault, level: Level<'static>) -> Group<'static> {
+        let group = Group::with_title(title(level, &fault.kind.to_string()));
+        let argument = argument(fault);
+        let group = match argument.as_ref().map(|(_, place)| place).or(fault.place.as_ref()) {
             Some(place) => {
-                let (path, text, offset) = match place.source {
-                    Source::Model => (self.model_name.as_str(), self.model.as_str(), 0),
-                    Source::Setting(index) => {
+                let (path, text, offset) = match (place.source, &argument) {
+                    (Source::Setting(index), _) => {
                         let (text, offset) = &self.settings[index];
                         ("command line", text.as_str(), *offset)
                     }
+                    (Source::Argument, Some(((text, offset), _))) => ("command line", text.as_str(), *offset),
+                    _ => (self.model_name.as_str(), self.model.as_str(), 0),
                 };
                 let span = within(text, &(place.span.start + offset..place.span.end + offset));
                 group.element(snippet(text, span).path(printable::line(path).into_owned()))
             }
-            None if on_command_line(fault) => group,
             None => group.element(origin(&self.model_name)),
         };
         group.elements(fault.kind.hint().as_deref().map(help))
@@ -132,22 +151,64 @@ fn within(text: &str, span: &Range<usize>) -> Range<usize> {
     start..end
 }
 
+fn is_warning(fault: &Fault) -> bool {
+    matches!(fault.kind, FaultKind::Doubt(_))
+}
+
 fn on_command_line(fault: &Fault) -> bool {
-    match &fault.place {
-        Some(place) => place.source != Source::Model,
-        None => matches!(fault.kind, FaultKind::MalformedSetting { .. } | FaultKind::Axis { .. }),
+    argument(fault).is_some() || fault.place.as_ref().is_some_and(|place| place.source != Source::Model)
+}
+
+/// An argument with its option, and where its own text begins there.
+type Shown = (String, usize);
+
+/// The argument in which a fault lies that is no setting, and the place in it: that of the fault, or a name
+/// without a place that stands on the command line by itself, such as that of a load.
+fn argument(fault: &Fault) -> Option<(Shown, Place)> {
+    match (&fault.argument, &fault.place, &fault.kind) {
+        (Some(text), Some(place), _) => {
+            Some((with_option(text).unwrap_or_else(|| (text.to_string(), 0)), place.clone()))
+        }
+        (None, None, FaultKind::UnknownName { name, .. }) => {
+            let place = Place { source: Source::Argument, span: 0..name.len() };
+            Some((with_option(name)?, place))
+        }
+        _ => None,
     }
+}
+
+/// The argument of the command line that says the same, blanks aside, with the option before it.
+fn with_option(text: &str) -> Option<Shown> {
+    let bare = |text: &str| text.split_whitespace().collect::<String>();
+    let arguments: Vec<String> =
+        std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    let option = arguments.windows(2).find_map(|pair| {
+        let joined = pair[1].split_once('=').filter(|(option, _)| option.starts_with("--"));
+        match joined {
+            Some((option, value)) if bare(value) == bare(text) => Some(option.to_owned()),
+            _ if pair[0].starts_with('-') && bare(&pair[1]) == bare(text) => Some(pair[0].clone()),
+            _ => None,
+        }
+    })?;
+    Some((format!("{option} {text}"), option.len() + 1))
 }
 
 /// "3 faults in drawer.toml"
 fn closing_line(faults: &[&Fault], model: &str) -> String {
     let in_settings = faults.iter().filter(|fault| on_command_line(fault)).count();
-    let count = if faults.len() == 1 { "1 fault".to_owned() } else { format!("{} faults", faults.len()) };
+    let are_warnings = faults.iter().all(|fault| is_warning(fault));
+    let [one, several] = if are_warnings { ["warning", "warnings"] } else { ["fault", "faults"] };
+    let count = if faults.len() == 1 { format!("1 {one}") } else { format!("{} {several}", faults.len()) };
+    let strict = match faults.len() {
+        _ if !are_warnings => "",
+        1 => ", taken for an error",
+        _ => ", taken for errors",
+    };
     let place = match in_settings {
         0 => format!("in {model}"),
         all if all == faults.len() => "on the command line".to_owned(),
         _ => format!("in {model} and on the command line"),
     };
     let more = if faults.len() > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
-    format!("{count} {place}{more}")
+    format!("{count} {place}{more}{strict}")
 }

@@ -1,11 +1,17 @@
 //! A model file and the settings of the command line, as texts in which faults have their places.
 
 use crate::arguments::ModelArguments;
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::faulty_input::FaultyInput;
+use crate::output::complain;
+use anstream::ColorChoice;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::gallery;
+use slideway::limits::Vary;
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
+use slideway::units::UnitSystem;
+use slideway::warning::warnings;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -21,6 +27,12 @@ pub(crate) struct Input {
     pub(crate) settings: Settings,
     /// Settings that could not be read.
     malformed: Vec<Fault>,
+    /// In which units numbers are to be shown, if not as the model says.
+    units: Option<UnitSystem>,
+    /// Whether warnings are errors.
+    strict: bool,
+    /// When warnings are coloured.
+    color: ColorChoice,
 }
 
 impl Input {
@@ -28,28 +40,80 @@ impl Input {
     ///
     /// # Errors
     /// If it cannot be read, or is too large.
-    pub(crate) fn read(arguments: &ModelArguments) -> Result<Self, Failure> {
+    pub(crate) fn read(arguments: &ModelArguments, color: ColorChoice) -> Result<Self, Failure> {
         let path = arguments.file.as_path();
         let (settings, malformed) = arguments.settings();
-        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed };
+        let (units, strict) = (arguments.units(), arguments.strict);
+        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed, units, strict, color };
         match read_bytes(path, SIZE_LIMIT)? {
             Some(bytes) => Ok(Self { bytes, ..input }),
             None => Err(input.refused(Fault::general(FaultKind::TooLarge { limit: SIZE_LIMIT }).into())),
         }
     }
 
-    /// The model with its settings.
+    /// The model with its settings; what is perhaps not meant in it is told on standard error.
+    ///
+    /// # Errors
+    /// All faults of both; the warnings if they are to be errors.
+    pub(crate) fn model(&self) -> Result<Model, Failure> {
+        let model = self.model_without_warnings()?;
+        self.warn(warnings(&model))?;
+        Ok(model)
+    }
+
+    /// A quantity that is to be varied in the model, with its warnings likewise.
+    ///
+    /// # Errors
+    /// A text that is none; the warnings if they are to be errors.
+    pub(crate) fn vary(&self, model: &Model, text: &str) -> Result<Vary, Failure> {
+        let vary: Vary = text.parse().map_err(|faults| self.refused(faults))?;
+        self.warn(vary.warnings(model))?;
+        Ok(vary)
+    }
+
+    /// [`Input::vary`] of two quantities, with the faults of both.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn vary_both(&self, model: &Model, texts: [&str; 2]) -> Result<[Vary; 2], Failure> {
+        let mut faults = Faults::default();
+        let read = texts.map(|text| text.parse::<Vary>().map_err(|found| faults.append(found)).ok());
+        let [Some(x), Some(y)] = read else { return Err(self.refused(faults)) };
+        let mut warnings = x.warnings(model);
+        warnings.append(y.warnings(model));
+        self.warn(warnings)?;
+        Ok([x, y])
+    }
+
+    fn warn(&self, warnings: Faults) -> Result<(), Failure> {
+        if warnings.is_empty() {
+            return Ok(());
+        }
+        if self.strict {
+            return Err(self.refused(warnings));
+        }
+        complain(&diagnostics::warnings(&self.faulty(self.settings.clone(), warnings)), self.color);
+        Ok(())
+    }
+
+    /// The model with its settings, for who tells of its warnings.
     ///
     /// # Errors
     /// All faults of both.
-    pub(crate) fn model(&self) -> Result<Model, Failure> {
+    pub(crate) fn model_without_warnings(&self) -> Result<Model, Failure> {
         let model = Model::parse_bytes(&self.bytes);
         let with_settings = match model {
-            Ok(model) => model.with(&self.settings),
+            Ok(model) => model.with(&self.settings).map_err(|mut faults| {
+                faults.append(model.warnings_of(&self.settings));
+                faults
+            }),
             Err(faults) => Err(faults),
         };
         match with_settings {
-            Ok(model) if self.malformed.is_empty() => Ok(model),
+            Ok(model) if self.malformed.is_empty() => Ok(match self.units {
+                Some(system) => model.with_units(system),
+                None => model,
+            }),
             found => {
                 let mut faults = found.err().unwrap_or_default();
                 self.malformed.iter().for_each(|fault| faults.push(fault.clone()));
@@ -69,13 +133,25 @@ impl Input {
     }
 
     fn refused_with(&self, settings: Settings, faults: Faults) -> Failure {
-        Failure::Input(Box::new(FaultyInput {
+        Failure::Input(Box::new(self.faulty(settings, faults)))
+    }
+
+    fn faulty(&self, settings: Settings, faults: Faults) -> FaultyInput {
+        FaultyInput {
             name: self.name.clone(),
             text: self.text(),
             settings,
             parameter_option: "--set ",
             faults,
-        }))
+        }
+    }
+
+    /// Refuses warnings if they are to be errors.
+    ///
+    /// # Errors
+    /// The warnings.
+    pub(crate) fn be_strict(&self, model: &Model) -> Result<(), Failure> {
+        if self.strict { self.warn(warnings(model)) } else { Ok(()) }
     }
 
     /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in

@@ -52,6 +52,7 @@ refused! {
     new_unknown_template: ["new", "drower"];
     new_unknown_parameter: ["new", "drawer", "--LL", "400mm"];
     new_wrong_units: ["new", "drawer", "--L", "400 kg", "--mu", "-0.3", "--Q", "20 N +"];
+    new_without_units: ["new", "drawer", "--L", "400", "--mu", "0.3"];
     new_that_cannot_be_assembled: ["new", "slider-crank", "--l", "10mm"];
     name_of_a_gallery_model: ["solve", "drawer"];
     directory: ["solve", "models"];

@@ -1,20 +1,20 @@
-//! Dense linear algebra that can be ended: with some thousand unknowns it takes seconds.
+//! Dense linear algebra that can be interrupted: with some thousand unknowns it takes seconds.
 //!
-//! Results are those of nalgebra to the last bit, the operations being the same in the same order. Each
-//! function has a `proceed` that is asked now and then, and nothing comes of it once that is false.
+//! Results equal nalgebra's to the last bit, because the operations are the same, in the same order. Each
+//! function calls its `proceed` now and then, and returns nothing once that is false.
 
 use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence};
 
-/// `proceed` is asked once for so many multiplications: some milliseconds.
+/// `proceed` is called once per this many multiplications, which take some milliseconds.
 const BETWEEN: usize = 1 << 23;
-/// Products are computed so many columns at a time: with fewer of them nalgebra would spend much time on
-/// copies of the other factor.
+/// Products are computed this many columns at a time: with fewer, nalgebra would spend much time on copies of
+/// the other factor.
 const PANEL: usize = 128;
 
-/// Asks whether to go on, not too often.
+/// Asks whether to continue, but not too often.
 pub(crate) struct Pace<'p> {
     proceed: &'p mut dyn FnMut() -> bool,
-    /// Multiplications since it was asked.
+    /// Multiplications since the last call.
     since: usize,
 }
 
@@ -23,7 +23,7 @@ impl<'p> Pace<'p> {
         Self { proceed, since: 0 }
     }
 
-    /// Whether so many multiplications may follow.
+    /// Whether this many multiplications may follow.
     pub(crate) fn allows(&mut self, multiplications: usize) -> bool {
         self.since = self.since.saturating_add(multiplications);
         if self.since < BETWEEN {
@@ -33,7 +33,7 @@ impl<'p> Pace<'p> {
         (self.proceed)()
     }
 
-    /// What is asked, for work that has a pace of its own.
+    /// The function that is called, for work that has a pace of its own.
     pub(crate) fn proceed(&mut self) -> &mut dyn FnMut() -> bool {
         self.proceed
     }
@@ -60,16 +60,16 @@ pub(crate) fn product(
     Some(result)
 }
 
-/// An approximate inverse; none if there is none, either.
+/// An approximate inverse; `None` if there is none.
 pub(crate) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
     if matrix.nrows().saturating_pow(3) <= BETWEEN {
-        // Inverses of up to four rows have formulas of their own.
+        // There are explicit formulas for inverses of up to four rows.
         return matrix.try_inverse();
     }
     Lu::new(matrix, proceed)?.inverse(proceed)
 }
 
-/// Whether the Cholesky factorization of a symmetric matrix runs to its end. Only the lower triangle is used.
+/// Whether the Cholesky factorization of a symmetric matrix completes. Only the lower triangle is used.
 pub(crate) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> bool {
     let mut pace = Pace::new(proceed);
     let size = matrix.nrows();
@@ -153,14 +153,14 @@ impl Lu {
         Some(Self { factors: matrix, rows })
     }
 
-    /// `A^-1 b`; none if a pivot is zero.
+    /// `A^-1 b`; `None` if a pivot is zero.
     pub(crate) fn solve(&self, right_hand_side: &DVector<f64>) -> Option<DVector<f64>> {
         let mut solution = right_hand_side.clone();
         self.rows.permute_rows(&mut solution);
         self.substitute(&mut solution.column_mut(0)).then_some(solution)
     }
 
-    /// `A^-1`; none if a pivot is zero.
+    /// `A^-1`; `None` if a pivot is zero.
     pub(crate) fn inverse(&self, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
         let mut pace = Pace::new(proceed);
         let size = self.factors.nrows();
@@ -184,9 +184,9 @@ impl Lu {
         self.rows.determinant()
     }
 
-    /// Replaces `P b` by `A^-1 b`; false if a pivot is zero.
+    /// Replaces `P b` by `A^-1 b`; `false` if a pivot is zero.
     fn substitute(&self, column: &mut nalgebra::DVectorViewMut<'_, f64>) -> bool {
-        // nalgebra's triangular solutions do not take empty systems.
+        // nalgebra's triangular solvers do not accept empty systems.
         column.is_empty()
             || self.factors.solve_lower_triangular_with_diag_mut(column, 1.0)
                 && self.factors.solve_upper_triangular_mut(column)
@@ -254,7 +254,7 @@ mod tests {
         }
     }
 
-    /// Whether it was done.
+    /// Returns whether it completed.
     type Computation<'c> = dyn Fn(&mut dyn FnMut() -> bool) -> bool + 'c;
 
     #[test]

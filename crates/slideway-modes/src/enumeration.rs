@@ -8,7 +8,7 @@ use crate::solutions::{Limits, Solutions};
 
 /// A pivot below this fraction of its column's largest entry makes the patterns below suspect.
 pub(crate) const SUSPECT_PIVOT: f64 = 1e-7;
-/// Negative values within this fraction of their terms' size are left to the careful solution.
+/// Negative values within this fraction of the size of their terms are left to the careful solution.
 pub(crate) const SLACK: f64 = 1e-9;
 
 /// A problem too large for the limits.
@@ -50,7 +50,7 @@ impl From<TooManySolutions> for EnumerationError {
     }
 }
 
-/// All solutions of a mode problem, and the outcome of each of its patterns.
+/// All solutions of a mode problem, and the outcome of every pattern.
 ///
 /// Tries every `sigma` of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` (Klepp
 /// (2002), eqs. (6) and (8)) and, for contacts at which the right-hand side jumps, the states
@@ -104,10 +104,10 @@ struct Level {
     width: usize,
     pivot_row: Vec<f64>,
     pivot: f64,
-    /// Where the chosen column stands in the rows of earlier levels, and with which sign.
+    /// Position of the chosen column in the rows of earlier levels, and its sign.
     column: usize,
     orientation: f64,
-    /// Where `d_k^+ - d_k^-` stands, if it is part of the right-hand side.
+    /// Position of `d_k^+ - d_k^-`, if it is part of the right-hand side.
     jump: Option<usize>,
     /// Product of the pivots above this level.
     determinant: f64,
@@ -115,8 +115,8 @@ struct Level {
 
 struct PatternTree<'a> {
     problem: &'a ScaledProblem,
-    /// Where the columns of each contact start in a row: `c_k^+`, `c_k^-`, and with a jump
-    /// `d_k^+ - d_k^-`.
+    /// Where the columns of each contact start in a row: `c_k^+`, `c_k^-`, and `d_k^+ - d_k^-` if there is a
+    /// jump.
     starts: Vec<usize>,
     /// The smallest pivot that is not suspect, per contact and column.
     smallest_pivots: Vec<[f64; 3]>,
@@ -148,8 +148,7 @@ impl<'a> PatternTree<'a> {
             for (index, &state) in problem.states(contact).iter().enumerate() {
                 let column = problem.column(contact, state);
                 smallest_pivots[contact][index] = SUSPECT_PIVOT * column.amax();
-                // The tree carries d_k^+ - d_k^-; the sign of a gap's column is put in by
-                // `Level::orientation`.
+                // The tree carries d_k^+ - d_k^-; `Level::orientation` gives the sign of a gap's column.
                 let sign = state_orientation(state);
                 write_column(&mut levels[0].rows, width, starts[contact] + index, &(column * sign));
             }
@@ -169,7 +168,7 @@ impl<'a> PatternTree<'a> {
         }
     }
 
-    /// Visits all patterns that share the states of the contacts before `level`.
+    /// Visits all patterns with the given states of the contacts before `level`.
     fn descend(&mut self, level: usize) -> Result<(), EnumerationError> {
         for (index, &state) in self.problem.states(level).iter().enumerate() {
             self.pattern[level] = state;
@@ -186,7 +185,7 @@ impl<'a> PatternTree<'a> {
         Ok(())
     }
 
-    /// Eliminates the column of a state from the rows of a level, with row pivoting. False if the
+    /// Eliminates the column of a state from the rows of a level, with row pivoting. Returns `false` if the
     /// pivot is suspect.
     fn eliminate(&mut self, level: usize, index: usize, state: ContactState) -> bool {
         let start = self.starts[level];

@@ -1,8 +1,8 @@
-//! What rounding takes from sums and products, exactly, but for underflow (Knuth, Dekker, Veltkamp).
+//! The rounding errors of sums and products, exact except for underflow (Knuth, Dekker, Veltkamp).
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled without the chosen instructions")]
 
-/// `one + other - sum` without rounding, `sum` being the rounded sum (Knuth).
+/// `one + other - sum` without rounding, where `sum` is the rounded sum (Knuth).
 #[inline(always)]
 pub(crate) fn sum_remainder(one: f64, other: f64, sum: f64) -> f64 {
     let rest = sum - one;
@@ -15,8 +15,8 @@ pub(crate) fn ordered_sum_remainder(one: f64, other: f64, sum: f64) -> f64 {
     other - (sum - one)
 }
 
-/// `one other - product` without rounding, `product` being the rounded product: with a fused operation, or
-/// without (Dekker).
+/// `one other - product` without rounding, where `product` is the rounded product: with or without a fused
+/// operation (Dekker).
 #[inline(always)]
 pub(crate) fn product_remainder<const FUSED: bool>(one: f64, other: f64, product: f64) -> f64 {
     if FUSED {

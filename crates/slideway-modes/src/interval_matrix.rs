@@ -1,4 +1,4 @@
-//! Matrices of intervals, and bounds of rounding errors in products of plain matrices.
+//! Matrices of intervals, and bounds on rounding errors in products of plain matrices.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -26,8 +26,8 @@ impl IntervalMatrix {
         Self { centre, radius }
     }
 
-    /// The matrices within `radius` of `centre`; none if shapes differ, a radius is negative, or an
-    /// entry is infinite or not a number.
+    /// The matrices within `radius` of `centre`; `None` if the shapes differ, a radius is negative, or an
+    /// entry is infinite or NaN.
     pub fn around(centre: DMatrix<f64>, radius: DMatrix<f64>) -> Option<Self> {
         let sensible = centre.shape() == radius.shape()
             && centre.iter().all(|value| value.is_finite())
@@ -35,8 +35,8 @@ impl IntervalMatrix {
         sensible.then_some(Self { centre, radius })
     }
 
-    /// The matrices between two bounds; none if shapes differ, bounds are out of order, or an entry
-    /// is infinite or not a number. Centre and radius are rounded so that no matrix is lost.
+    /// The matrices between two bounds; `None` if the shapes differ, bounds are out of order, or an entry is
+    /// infinite or NaN. Centre and radius are rounded so that no matrix is lost.
     pub fn from_bounds(lower: &DMatrix<f64>, upper: &DMatrix<f64>) -> Option<Self> {
         let in_order = || lower.iter().zip(upper).all(|(low, high)| low <= high);
         if lower.shape() != upper.shape() || !in_order() {
@@ -50,7 +50,7 @@ impl IntervalMatrix {
         Self::around(centre, radius)
     }
 
-    /// The matrix in the middle.
+    /// The matrix at the midpoint.
     pub fn centre(&self) -> &DMatrix<f64> {
         &self.centre
     }
@@ -79,34 +79,34 @@ impl IntervalMatrix {
         Self { centre: self.centre.transpose(), radius: self.radius.transpose() }
     }
 
-    /// The matrices whose entries lie in the given intervals; none if one of these is unbounded.
+    /// The matrices whose entries lie in the given intervals; `None` if one of these is unbounded.
     pub fn from_intervals(entries: &DMatrix<Interval>) -> Option<Self> {
         Self::from_bounds(&entries.map(Interval::lower), &entries.map(Interval::upper))
     }
 }
 
 /// `terms eps`: above `2 gamma_n = 2 n u / (1 - n u)`, with `u = eps / 2` the unit roundoff, for
-/// `n = terms - 4`. So the rounding error of a sum of `n` products, in any order and with or without
-/// fused operations, is at most this times the sum of absolute values, itself rounded (underflow
-/// apart).
+/// `n = terms - 4`. The rounding error of a sum of `n` products, in any order and with or without fused
+/// operations, is therefore at most this times the sum of absolute values, itself rounded (apart from
+/// underflow).
 pub(crate) fn rounding(terms: usize) -> f64 {
     (terms + 4) as f64 * f64::EPSILON
 }
 
-/// An upper bound of `matrix vector` where neither has a negative entry. Every entry is positive.
+/// An upper bound on `matrix vector` if neither has a negative entry. Every entry is positive.
 pub(crate) fn upper_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
     let factor = 1.0 + 2.0 * rounding(matrix.ncols());
     (matrix * vector).map(|value| value * factor + f64::MIN_POSITIVE)
 }
 
-/// An upper bound of a sum of non-negative vectors.
+/// An upper bound on a sum of nonnegative vectors.
 pub(crate) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
     let factor = 1.0 + 2.0 * rounding(parts.len());
     DVector::from_fn(parts[0].len(), |row, _| parts.iter().map(|part| part[row]).sum::<f64>() * factor)
 }
 
-/// The product of a plain matrix and an interval matrix; entries that overflow are not finite. None once
-/// `proceed` is false.
+/// The product of a plain matrix and an interval matrix; entries that overflow are not finite. `None` once
+/// `proceed` is `false`.
 ///
 /// `|fl(A B) - A B| <= gamma_n |A| |B|`, and a radius of `B` adds `|A| rad(B)`.
 pub(crate) fn product(
@@ -123,8 +123,8 @@ pub(crate) fn product(
     Some(IntervalMatrix { centre: dense::product(left, &right.centre, proceed)?, radius })
 }
 
-/// An enclosure of the inner product of plain vectors, entry `k` of the second one being known only
-/// to lie within `radius[k]`; none of the operands may be longer than the others.
+/// An enclosure of the inner product of plain vectors, where entry `k` of the second one is known only within
+/// `radius[k]`; none of the operands may be longer than the others.
 pub(crate) fn inner_product(one: &[f64], other: &[f64], radius: Option<&[f64]>) -> Interval {
     let (mut sum, mut size) = (0.0, 0.0);
     for (a, b) in one.iter().zip(other) {

@@ -18,14 +18,14 @@
 //! # Ok::<(), slideway_modes::ModeProblemError>(())
 //! ```
 //!
-//! [`raw_problem`] takes these problems as they are written, [`search`] the mode problem to which all of them
-//! come.
+//! [`raw_problem`] takes these problems in their original form, [`search`] the mode problem to which all of
+//! them reduce.
 //!
 //! # Features
 //! Both are on by default; without them the crate reads no files.
 //!
-//! - `json`: raw problems from JSON texts;
-//! - `npz`: raw problems from NumPy archives, and their answers as such.
+//! - `json`: raw problems from JSON text;
+//! - `npz`: raw problems from NumPy archives, and their answers as NumPy archives.
 //!
 //! # The mode problem
 //! With `y_k = |N_k|` and `sigma_k = sign(N_k)` the normal forces of `r` contacts satisfy
@@ -34,58 +34,59 @@
 //! sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k},   y >= 0
 //! ```
 //!
-//! (Klepp (2002), eqs. (6) and (8); theory, section 3). [`ModeProblem`] holds these numbers,
-//! [`enumerate`] tries all `2^r` patterns of sides, and [`Solutions`] tells what became of each of
-//! them. Nothing here knows of mechanisms: absolute value equations and linear complementarity
-//! problems enter by constructors of their own.
+//! (Klepp (2002), eqs. (6) and (8); theory, section 3). [`ModeProblem`] holds these numbers, [`enumerate`]
+//! tries all `2^r` patterns of sides, and [`Solutions`] reports the outcome of each of them. Nothing here
+//! depends on mechanisms: absolute value equations and linear complementarity problems have constructors of
+//! their own.
 //!
 //! # Method
-//! Patterns are the leaves of a binary tree that decides the side of one contact per level, with
-//! one elimination step per node (theory, section 4): constant work per pattern on average. A leaf
-//! is dropped at its first negative `y_k`. Every leaf that stays is solved again by LU
-//! factorization and one step of iterative refinement.
+//! Patterns are the leaves of a binary tree that decides the side of one contact per level, with one
+//! elimination step per node (theory, section 4): constant work per pattern on average. A leaf is dropped at
+//! its first negative `y_k`. Every remaining leaf is solved again by LU factorization and one step of
+//! iterative refinement.
 //!
 //! # Accuracy
-//! Rows are scaled by powers of two to a largest coefficient between 1/2 and 1, loads to a largest
-//! load between 1/2 and 1, so that the outcome does not depend on their units. Then
+//! Rows are scaled by powers of two so that the largest coefficient is between 1/2 and 1, and loads so that
+//! the largest load is between 1/2 and 1; the outcome therefore does not depend on their units. Then
 //!
-//! - a leaf is dropped when `y_k < -1e-9 m_k`, where `m_k >= |y_k|` is the back-substitution done
-//!   with absolute values;
-//! - a `y_k` of a leaf that stays counts as zero when it is below `1e-12 max |y|` plus the bound
-//!   `8 eps (|C^-1| (|C| |y| + |N(0)| + sum |d|))_k` of what rounding in the data can do (for a share
+//! - a leaf is dropped if `y_k < -1e-9 m_k`, where `m_k >= |y_k|` is the result of back-substitution with
+//!   absolute values;
+//! - a `y_k` of a remaining leaf counts as zero if it is below `1e-12 max |y|` plus the bound
+//!   `8 eps (|C^-1| (|C| |y| + |N(0)| + sum |d|))_k` on the effect of rounding in the data (for a share
 //!   `lambda`: 1e-12 plus the bound);
-//! - a pivot below `1e-7` times the largest entry of its column makes all patterns below it
-//!   suspect. They are examined one by one with complete pivoting, and a pattern is singular
-//!   (`D = 0`) if a pivot is below `1e-12`, columns being scaled to a largest entry of 1;
-//! - equations of a singular pattern are consistent if they hold to `1e-10`, and its `z >= 0` is
-//!   taken to `1e-9`, both in scaled units.
+//! - a pivot below `1e-7` times the largest entry of its column makes all patterns below it suspect. They are
+//!   examined one by one with complete pivoting; a pattern is singular (`D = 0`) if a pivot is below `1e-12`,
+//!   with columns scaled to a largest entry of 1;
+//! - the equations of a singular pattern are consistent if they hold to `1e-10`, and its `z >= 0` is tested
+//!   to `1e-9`, both in scaled units.
 //!
 //! # Degenerate cases
-//! A solution with `m` contacts on the boundary is found from up to `2^m` patterns and reported
-//! once, provided that the right-hand side does not jump at these contacts. Singular patterns are
-//! reported with the set of normal forces that they admit. Contacts at which the right-hand side
-//! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
+//! A solution with `m` contacts on the boundary is found from up to `2^m` patterns and reported once,
+//! provided that the right-hand side does not jump at these contacts. Singular patterns are reported with the
+//! set of normal forces that they admit. Contacts at which the right-hand side jumps can also rest between
+//! their faces; such states are listed separately, in [`Solutions::gaps`].
 //!
 //! # Files
-//! From the ground up; a module knows only those before it.
+//! From the lowest floor up; a module imports only those before it.
 //!
-//! - `error_free.rs` (what rounding takes), `dense.rs` (factorizations and products that can be ended),
-//!   `interval/`, `interval_matrix.rs`: numbers.
+//! - `error_free.rs` (exact rounding errors), `dense.rs` (factorizations and products that can be
+//!   interrupted), `interval/`, `interval_matrix.rs`: numbers.
 //! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances
-//!   are plain numbers.
-//! - `certificate/`: one pattern decided by proof; proofs that sets of patterns are empty.
-//! - `solutions/`: what is told of a problem; `support.rs` decides which set of solutions is part of which.
-//! - `findings/`: what patterns admit, gathered and counted; patterns decided within tolerances.
-//! - All patterns: `search/` finds all solutions of exact problems and of problems within bounds, and proves
-//!   them (groups of contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank
-//!   coupling, else branch and bound with interval propagation and a linear relaxation). `exhaustive/`
+//!   are pure numbers.
+//! - `certificate/`: proofs that decide one pattern, and proofs that sets of patterns are empty.
+//! - `solutions/`: what is reported about a problem; `support.rs` decides which set of solutions is part of
+//!   which.
+//! - `findings/`: what patterns admit, collected and counted; patterns decided within tolerances.
+//! - All patterns: `search/` finds and proves all solutions of exact problems and of problems within bounds
+//!   (groups of contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank
+//!   coupling, otherwise branch and bound with interval propagation and a linear relaxation). `exhaustive/`
 //!   screens every pattern with a rigorous error bound. `enumeration.rs` is the tree within tolerances, which
-//!   maps use and tests compare with. `uniqueness/` decides whether there is one solution for every load.
-//! - Very many points: `batch/` (one structure, friction varies), `screen.rs` (small problems one after
+//!   maps use and tests compare with. `uniqueness/` decides whether every load has exactly one solution.
+//! - Very many points: `batch/` (one structure with varying friction), `screen.rs` (small problems one after
 //!   another).
 //! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without
 //!   scanning.
-//! - `raw_problem/`: problems as they are written.
+//! - `raw_problem/`: problems in their original form.
 
 pub mod batch;
 pub mod certificate;

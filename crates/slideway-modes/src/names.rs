@@ -1,11 +1,12 @@
-//! Names that were meant.
+//! Finds the name that was probably meant.
 
-/// The known name most like `name`, if one is like it at all.
+/// The known name most similar to `name`, if any is similar enough.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     all_nearest(name, known.into_iter()).first().map(|nearest| (*nearest).to_owned())
 }
 
-/// The candidates most like `name`, best first: those that differ in case only, else those a few edits away.
+/// The candidates most similar to `name`, best first: those that differ only in case, otherwise those a few
+/// edits away.
 ///
 /// ```
 /// assert_eq!(slideway_modes::names::all_nearest("colums", ["columns", "rows"].into_iter()), ["columns"]);

@@ -1,20 +1,19 @@
-//! Text from elsewhere, made fit to be shown.
+//! Makes external text safe to show.
 //!
-//! A title or a name may hold characters that are not seen but do something: escape sequences that move the
-//! cursor of a terminal or change its title, marks that reverse the order of what follows, letters without
-//! width. Wherever text from a model, a file name or an argument is told to a person it goes through
+//! A title or a name may contain characters that are invisible but have effects: escape sequences that move
+//! the cursor of a terminal or change its title, marks that reverse the order of the following text, letters
+//! without width. All text from a model, a file name or an argument that is shown to a person passes through
 //! [`line()`] or [`lines`].
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// A text on one line in which every character is seen: what is not seen stands as its number, in the
-/// notation of TOML, and ends of lines as `\n` and `\r`.
+/// A text on one line in which every character is visible: invisible characters are replaced by their
+/// numbers, in the notation of TOML, and line ends by `\n` and `\r`.
 ///
-/// What is not seen are the control characters but the tabulator (Unicode's category Cc), the separators of
-/// lines and paragraphs, the characters that Unicode calls ignorable by default (among them all marks of
-/// direction), and those that are none. Joiners and variation selectors stay behind a character beyond ASCII,
-/// which they shape.
+/// Invisible characters are control characters except the tab (Unicode's category Cc), line and paragraph
+/// separators, characters that Unicode calls ignorable by default (including all direction marks), and
+/// noncharacters. Joiners and variation selectors are kept after a non-ASCII character, which they shape.
 ///
 /// ```
 /// use slideway_modes::printable::line;
@@ -31,7 +30,7 @@ pub fn line(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// A text of several lines, each as [`line()`] shows it.
+/// A text of several lines, each shown as by [`line()`].
 ///
 /// ```
 /// assert_eq!(slideway_modes::printable::lines("first\r\nsecond\u{9b}2J\n"), "first\nsecond\\u009b2J\n");
@@ -41,8 +40,7 @@ pub fn lines(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// JSON without characters that are not seen: they are written as JSON's own escapes, so that what is read
-/// stays the same.
+/// JSON without invisible characters: they are written as JSON escapes, so the parsed text stays the same.
 pub fn json(text: &str) -> Cow<'_, str> {
     shown(text, |character| match character {
         '\n' | '\r' => None,
@@ -57,8 +55,8 @@ pub fn json(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// The text with what `instead` puts in the place of characters; joiners and variation selectors that shape
-/// the character before them are left alone.
+/// The text with characters replaced as `instead` says; joiners and variation selectors that shape the
+/// character before them are kept.
 fn shown(text: &str, instead: impl Fn(char) -> Option<String>) -> Cow<'_, str> {
     let mut out: Option<String> = None;
     let mut before = ' ';
@@ -74,7 +72,7 @@ fn shown(text: &str, instead: impl Fn(char) -> Option<String>) -> Cow<'_, str> {
     out.map_or(Cow::Borrowed(text), Cow::Owned)
 }
 
-/// The number of a character as TOML writes it.
+/// The number of a character in the notation of TOML.
 fn number(character: char) -> String {
     match u32::from(character) {
         number @ ..=0xffff => format!("\\u{number:04x}"),
@@ -82,12 +80,12 @@ fn number(character: char) -> String {
     }
 }
 
-/// Whether a character takes part in how the one before it looks.
+/// Whether a character affects the shape of the one before it.
 fn is_shaping(character: char) -> bool {
     matches!(character, '\u{200c}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}')
 }
 
-/// Whether a character is not seen where it stands, or changes how others are seen. (Unicode 17: general
+/// Whether a character is invisible where it stands, or changes how others are shown. (Unicode 17: general
 /// category Cc, Zl and Zp, the property `Default_Ignorable_Code_Point`, annotation marks, and noncharacters.)
 fn is_hidden(character: char) -> bool {
     match character {
@@ -138,7 +136,7 @@ mod tests {
         {
             assert_eq!(line(text), text);
         }
-        // Behind ASCII, or behind one another, they only hide.
+        // After ASCII, or after one another, they only hide.
         assert_eq!(line("mu\u{200d}"), r"mu\u200d");
         assert_eq!(line("\u{200b}\u{200d}"), r"\u200b\u200d");
     }

@@ -1,10 +1,9 @@
-//! What a long computation tells whoever waits for it, and how it is told to end.
+//! How a long computation reports its progress to its caller, and how the caller can end it.
 //!
-//! Every computation that can take more than a moment has a form with a [`Callback`]: it is called before
-//! each piece of the work, and where it breaks the work ends. What has been found until then is returned
-//! where it means something by itself (the solutions of a search, the motion until then), and marked as
-//! incomplete; elsewhere nothing is. The library keeps no clock: time limits and interruptions are the
-//! caller's.
+//! Every computation that can take more than a moment has a variant with a [`Callback`]: it is called before
+//! each piece of the work, and ends the work by breaking. Results found by then are returned, marked as
+//! incomplete, if they are meaningful by themselves (the solutions of a search, the motion so far); otherwise
+//! nothing is returned. The library keeps no clock: the caller handles time limits and interruptions.
 //!
 //! ```
 //! use slideway_modes::{Completeness, ModeProblem, SearchOptions, StopReason, search};
@@ -21,39 +20,39 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How far a computation has come.
+/// The progress of a computation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// What is counted, such as "nodes".
+    /// The name of the counted items, such as "nodes".
     pub counted: &'static str,
-    /// How many of these are done.
+    /// The number of completed items.
     pub done: u64,
-    /// The part of the work that is done, from 0 to 1, if it is known how much there is. It may grow with
-    /// leaps, not evenly in time.
+    /// The completed fraction of the work, from 0 to 1, if the total is known. It may grow in leaps and
+    /// unevenly in time.
     pub fraction: Option<f64>,
-    /// Solutions and other states found so far, if that is what is sought.
+    /// Solutions and other states found so far, if the computation looks for them.
     pub found: Option<u64>,
 }
 
 impl Progress {
-    /// So many of so many are done.
+    /// Progress of `done` out of `all`.
     pub fn of(counted: &'static str, done: u64, all: u64) -> Self {
         Self { counted, done, fraction: Some(done as f64 / all.max(1) as f64), found: None }
     }
 }
 
-/// Told of the progress; breaks to end the work.
+/// Receives the progress; breaks to end the work.
 pub type Callback<'c> = dyn FnMut(&Progress) -> ControlFlow<()> + Send + 'c;
 
-/// The result of work that nobody ends.
+/// The result of work that cannot be ended.
 pub fn undisturbed<T>(compute: impl FnOnce(Work<'_>) -> T) -> T {
     compute(Work::new(&|_| ControlFlow::Continue(())))
 }
 
-/// The result of work that a callback may end; nothing if it has.
+/// The result of work that a callback may end; `None` if it has.
 ///
-/// Once it has broken it is not called again and every piece is refused, so that whatever is made of pieces
-/// ends soon. What that comes to, an error perhaps, means nothing.
+/// Once the callback has broken, it is not called again and every piece is refused, so whatever consists of
+/// pieces ends soon. The result of such work, perhaps an error, is meaningless.
 ///
 /// # Errors
 /// Those of the work.
@@ -67,7 +66,7 @@ pub fn watched<T, E>(
         if has_ended.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
         }
-        // A callback that has panicked in another thread has ended the work.
+        // A callback that panicked in another thread has ended the work.
         let Ok(mut caller) = caller.lock() else { return ControlFlow::Break(()) };
         let (callback, last) = &mut *caller;
         *last = *progress.unwrap_or(last);
@@ -81,21 +80,21 @@ pub fn watched<T, E>(
     if has_ended.load(Ordering::Relaxed) { Ok(None) } else { result.map(Some) }
 }
 
-/// Takes the progress, or repeats the last one; breaks if the work is to end.
+/// Takes the progress, or repeats the latest one; breaks if the work is to end.
 type Tell<'w> = &'w (dyn Fn(Option<&Progress>) -> ControlFlow<()> + Sync);
 
 /// A computation, or a part of it.
 #[derive(Clone, Copy)]
 pub struct Work<'w> {
     tell: Tell<'w>,
-    /// The outermost pieces are counted: what they are called, and how many are done.
+    /// The outermost pieces are counted: their name, and how many are done.
     piece: Option<(&'static str, usize)>,
     from: f64,
     to: f64,
 }
 
 impl<'w> Work<'w> {
-    /// The whole.
+    /// The whole computation.
     fn new(tell: Tell<'w>) -> Self {
         Self { tell, piece: None, from: 0.0, to: 1.0 }
     }
@@ -107,7 +106,7 @@ impl<'w> Work<'w> {
         Self { from: at(index), to: at(index + 1), ..self }
     }
 
-    /// One of several pieces that begins now.
+    /// One of several pieces, about to begin.
     ///
     /// Breaks if the work is to end.
     pub fn piece(self, counted: &'static str, index: usize, all: usize) -> ControlFlow<(), Self> {
@@ -118,7 +117,7 @@ impl<'w> Work<'w> {
         }
     }
 
-    /// Tells how far this part is; breaks if the work is to end.
+    /// Reports the progress of this part; breaks if the work is to end.
     pub fn tell(self, inner: &Progress) -> ControlFlow<()> {
         let fraction = inner.fraction.map(|fraction| self.from + (self.to - self.from) * fraction);
         let (counted, done) =

@@ -1,24 +1,24 @@
-//! Small problems one after another in reused memory: the tree of [`crate::enumerate`] without its findings.
+//! Small problems one after another in reused memory: the tree of [`crate::enumerate`] without its detailed
+//! results.
 //!
-//! A sweep asks for the solutions of very many problems of the same few contacts. Nearly all of them are far
-//! from any boundary, where elimination alone decides every pattern. This tree allocates nothing, and gives
-//! up the whole problem as soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a problem
-//! needs the careful search.
+//! A sweep asks for the solutions of very many problems with the same few contacts. Nearly all of them are
+//! far from any boundary, where elimination alone decides every pattern. This tree allocates nothing, and
+//! gives up the whole problem as soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a
+//! problem needs the careful search.
 
 use crate::enumeration::{self, SUSPECT_PIVOT};
 use crate::problem::{ContactState, Side};
 
 /// Largest number of contacts.
 pub const MOST_CONTACTS: usize = 8;
-/// Unknowns within this fraction of their terms' size are in doubt.
+/// Unknowns within this fraction of the size of their terms are in doubt.
 pub const SLACK: f64 = enumeration::SLACK;
 /// The right-hand side, and three columns for each contact.
 const WIDTH: usize = 1 + 3 * MOST_CONTACTS;
 
 type Square = [[f64; MOST_CONTACTS]; MOST_CONTACTS];
 
-/// The numbers of a mode problem, to be written anew for every problem. The first index is that of the
-/// contact.
+/// The numbers of a mode problem, rewritten for every problem. The first index is that of the contact.
 #[derive(Debug, Clone)]
 pub struct SmallProblem {
     contacts: usize,
@@ -28,14 +28,14 @@ pub struct SmallProblem {
     pub jumps: [Square; 2],
     /// `N(0)`.
     pub right_hand_side: [f64; MOST_CONTACTS],
-    /// To a part of this `N(0)` is known, if it is greater than `N(0)` itself.
+    /// The size to which the relative accuracy of `N(0)` refers, if it is greater than `N(0)` itself.
     pub load: f64,
 }
 
-/// A state of all contacts that solves the problem, strictly inside of its pattern.
+/// A state of all contacts that solves the problem, strictly inside its pattern.
 #[derive(Debug, Clone, Copy)]
 pub struct SmallState {
-    /// What every contact does.
+    /// The state of every contact.
     pub pattern: [ContactState; MOST_CONTACTS],
     /// `y_k`, or the share `lambda_k` of a contact in its gap.
     pub unknowns: [f64; MOST_CONTACTS],
@@ -98,14 +98,14 @@ struct Level {
     rows: [[f64; WIDTH]; MOST_CONTACTS],
     pivot_row: [f64; WIDTH],
     pivot: f64,
-    /// Where the chosen column stands in the rows of earlier levels.
+    /// Position of the chosen column in the rows of earlier levels.
     column: usize,
-    /// Where `d_k^+ - d_k^-` stands, if it is part of the right-hand side.
+    /// Position of `d_k^+ - d_k^-`, if it is part of the right-hand side.
     jump: Option<usize>,
     negative: bool,
 }
 
-/// Reused memory, and what was found in it.
+/// Reused memory, with the results found in it.
 #[derive(Debug, Clone)]
 pub struct Screen {
     contacts: usize,
@@ -119,7 +119,7 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Memory for problems of so many contacts.
+    /// Memory for problems with this many contacts.
     pub fn new(contacts: usize) -> Self {
         let level = Level {
             rows: [[0.0; WIDTH]; MOST_CONTACTS],
@@ -141,11 +141,11 @@ impl Screen {
         }
     }
 
-    /// All solutions and gap states in the order of enumeration, if each pattern is far from any boundary.
-    /// `accuracy` is that of the problem's numbers, relative to their size.
+    /// All solutions and gap states in the order of enumeration, if every pattern is far from any boundary.
+    /// `accuracy` is the relative accuracy of the problem's numbers.
     ///
     /// # Errors
-    /// [`InDoubt`] if some pattern is not.
+    /// [`InDoubt`] if some pattern is close to a boundary.
     pub fn states(&mut self, problem: &SmallProblem, accuracy: f64) -> Result<&[SmallState], InDoubt> {
         self.states.clear();
         self.slack = SLACK.max(accuracy);
@@ -278,7 +278,7 @@ impl Screen {
             if unknown < -slack || is_gap && unknown > 1.0 + slack {
                 return Ok(());
             }
-            // Anything that is not a number is in doubt, too.
+            // NaN is in doubt, too.
             let inside = unknown > slack && (!is_gap || unknown < 1.0 - slack);
             in_doubt |= !inside;
             unknowns[contact] = unknown;
@@ -293,7 +293,7 @@ impl Screen {
     }
 }
 
-/// Solves the equations of a pattern once more, with partial pivoting and one step of iterative refinement.
+/// Solves the equations of a pattern again, with partial pivoting and one step of iterative refinement.
 fn refine(problem: &SmallProblem, pattern: &[ContactState], state: &mut SmallState) -> Result<(), InDoubt> {
     let count = pattern.len();
     let (matrix, load) = problem.system(pattern);
@@ -313,7 +313,7 @@ fn refine(problem: &SmallProblem, pattern: &[ContactState], state: &mut SmallSta
     }
 }
 
-/// Gaussian elimination with partial pivoting; none if a pivot vanishes.
+/// Gaussian elimination with partial pivoting; `None` if a pivot vanishes.
 fn solve(mut matrix: Square, mut load: [f64; MOST_CONTACTS], count: usize) -> Option<[f64; MOST_CONTACTS]> {
     for step in 0..count {
         let mut pivot_at = step;
@@ -390,7 +390,7 @@ mod tests {
         small
     }
 
-    /// The oracle is the enumeration that solves every pattern by a factorization of its own.
+    /// The oracle is the enumeration, which solves every pattern by a separate factorization.
     #[test]
     fn it_finds_what_the_enumeration_finds() {
         let mut random = random_numbers();

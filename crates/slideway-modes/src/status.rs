@@ -1,4 +1,4 @@
-//! What an answer comes to.
+//! The kind of an answer.
 
 use serde::Serialize;
 use std::fmt;
@@ -7,7 +7,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// No solution: in a mechanism friction locks it.
+    /// No solution: for a mechanism, friction locks it.
     None,
     /// Exactly one.
     One,
@@ -15,20 +15,20 @@ pub enum Status {
     Several,
     /// Infinitely many: a mode with a vanishing determinant admits a continuum.
     Continuum,
-    /// No solution in a sign pattern was found, but a state with the preload between the faces; what may be
-    /// open besides is told by `partial` and `undecided_modes`.
+    /// No solution in a sign pattern was found, but there is a state with the preload between the faces;
+    /// `partial` and `undecided_modes` show what else may be open.
     PreloadGap,
     /// Nothing was found, but not every pattern could be decided.
     Unknown,
 }
 
-/// Whether a list of solutions is certainly all there is.
+/// Whether a list of solutions is proven complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Proof {
-    /// It is.
+    /// It is proven complete.
     #[serde(rename = "proven")]
     Proven,
-    /// That is not proven.
+    /// It is not proven complete.
     #[serde(rename = "not proven")]
     NotProven,
 }

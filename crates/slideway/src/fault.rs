@@ -3,14 +3,18 @@
 //! Faults are collected, so that a person learns of all of them at once.
 
 mod axis;
+mod doubt;
 
 pub use axis::AxisProblem;
+pub use doubt::Doubt;
 pub use slideway_modes::names::nearest;
 
 use crate::expression::{Dimension, ExpressionFaultKind};
 use crate::printable;
+use crate::units::Unit;
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A text in which a fault can lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,6 +24,8 @@ pub enum Source {
     /// The value of the n-th setting (`--set`, `--at`, `--rate`), counted from 0 in the order of
     /// [`crate::model::Settings::entries`].
     Setting(usize),
+    /// [`Fault::argument`].
+    Argument,
 }
 
 /// A stretch of one of the texts.
@@ -45,17 +51,25 @@ pub struct Fault {
     pub kind: FaultKind,
     /// Where; nothing where the fault concerns the input as a whole.
     pub place: Option<Place>,
+    /// The text of an argument that is no setting, such as `mu=0..1`, if the fault lies in one.
+    pub argument: Option<Arc<str>>,
 }
 
 impl Fault {
     /// A fault at a place.
     pub fn new(kind: FaultKind, place: Place) -> Self {
-        Self { kind, place: Some(place) }
+        Self { kind, place: Some(place), argument: None }
+    }
+
+    /// A fault of an argument that is no setting.
+    pub fn of_argument(kind: FaultKind, text: &str, span: Range<usize>) -> Self {
+        let place = Place { source: Source::Argument, span };
+        Self { kind, place: Some(place), argument: Some(Arc::from(text)) }
     }
 
     /// A fault of the input as a whole.
     pub fn general(kind: FaultKind) -> Self {
-        Self { kind, place: None }
+        Self { kind, place: None, argument: None }
     }
 }
 
@@ -113,6 +127,20 @@ impl Faults {
             _ => true,
         });
         self
+    }
+
+    /// The same, where what lies in a setting or has no place lies in an argument: `span` gives the place
+    /// there for the one in the setting.
+    #[must_use]
+    pub(crate) fn in_argument(self, text: &str, span: impl Fn(Option<Range<usize>>) -> Range<usize>) -> Self {
+        let moved = |fault: Fault| match fault.place {
+            Some(Place { source: Source::Setting(_), span: place }) => {
+                Fault::of_argument(fault.kind, text, span(Some(place)))
+            }
+            None => Fault::of_argument(fault.kind, text, span(None)),
+            Some(_) => fault,
+        };
+        Self { list: self.list.into_iter().map(moved).collect() }
     }
 
     /// Leaves out what may only follow from text that could not be read: whatever seems to be absent.
@@ -308,6 +336,10 @@ pub enum FaultKind {
     #[error("`{text}`: {problem}")]
     Axis { text: String, problem: AxisProblem },
 
+    // What makes sense, but is perhaps not meant.
+    #[error("{0}")]
+    Doubt(Doubt),
+
     // Degrees of freedom and coordinates.
     #[error("the structure is statically indeterminate: {} redundant", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
@@ -328,18 +360,18 @@ pub enum FaultKind {
     #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
     NotFollowed { state: String, reached: String, steps: usize },
     #[error(
-        "the overlap of {joint} has shrunk to {} m at a displacement of {} m",
-        rounded(*overlap),
-        rounded(*displacement)
+        "the overlap of {joint} has shrunk to {} at a displacement of {}",
+        unit.precise(*overlap),
+        unit.precise(*displacement)
     )]
-    OverlapVanished { joint: String, overlap: f64, displacement: f64 },
+    OverlapVanished { joint: String, overlap: f64, displacement: f64, unit: Unit },
     #[error(
-        "{joint} is at a displacement of {} m, outside its travel from {} m to {} m",
-        rounded(*displacement),
-        rounded(*least),
-        rounded(*greatest)
+        "{joint} is at a displacement of {}, outside its travel from {} to {}",
+        unit.precise(*displacement),
+        unit.precise(*least),
+        unit.precise(*greatest)
     )]
-    TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64 },
+    TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64, unit: Unit },
     #[error("the length of {load} is zero, so its force has no direction")]
     ZeroLength { load: String },
 
@@ -423,6 +455,7 @@ impl FaultKind {
         match self {
             Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
             Self::Axis { problem, .. } => problem.hint(),
+            Self::Doubt(doubt) => Some(doubt.hint()),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }
@@ -485,6 +518,9 @@ impl FaultKind {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
+            Self::MalformedRange { text, .. } if text.contains("...") => {
+                Some("two dots stand between the ends of a range: FROM..TO")
+            }
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some(
                 "draw it in a nearby position; from a drawing that is not singular, --at can lead past this one",
@@ -589,13 +625,6 @@ fn listed(names: &[String]) -> String {
         [names @ .., last] if !names.is_empty() => format!("{} and {last}", names.join(", ")),
         names => names.concat(),
     }
-}
-
-/// A length with as many digits as matter.
-fn rounded(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let trimmed = text.trim_end_matches('0').trim_end_matches('.');
-    if value != 0.0 && matches!(trimmed, "0" | "-0") { format!("{value:.1e}") } else { trimmed.to_owned() }
 }
 
 fn opening(joint: &str, loop_joints: &[String]) -> String {

@@ -32,7 +32,7 @@
 //! ```
 //!
 //! [`check::check`] stands beside it and says what a model consists of and what would keep it from being
-//! solved.
+//! solved; [`warning::warnings`] says what is perhaps not meant.
 //!
 //! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to
 //! move.
@@ -46,7 +46,7 @@
 //! [`sweep::Sweep`] and [`map::map`] have the solutions over many points.
 //!
 //! Every question has options with a constructor and setters, and its answer is a [`Report`]: plain data,
-//! told as text and JSON.
+//! told as text, in the [`units`] of the model, and as JSON, in SI units.
 //!
 //! What takes long tells its [`progress`], and can be told to end.
 //!
@@ -78,6 +78,8 @@ pub mod solve;
 pub mod standstill;
 pub mod sweep;
 pub mod template;
+pub mod units;
+pub mod warning;
 
 pub use check::check;
 pub use drawing::{Drawing, GROUND};
@@ -93,6 +95,7 @@ pub use size::{SizeOptions, size};
 pub use solve::{SolveOptions, solve};
 pub use standstill::{HoldOptions, hold};
 pub use sweep::{Sweep, SweepOptions};
+pub use units::UnitSystem;
 
 pub use slideway_modes as modes;
 pub use slideway_modes::{interval, printable, progress};

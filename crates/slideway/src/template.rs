@@ -103,9 +103,14 @@ impl Template {
     /// ```
     ///
     /// # Errors
-    /// The faults of the settings, and of the model with them, such as joints that do not close.
+    /// The faults of the settings, bare texts of numbers where the template has units among them, and of the
+    /// model with them, such as joints that do not close.
     pub fn model(&self, settings: &Settings, file: &str) -> Result<String, Faults> {
         let model = Model::parse(self.text)?.with(settings)?;
+        // A bare number for what has a unit in the template is in SI units, which is hardly meant.
+        let mut doubts = Faults::default();
+        doubts.extend(model.doubts.iter().cloned());
+        doubts.or(())?;
         Configuration::new(&Mechanism::new(&model)?)?;
         let mut text = String::new();
         for line in self.text.lines() {

@@ -21,3 +21,5 @@ mod settings;
 mod sweep;
 mod templates;
 mod tutorial;
+mod units;
+mod warnings;

@@ -88,6 +88,7 @@ fn values_stand_in_the_file_as_they_were_given() {
 fn wrong_units_unknown_names_and_what_cannot_be_assembled_are_faults() {
     for (name, parameter, value, says) in [
         ("drawer", "L", "400 kg", "a mass where a length is expected"),
+        ("drawer", "L", "400", "without a unit"),
         ("drawer", "length", "400 mm", "length"),
         ("wedge", "mu", "-0.1", "must be at least zero"),
         ("slider-crank", "l", "10 mm", "sqrt"),

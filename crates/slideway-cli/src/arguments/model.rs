@@ -1,8 +1,9 @@
 //! A model and what is changed in it.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind};
 use slideway::model::{Setting, SettingKind, Settings};
+use slideway::units::UnitSystem;
 use std::path::PathBuf;
 
 /// A model and what is changed in it.
@@ -27,9 +28,52 @@ pub(crate) struct ModelArguments {
     /// Time of the state, `t` in expressions.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<String>,
+
+    /// In which units numbers are shown to people: as in the model, those of the SI, or mm, degrees and
+    /// newtons. Overrides the `units` of the model file; JSON and tables are in SI units.
+    #[arg(long, value_enum, value_name = "UNITS")]
+    units: Option<ShownUnits>,
+
+    /// Take warnings for errors: what makes sense, but is perhaps not meant, such as `along = 90`.
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+/// In which units numbers are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ShownUnits {
+    /// As the quantities of the model were typed.
+    AsTyped,
+    /// Those of the SI.
+    #[value(name = "SI", alias = "si")]
+    Si,
+    /// Millimetres, degrees, newtons, and what follows from them.
+    #[value(name = "mm")]
+    Millimetres,
+}
+
+impl From<ShownUnits> for UnitSystem {
+    fn from(units: ShownUnits) -> Self {
+        match units {
+            ShownUnits::AsTyped => Self::AsTyped,
+            ShownUnits::Si => Self::Si,
+            ShownUnits::Millimetres => Self::Millimetres,
+        }
+    }
 }
 
 impl ModelArguments {
+    /// The option for units as it was given.
+    pub(crate) fn units_option(&self) -> Option<String> {
+        let value = self.units?.to_possible_value()?;
+        Some(format!("--units {}", value.get_name()))
+    }
+
+    /// The units that are asked for.
+    pub(crate) fn units(&self) -> Option<UnitSystem> {
+        self.units.map(UnitSystem::from)
+    }
+
     /// The settings, and the faults of those that are not of the form name=value.
     pub(crate) fn settings(&self) -> (Settings, Vec<Fault>) {
         let mut settings = Settings::default();
@@ -43,7 +87,10 @@ impl ModelArguments {
             for text in texts {
                 match setting(kind, text) {
                     Some(setting) => settings = settings.with(setting),
-                    None => faults.push(Fault::general(FaultKind::MalformedSetting { text: text.clone() })),
+                    None => {
+                        let kind = FaultKind::MalformedSetting { text: text.clone() };
+                        faults.push(Fault::of_argument(kind, text, 0..text.len()));
+                    }
                 }
             }
         }

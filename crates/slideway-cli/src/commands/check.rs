@@ -10,9 +10,10 @@ use slideway::check::{self};
 /// Says what a model consists of, and whether it can be solved.
 pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
-    let model = input.model()?;
+    let input = Input::read(&arguments.model, output.color())?;
+    let model = input.model_without_warnings()?;
     let report = check::check(&model).map_err(|faults| input.refused(faults))?;
     output.tell(&report, arguments.format)?;
+    input.be_strict(&model)?;
     Ok(if report.sound { Outcome::Done } else { Outcome::Refused })
 }

@@ -22,7 +22,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
     let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;

@@ -7,15 +7,13 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};
-use slideway::limits::Vary;
 
 /// Says which efforts the drives need.
 pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
-    let vary = arguments.vary.as_deref().map(str::parse::<Vary>).transpose();
-    let vary = vary.map_err(|faults| input.refused(faults))?;
+    let vary = arguments.vary.as_deref().map(|vary| input.vary(&model, vary)).transpose()?;
     let options = DriveOptions::default().vary(vary).rows(arguments.rows);
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));

@@ -11,7 +11,7 @@ use slideway::standstill::{self, HoldOptions};
 /// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
 pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
     (options.load, options.vary) = (arguments.load.clone(), arguments.vary.clone());

@@ -15,9 +15,9 @@ use slideway_pictures::plot::{limits_figure, to_svg};
 pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Outcome, Failure> {
     let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
-    let options = LimitsOptions::new(arguments.vary.parse().map_err(|faults| input.refused(faults))?)
+    let options = LimitsOptions::new(input.vary(&model, &arguments.vary)?)
         .max_reaction(arguments.max_reaction)
         .both_directions(arguments.both_directions)
         .effort(arguments.effort);

@@ -8,8 +8,6 @@ use crate::output::Output;
 use crate::picture::Picture;
 use crate::watch::Watch;
 use slideway::Report;
-use slideway::fault::Faults;
-use slideway::limits::Vary;
 use slideway::map::{MapOptions, map_with};
 use slideway_pictures::map::to_svg;
 
@@ -18,10 +16,10 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let destination = Destination { output: Some(arguments.output.clone()), force: arguments.force };
     let picture = Picture::unless_json(&arguments.output)?;
     let output = output.to(&destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let [width, height] = arguments.size;
-    let [x, y] = ranges(arguments).map_err(|faults| input.refused(faults))?;
+    let [x, y] = input.vary_both(&model, [&arguments.x, &arguments.y])?;
     let options = MapOptions::new(x, y)
         .size(width, height)
         .colour_by(arguments.colour_by.into())
@@ -34,16 +32,4 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
         Some(picture) => picture.write(to_svg(&report, arguments.theme.colours()), &output)?,
     }
     Ok(Outcome::Done)
-}
-
-/// Both ranges, or what is wrong with each.
-fn ranges(arguments: &MapArguments) -> Result<[Vary; 2], Faults> {
-    match (arguments.x.parse(), arguments.y.parse()) {
-        (Ok(x), Ok(y)) => Ok([x, y]),
-        (Err(mut faults), Err(others)) => {
-            faults.append(others);
-            Err(faults)
-        }
-        (Err(faults), _) | (_, Err(faults)) => Err(faults),
-    }
 }

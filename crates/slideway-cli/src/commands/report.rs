@@ -8,7 +8,7 @@ use crate::output::Output;
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
-use slideway::limits::{LimitsOptions, LimitsReport, Quantity, curves_with};
+use slideway::limits::{LimitsOptions, LimitsReport, Quantity, Vary, curves_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::solve::{SolveOptions, solve_with};
@@ -28,7 +28,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         be_a_page(path)?;
     }
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
@@ -38,7 +38,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let Some(sheet) = sheet(&mechanism, &configuration, answer.as_ref().ok(), Shown::All) else {
         return Err(Failure::NoSuchSolution { count: 0 });
     };
-    let varied = varied(&model, &arguments.vary, &mut watch).map_err(|faults| input.refused(faults))?;
+    let wanted = arguments.vary.iter().map(|vary| input.vary(&model, vary)).collect::<Result<Vec<_>, _>>()?;
+    let varied = varied(&model, wanted, &mut watch).map_err(|faults| input.refused(faults))?;
     let is_whole = watch.halt().is_none();
     let varied = watch.whole(varied.filter(|_| is_whole))?;
     let (limits, plots): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
@@ -78,24 +79,24 @@ fn reasons(faults: &Faults) -> Vec<String> {
 /// the model has any; nothing if the work was ended.
 fn varied(
     model: &Model,
-    wanted: &[String],
+    wanted: Vec<Vary>,
     watch: &mut Watch,
 ) -> Result<Option<Vec<(LimitsReport, plot::Figure)>>, Faults> {
     if wanted.is_empty() {
-        return Ok(match limits(model, slideway::limits::FRICTION, watch) {
+        return Ok(match limits(model, Vary::usual(slideway::limits::FRICTION), watch) {
             Ok(found) => found.map(|found| vec![found]),
             Err(_) => Some(Vec::new()),
         });
     }
-    wanted.iter().map(|vary| limits(model, vary, watch)).collect()
+    wanted.into_iter().map(|vary| limits(model, vary, watch)).collect()
 }
 
 fn limits(
     model: &Model,
-    vary: &str,
+    vary: Vary,
     watch: &mut Watch,
 ) -> Result<Option<(LimitsReport, plot::Figure)>, Faults> {
-    let options = LimitsOptions::new(vary.parse()?);
+    let options = LimitsOptions::new(vary);
     let found = curves_with(model, &options, Quantity::NormalForce, &mut |progress| watch.look(progress))?;
     let Some((report, curves)) = found else { return Ok(None) };
     let plot = limits_figure(&report, &curves);
@@ -121,6 +122,7 @@ fn command(arguments: &ReportArguments, input: &Input, settings: &[String]) -> S
         let value = if option == "--time" { &setting.value.to_string() } else { text };
         words.push(format!("{option} \"{value}\""));
     }
+    words.extend(arguments.model.units_option());
     words.extend(arguments.vary.iter().map(|vary| format!("--vary \"{vary}\"")));
     words.join(" ")
 }

@@ -31,7 +31,7 @@ const MOST_ROWS: f64 = 1e7;
 /// Follows a mechanism in time.
 pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
     let mut files = Files::new(arguments, output)?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
     let question = Question { arguments, input: &input, model: &model, mechanism: &mechanism };

@@ -12,7 +12,7 @@ use slideway::solve::{SolveOptions, solve_with};
 /// Finds and writes all solutions of a model.
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let search = &arguments.search;
     let options = SolveOptions::default().search(search.options()).most(search.max_solutions);

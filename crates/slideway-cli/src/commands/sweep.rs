@@ -22,7 +22,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let format = format(arguments)?;
     let picture = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
     let destination = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let options = arguments.options().map_err(|faults| input.refused(faults))?;
     let path = destination.path().filter(|path| !is_special(path));

@@ -1,4 +1,4 @@
-//! Multi-affine forms, one axis after the other.
+//! Contraction of multi-affine forms, axis by axis.
 
 use super::lanes::{ByLane, LANES, Lanes, product_plus};
 
@@ -8,7 +8,7 @@ pub(super) struct Step {
     pub(super) parameter: usize,
     pub(super) outer: usize,
     pub(super) inner: usize,
-    /// Whether `b^-` is held beside `b^+`.
+    /// Whether `b^-` is stored beside `b^+`.
     pub(super) split: bool,
 }
 
@@ -18,7 +18,7 @@ impl Step {
     }
 }
 
-/// `b^sigma + mu g^sigma` along one axis, from numbers that are the same for all points.
+/// `b^sigma + mu g^sigma` along one axis, from numbers that are common to all points.
 #[inline(always)]
 pub(super) fn contract_first<const FUSED: bool>(
     step: Step,
@@ -29,7 +29,7 @@ pub(super) fn contract_first<const FUSED: bool>(
     contract::<FUSED, f64>(step, |at| from[at], friction, into);
 }
 
-/// The same, from what the axis before has left.
+/// The same, from the result of the previous axis.
 #[inline(always)]
 pub(super) fn contract_next<const FUSED: bool>(
     step: Step,

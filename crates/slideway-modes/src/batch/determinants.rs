@@ -1,4 +1,4 @@
-//! Determinants of all patterns as multi-affine forms in the coefficients of friction.
+//! Determinants of all patterns as multi-affine forms in the friction coefficients.
 
 use nalgebra::DMatrix;
 
@@ -7,7 +7,7 @@ use super::contraction::{Step, contract_first, contract_next};
 use super::lanes::{LANES, Lanes, product_plus};
 use crate::problem::{BySide, InfluenceCoefficients, ModeProblem, Side};
 
-/// `D` and all `D_k` of a structure for all patterns, and what their error bounds are made of.
+/// `D` and all `D_k` of a structure for all patterns, with the data for their error bounds.
 #[derive(Debug, Clone)]
 pub(super) struct Determinants {
     pub(super) contacts: usize,
@@ -15,16 +15,16 @@ pub(super) struct Determinants {
     pub(super) both_sides: bool,
     /// `D`, then every `D_k`.
     forms: Vec<Form>,
-    /// 1-norms of the columns: a constant, and what each unit of friction adds.
+    /// 1-norms of the columns: a constant, and the increase per unit of friction.
     column_sizes: Vec<(f64, f64)>,
     load_size: f64,
     load_unit: f64,
-    /// Error of a determinant as a part of the product of its columns' 1-norms.
+    /// Error of a determinant relative to the product of its columns' 1-norms.
     relative_error: f64,
 }
 
 impl Determinants {
-    /// Of a structure without the friction of the varied contacts, and the problem that it makes.
+    /// From a structure without the friction of the varied contacts, and the problem that it defines.
     pub(super) fn new(influence: &InfluenceCoefficients, problem: &ModeProblem, varied: &[usize]) -> Self {
         let contacts = problem.contacts();
         let scaled = Scaled::new(problem, influence, varied);
@@ -32,7 +32,7 @@ impl Determinants {
         let patterns = 1 << contacts;
         let mut forms = vec![scaled.form(None, 0)];
         for contact in 0..contacts {
-            // A numerator without a jump of its own contact is held once for both sides.
+            // A numerator whose own contact has no jump is stored once for both sides.
             let first = patterns + numerator_index(contacts, both_sides, contact, 0);
             forms.push(scaled.form(Some(contact), first));
         }
@@ -48,22 +48,22 @@ impl Determinants {
         }
     }
 
-    /// Numbers are known to `accuracy` as a part of the 1-norm of their column.
+    /// Numbers are known to `accuracy`, relative to the 1-norm of their column.
     pub(super) fn known_to(&mut self, accuracy: f64) {
         self.relative_error += (self.contacts * self.contacts) as f64 * accuracy;
     }
 
-    /// With the coefficients of friction of every varied contact at all points, `count` of them.
+    /// The values with the friction coefficients of every varied contact at all `count` points.
     pub(super) fn at<'a>(&'a self, friction: &'a [&'a [f64]], count: usize) -> FrictionPoints<'a> {
         FrictionPoints { batch: self, friction, count }
     }
 }
 
-/// A determinant for all patterns as a multi-affine form in the varied coefficients of friction.
+/// A determinant for all patterns as a multi-affine form in the varied friction coefficients.
 ///
-/// `det [.., b_k^sigma + mu_k g_k^sigma, ..]`: an axis of a varied contact has the states
-/// `b, g^+, g^-` (with `b^- = -b^+`) or `b^+, b^-, g^+, g^-`, that of others the states `+, -`, or
-/// a single one if the contact's side does not matter. Contact 0 has the fastest axis.
+/// `det [.., b_k^sigma + mu_k g_k^sigma, ..]`: the axis of a varied contact has the states `b, g^+, g^-`
+/// (with `b^- = -b^+`) or `b^+, b^-, g^+, g^-`; that of another contact has the states `+, -`, or a single
+/// one if the contact's side does not matter. The axis of contact 0 varies fastest.
 #[derive(Debug, Clone)]
 struct Form {
     coefficients: Vec<f64>,
@@ -78,53 +78,53 @@ struct Form {
 pub(super) struct Workspace {
     /// `D` of every pattern, then `D_0` of every pattern, `D_1`, ...
     pub(super) values: Vec<Lanes>,
-    /// Coefficients of the points.
+    /// Friction coefficients of the points.
     pub(super) loaded: Vec<Lanes>,
     pub(super) scratch: Vec<Vec<Lanes>>,
     /// `s_k >= |c_k|_1` for both sides.
     pub(super) column_sizes: [Lanes; MOST_CONTACTS],
     /// At least the 1-norm of every right-hand side.
     pub(super) load_size: Lanes,
-    /// Relative error of every determinant, as a part of the product of its columns' 1-norms.
+    /// Relative error of every determinant, compared with the product of its columns' 1-norms.
     pub(super) relative_error: f64,
 }
 
-/// Number of the numerator `D_k` of a pattern, counted from the first one.
+/// Index of the numerator `D_k` of a pattern, relative to the first one.
 #[inline(always)]
 pub(super) fn numerator_index(contacts: usize, both_sides: bool, contact: usize, pattern: usize) -> usize {
     if both_sides {
         return (contact << contacts) + pattern;
     }
-    // D_k does not depend on the side of contact k: its bit is left out.
+    // D_k does not depend on the side of contact k, so its bit is omitted.
     let below = pattern & ((1 << contact) - 1);
     (contact << (contacts - 1)) + (below | (pattern >> 1 & !((1 << contact) - 1)))
 }
 
-/// Factor on the unit roundoff in the bound of the errors of a determinant.
+/// Factor on the unit roundoff in the error bound of a determinant.
 ///
 /// Expansion by columns makes `j` roundings at column `j`; the right-hand side is a sum of `r + 1` vectors,
-/// and columns and their combinations are rounded a few times: `r (r + 1) / 2 + 6 r` at most. The bound has
-/// twice as much.
+/// and columns and their combinations are rounded a few times: at most `r (r + 1) / 2 + 6 r` in total. The
+/// bound is twice as large.
 pub(super) fn rounding(contacts: usize) -> f64 {
     ((contacts * (contacts + 1)) / 2 + 6 * contacts) as f64 * f64::EPSILON
 }
 
-/// The structure in units in which its numbers are of the order of 1; all factors are powers of two.
+/// The structure in units in which its numbers are of order 1; all factors are powers of two.
 struct Scaled {
     contacts: usize,
-    /// Place of each contact among the varied ones.
+    /// Index of each contact among the varied ones.
     parameter: Vec<Option<usize>>,
     has_jump: Vec<bool>,
     /// Columns without the varied friction.
     base: BySide<DMatrix<f64>>,
-    /// What a unit of friction adds.
+    /// The increase per unit of friction.
     slope: BySide<DMatrix<f64>>,
     jumps: BySide<DMatrix<f64>>,
     load: Vec<f64>,
     load_unit: f64,
 }
 
-/// The part of a column and the side that a state of an axis stands for.
+/// The part of a column, and the side, that a state of an axis represents.
 #[derive(Clone, Copy)]
 enum ColumnPart {
     Base(Side),
@@ -208,7 +208,7 @@ impl Scaled {
     fn axis(&self, contact: usize, replaced: Option<usize>) -> Vec<ColumnPart> {
         let (base, slope) = (Side::BOTH.map(ColumnPart::Base), Side::BOTH.map(ColumnPart::Slope));
         if replaced == Some(contact) {
-            // A problem with jumps holds numerators for both sides.
+            // A problem with jumps has numerators for both sides.
             let both_sides = self.has_jump.contains(&true);
             return if both_sides { base.to_vec() } else { vec![base[0]] };
         }
@@ -264,14 +264,14 @@ impl Scaled {
     }
 }
 
-/// The largest power of two that is not above `size`, within the range where its reciprocal is finite; 1 for
-/// zero and for infinity.
+/// The largest power of two that does not exceed `size`, within the range where its reciprocal is finite; 1
+/// for zero and for infinity.
 fn power_of_two_below(size: f64) -> f64 {
     if size == 0.0 || !size.is_finite() { 1.0 } else { size.log2().floor().clamp(-1000.0, 1000.0).exp2() }
 }
 
-/// Expansion by columns, over all sets of rows: no pivots, and so no division and an error bound in
-/// terms of the entries' sizes alone.
+/// Expansion by columns over all sets of rows: without pivots, and therefore without division and with an
+/// error bound that depends only on the sizes of the entries.
 fn determinant(columns: &[Vec<f64>]) -> f64 {
     let size = columns.len();
     let mut minors = vec![0.0; 1 << size];
@@ -287,7 +287,7 @@ fn determinant(columns: &[Vec<f64>]) -> f64 {
     minors[(1 << size) - 1]
 }
 
-/// Determinants with their points.
+/// Determinants, with their points.
 pub(super) struct FrictionPoints<'a> {
     batch: &'a Determinants,
     friction: &'a [&'a [f64]],
@@ -315,7 +315,7 @@ impl FrictionPoints<'_> {
         let batch = self.batch;
         let count = batch.forms.iter().map(|form| form.first + form.size).max().unwrap_or(0);
         let mut values = vec![Lanes::ZERO; count];
-        // What does not vary is written once.
+        // Invariable values are written once.
         for form in batch.forms.iter().filter(|form| form.steps.is_empty()) {
             for (value, &coefficient) in values[form.first..].iter_mut().zip(&form.coefficients) {
                 *value = Lanes::splat(coefficient);

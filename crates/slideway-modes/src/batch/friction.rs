@@ -1,11 +1,11 @@
-//! Batches in which only coefficients of friction change.
+//! Batches in which only friction coefficients vary.
 
 use super::determinants::{Determinants, FrictionPoints};
 use super::kernel::{self, BatchState, Visitor};
 use super::{BatchError, BatchSolutions, MOST_CONTACTS};
 use crate::problem::{InfluenceCoefficients, ModeProblem};
 
-/// A structure of which some coefficients of friction take very many values.
+/// A structure for which some friction coefficients take very many values.
 #[derive(Debug, Clone)]
 pub struct FrictionBatch {
     influence: InfluenceCoefficients,
@@ -13,15 +13,15 @@ pub struct FrictionBatch {
 }
 
 impl FrictionBatch {
-    /// The structure, and the contacts whose coefficients of friction vary. Their values in
-    /// `influence.mu` do not matter; in the batch one value holds for both sides of a contact.
+    /// From a structure and the contacts whose friction coefficients vary. The values of these in
+    /// `influence.mu` do not matter; in the batch, one value applies to both sides of a contact.
     ///
-    /// Made once for all batches of a structure: with `r` contacts, all varied, it takes
-    /// `3^r + r 3^(r-1)` determinants (54 for 3 contacts, 24 057 for 8).
+    /// Built once for all batches of a structure: with `r` contacts, all varied, this takes `3^r + r 3^(r-1)`
+    /// determinants (54 for 3 contacts, 24 057 for 8).
     ///
     /// # Errors
-    /// [`BatchError`] if the structure has no or too many contacts, or makes no mode problem, or a
-    /// varied contact does not exist.
+    /// [`BatchError`] if the structure has no contacts, has too many, or does not define a mode problem, or
+    /// if a varied contact does not exist.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector};
@@ -61,33 +61,32 @@ impl FrictionBatch {
         Ok(Self { influence, determinants })
     }
 
-    /// The same for a structure whose numbers are known to `accuracy` as a part of the 1-norm of their
-    /// column: then more points are in doubt. A determinant of `r` columns changes by `r` such parts of the
-    /// product of their norms for each of the `r` numbers of a column.
+    /// The same for a structure whose numbers are known to `accuracy`, relative to the 1-norm of their
+    /// column: then more points are in doubt. For each of the `r` numbers of a column, a determinant of `r`
+    /// columns changes by `r` times this fraction of the product of their norms.
     #[must_use]
     pub fn known_to(mut self, accuracy: f64) -> Self {
         self.determinants.known_to(accuracy);
         self
     }
 
-    /// Whether the friction of preload depends on the side at some contact: then there may be gap states,
-    /// too.
+    /// Whether the friction of preload depends on the side at some contact: then gap states may occur, too.
     pub fn has_jump(&self) -> bool {
         self.determinants.both_sides
     }
 
-    /// Finds the patterns that have a solution at every point. `friction` holds, for each varied
-    /// contact in the order given, its coefficient of friction at all points.
+    /// Finds the patterns that have a solution at every point. `friction` contains, for each varied contact
+    /// in the given order, its friction coefficient at all points.
     ///
     /// # Errors
-    /// [`BatchError::Length`] if these lists are not as many as the varied contacts, or not of one
-    /// length.
+    /// [`BatchError::Length`] if there is not one list for each varied contact, or if the lists have
+    /// different lengths.
     pub fn solve(&self, friction: &[&[f64]], solutions: &mut BatchSolutions) -> Result<(), BatchError> {
         self.run(friction, solutions, None)
     }
 
-    /// The same, and calls `visit(point, pattern, y)` for each solution, points and patterns in
-    /// increasing order. `y_k = |N_k|` has the unit of `N(0)` and an error of at most
+    /// The same, calling `visit(point, pattern, y)` for each solution, with points and patterns in increasing
+    /// order. `y_k = |N_k|` has the unit of `N(0)` and an error of at most
     /// `(r (r + 1) / 2 + 6 r) eps (y_k prod_j |c_j|_1 + |b|_1 prod_{j != k} |c_j|_1) / |D|`.
     ///
     /// # Errors
@@ -114,8 +113,7 @@ impl FrictionBatch {
         self.run(friction, solutions, Some(&mut visit))
     }
 
-    /// The mode problem of one point: what to give to [`enumerate`](crate::enumerate) for a
-    /// point in doubt.
+    /// The mode problem of one point, to be passed to [`enumerate`](crate::enumerate) for a point in doubt.
     ///
     /// # Errors
     /// [`BatchError::Length`], and [`BatchError::Problem`] if a coefficient is not finite.
@@ -143,8 +141,7 @@ impl FrictionBatch {
         Ok(())
     }
 
-    /// [`solve`](Self::solve) without the instructions that not every processor has: for
-    /// comparisons.
+    /// [`solve`](Self::solve) without instructions that some processors lack, for comparison.
     ///
     /// # Errors
     /// As for [`solve`](Self::solve).

@@ -1,15 +1,15 @@
 //! From determinants to bit masks, for blocks of points.
 //!
-//! By Cramer's rule `y_k = D_k / D`, where `D_k` has the right-hand side in column `k`. So a pattern
-//! has a solution if no `D_k` has the sign opposite to `D`: no division and no branch.
+//! By Cramer's rule, `y_k = D_k / D`, where `D_k` has the right-hand side in column `k`. A pattern therefore
+//! has a solution if no `D_k` has the opposite sign to `D`, which needs no division and no branch.
 
 use super::determinants::{FrictionPoints, Workspace, numerator_index};
 use super::lanes::{LANES, Lanes};
 use super::{BatchSolutions, MOST_CONTACTS, words_per_point};
 use std::ops::Range;
 
-/// Column sums outside of this range (and loads outside of its fifth power) may lose more to
-/// underflow than the bound of rounding errors tells.
+/// Column sums outside this range (and loads outside its fifth power) may lose more to underflow than the
+/// rounding error bound covers.
 const COLUMN_RANGE: (f64, f64) = (1e-12, 1e12);
 const LOAD_RANGE: (f64, f64) = (1e-60, 1e60);
 const SIGN_BIT: u32 = 63;
@@ -17,9 +17,9 @@ const SIGN_BIT: u32 = 63;
 /// A solution of a point.
 #[derive(Debug, Clone, Copy)]
 pub struct BatchState<'y> {
-    /// The point, in the order given.
+    /// The index of the point, in the given order.
     pub point: usize,
-    /// The pattern: bit k is set where contact k is on its negative side.
+    /// The pattern: bit k is set if contact k is on its negative side.
     pub pattern: usize,
     /// `y_k = |N_k|`.
     pub y: &'y [f64],
@@ -27,10 +27,10 @@ pub struct BatchState<'y> {
     pub negative_determinant: bool,
 }
 
-/// What is told of each solution.
+/// Receives each solution.
 pub(super) type Visitor<'a> = &'a mut dyn FnMut(BatchState<'_>);
 
-/// Fills masks and doubts of all points.
+/// Computes masks and doubts for all points.
 pub(super) fn run(points: &FrictionPoints<'_>, solutions: &mut BatchSolutions, visitor: Option<Visitor<'_>>) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
@@ -46,7 +46,7 @@ pub(super) fn run(points: &FrictionPoints<'_>, solutions: &mut BatchSolutions, v
     run_baseline(points, solutions, visitor);
 }
 
-/// The same, with the instructions that every processor of the target has.
+/// The same, using only instructions that every processor of the target has.
 pub(super) fn run_baseline(
     points: &FrictionPoints<'_>,
     solutions: &mut BatchSolutions,
@@ -129,9 +129,10 @@ struct Block {
     in_doubt: [u64; LANES],
 }
 
-/// Error bounds of `D` and of every `D_k`: `|det| <= prod |c_k|_1`, and so are the sums of the terms' sizes.
+/// Error bounds of `D` and of every `D_k`: `prod |c_k|_1` bounds `|det|` and the sums of the sizes of its
+/// terms.
 ///
-/// `in_doubt` becomes set where numbers are out of the range in which this holds.
+/// Sets `in_doubt` where numbers are outside the range in which this holds.
 #[inline(always)]
 fn bounds<const CONTACTS: usize>(
     work: &Workspace,
@@ -175,7 +176,7 @@ fn judge<const CONTACTS: usize, const BOTH_SIDES: bool>(work: &Workspace) -> Blo
             let below = determinant.0[lane];
             let (mut excluded, mut doubtful) = (0, 0);
             for contact in 0..CONTACTS {
-                // All in sign bits: too small to be sure of; opposite to D.
+                // All in sign bits: too small to be certain; opposite to D.
                 let unsure = (above[contact].0[lane].abs() - bounds[contact].0[lane]).to_bits();
                 let opposite = above[contact].0[lane].to_bits() ^ below.to_bits();
                 excluded |= opposite & !unsure;
@@ -186,7 +187,7 @@ fn judge<const CONTACTS: usize, const BOTH_SIDES: bool>(work: &Workspace) -> Blo
             masks[lane] |= (!(excluded | doubtful) >> SIGN_BIT) << (pattern % 64);
         }
     }
-    // What is in doubt has no mask that someone could take for an answer.
+    // Points in doubt get no mask that could be mistaken for an answer.
     for masks in &mut block.masks {
         for lane in 0..LANES {
             masks[lane] &= (block.in_doubt[lane] >> SIGN_BIT).wrapping_sub(1);
@@ -195,7 +196,7 @@ fn judge<const CONTACTS: usize, const BOTH_SIDES: bool>(work: &Workspace) -> Blo
     block
 }
 
-/// How solutions are told.
+/// How solutions are reported.
 struct Told {
     contacts: usize,
     /// For each pattern, where the numerators of the contacts are.
@@ -216,7 +217,7 @@ impl Told {
         Self { contacts, numerators: (0..patterns).map(of).collect(), load_unit }
     }
 
-    /// Hands the solutions of a block to the visitor.
+    /// Passes the solutions of a block to the visitor.
     #[inline(never)]
     fn tell(&self, points: Range<usize>, work: &Workspace, block: &Block, visitor: Visitor<'_>) {
         let mut y = [0.0; MOST_CONTACTS];

@@ -1,10 +1,10 @@
 //! Numbers of several points side by side.
 //!
-//! Loops over lanes are written out where the work is done, each over plain arrays of one length
-//! and without a branch, so that the compiler makes vector instructions of them. Eight lanes are
-//! too few for that: such loops are unrolled before they are vectorised, and stay scalar.
+//! Loops over lanes are written out where they are needed, each over plain arrays of one length and without a
+//! branch, so that the compiler vectorises them. Eight lanes are too few for that: such loops are unrolled
+//! before they are vectorised, and stay scalar.
 
-/// Points that are treated together.
+/// Points that are processed together.
 pub(super) const LANES: usize = 32;
 
 /// One number of each of [`LANES`] points.
@@ -21,7 +21,7 @@ impl Lanes {
     }
 }
 
-/// What has a number for each lane.
+/// A type with a number for each lane.
 pub(super) trait ByLane: Copy {
     fn lane(self, lane: usize) -> f64;
 }

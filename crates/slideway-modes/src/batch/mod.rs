@@ -1,29 +1,28 @@
 //! One structure, very many points: all modes of each point as a bit mask, computed for several
 //! points at a time.
 //!
-//! [`FrictionBatch`] varies some coefficients of friction of one structure, as a sweep or a Monte
-//! Carlo study does, of 1 to 8 contacts, with one or two versions of the columns and with jumps. Where
-//! other numbers change, [`screen`](crate::screen) takes one point after the other.
+//! [`FrictionBatch`] varies some friction coefficients of one structure, as in a sweep or a Monte Carlo
+//! study, for 1 to 8 contacts, with one or two versions of the columns and with jumps. If other numbers
+//! change, [`screen`](crate::screen) processes one point after the other.
 //!
 //! # Method
-//! `y_k = D_k / D` by Cramer's rule, so that the signs of determinants decide, without division.
-//! `D` and `D_k` are multi-affine in the coefficients of friction (theory, section 5): their coefficients
-//! are computed once, and a contraction for each varied `mu_k` gives all patterns together, for 32 points
-//! at a time, with AVX2 and FMA instructions if the processor has them. Nothing is allocated per point.
+//! `y_k = D_k / D` by Cramer's rule, so the signs of determinants decide, without division. `D` and `D_k` are
+//! multi-affine in the friction coefficients (theory, section 5): their coefficients are computed once, and
+//! one contraction for each varied `mu_k` gives all patterns together, for 32 points at a time, with AVX2 and
+//! FMA instructions if the processor has them. Nothing is allocated per point.
 //!
 //! # Accuracy
-//! Every determinant is compared with a bound of its rounding errors,
-//! `(r (r + 1) / 2 + 6 r) eps prod_k |c_k|_1`. A point at which some `D` is within its bound (a
-//! mode that may be singular), or some `D_k` that decides about a solution (a contact that may be
-//! about to change its side), is *in doubt*: its mask is empty, and it is to be solved with
-//! [`enumerate`](super::enumerate). Masks of other points are certain: they hold for the numbers
-//! as given, rounding included. The bound is that of the computation, narrower than the tolerance
-//! with which `enumerate` calls a contact on the boundary. Points whose numbers are not finite or
-//! far from 1 (a column sum outside of 1e-12 to 1e12, loads outside of 1e-60 to 1e60) are in doubt.
-//! So is a point at which a `y_k` vanishes whatever the friction.
+//! Every determinant is compared with a bound on its rounding errors,
+//! `(r (r + 1) / 2 + 6 r) eps prod_k |c_k|_1`. A point is *in doubt* if some `D` is within its bound (a mode
+//! that may be singular), or some `D_k` that decides about a solution is (a contact that may be about to
+//! change sides): its mask is empty, and it is to be solved with [`enumerate`](super::enumerate). Masks of
+//! other points are certain: they hold for the numbers as given, rounding included. The bound is that of the
+//! computation, narrower than the tolerance with which `enumerate` places a contact on the boundary. Points
+//! whose numbers are not finite or far from 1 (a column sum outside 1e-12 to 1e12, loads outside 1e-60 to
+//! 1e60) are in doubt. So is a point at which some `y_k` vanishes for any friction.
 //!
-//! A mask tells which patterns have a solution; the states between the faces of a contact with
-//! preload (gap states) are not looked for.
+//! A mask shows which patterns have a solution; states between the faces of a contact with preload (gap
+//! states) are not searched for.
 //!
 //! Patterns are numbers: bit `k` is set if contact `k` is pressed on its negative side.
 
@@ -53,28 +52,28 @@ pub enum BatchError {
         /// Contacts of the structure.
         contacts: usize,
     },
-    /// A contact that does not exist, or is named twice.
+    /// A contact that does not exist or is listed twice.
     #[error("varied contact {contact} (counted from 0) does not exist or is listed twice")]
     Varied {
         /// The contact, from 0.
         contact: usize,
     },
-    /// A list of numbers that does not fit.
+    /// A list of numbers with the wrong length.
     #[error("expected {expected} numbers, found {found}")]
     Length {
-        /// As many as contacts and points ask for.
+        /// The number that the contacts and points require.
         expected: usize,
-        /// What was given.
+        /// The number that was given.
         found: usize,
     },
-    /// The structure's numbers make no mode problem.
+    /// The structure's numbers do not define a mode problem.
     #[error(transparent)]
     Problem(#[from] ModeProblemError),
 }
 
-/// For every point of a batch the patterns that have a solution.
+/// For every point of a batch, the patterns that have a solution.
 ///
-/// To be used again for the next batch, so that nothing is allocated anew.
+/// Reuse it for the next batch, so that no memory is allocated again.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct BatchSolutions {
     contacts: usize,
@@ -93,13 +92,13 @@ impl BatchSolutions {
         self.in_doubt.is_empty()
     }
 
-    /// The masks of all points: bit `p` is set if pattern `p` has a solution. One word for each
-    /// point, or 2 for 7 contacts and 4 for 8. Points in doubt have no bit set.
+    /// The masks of all points: bit `p` is set if pattern `p` has a solution. Each point has one word, or 2
+    /// for 7 contacts and 4 for 8. Points in doubt have no bit set.
     pub fn masks(&self) -> &[u64] {
         &self.masks
     }
 
-    /// Whether rounding errors could change the mask of this point; then solve it with
+    /// Whether rounding errors could change the mask of this point; if so, solve it with
     /// [`enumerate`](super::enumerate).
     ///
     /// # Panics
@@ -113,7 +112,7 @@ impl BatchSolutions {
         self.in_doubt.iter().enumerate().filter(|(_, in_doubt)| **in_doubt).map(|(point, _)| point)
     }
 
-    /// Number of solutions of a point; none if it is in doubt.
+    /// Number of solutions of a point; `None` if it is in doubt.
     pub fn count(&self, point: usize) -> Option<u32> {
         let ones = self.words(point).iter().map(|word| word.count_ones()).sum();
         (!self.in_doubt[point]).then_some(ones)

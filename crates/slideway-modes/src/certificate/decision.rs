@@ -10,10 +10,10 @@ use super::system::{BoundedVector, PatternSystem};
 use crate::interval::{Interval, Sign};
 use crate::problem::{ContactState, ProblemView};
 
-/// Vertices and directions tried, at most, to describe what a singular pattern admits.
+/// Maximum number of vertices and directions tried to describe what a singular pattern admits.
 const BASES: u64 = 20_000;
 
-/// What one pattern admits. `unknowns` has one entry per contact: `y_k`, or the share `lambda_k` of a
+/// What one pattern admits. `unknowns` has one entry per contact: `y_k`, or the share `lambda_k` for a
 /// contact in its gap.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Decision {
@@ -24,7 +24,7 @@ pub enum Decision {
         /// The sign of `D`: `Negative` or `Positive`.
         determinant: Sign,
     },
-    /// `D != 0`, and this contact has `y_k < 0`, or `lambda_k` outside of 0 to 1.
+    /// `D != 0`, and this contact has `y_k < 0`, or `lambda_k` outside 0 to 1.
     NoSolution {
         /// The contact, from 0.
         contact: usize,
@@ -45,22 +45,21 @@ pub enum Decision {
         /// The admissible solutions.
         set: ExactSet,
     },
-    /// Data within bounds only: the outcome differs between values within them, or that it does not
-    /// could not be proved. It is on the boundary within the enclosure.
+    /// For data within bounds only: the outcome differs between values within them, or that could not be
+    /// ruled out. The pattern is on the boundary within the enclosure.
     Undecided {
-        /// Encloses the solution for every value within the bounds; none if `D = 0` could not be
-        /// ruled out.
+        /// Encloses the solution for every value within the bounds; `None` if `D = 0` could not be ruled out.
         unknowns: Option<Vec<Interval>>,
-        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where
-        /// `unknowns` is none.
+        /// Contacts whose `y_k` may be negative, or whose `lambda_k` may be outside 0 to 1; empty if
+        /// `unknowns` is `None`.
         in_doubt: Vec<usize>,
     },
 }
 
-/// The arithmetic that a decision took.
+/// The arithmetic used for a decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Precision {
-    /// `f64` with bounds of rounding errors.
+    /// `f64` with bounds on rounding errors.
     Double,
     /// Residuals with twice the digits.
     DoubleDouble,
@@ -80,7 +79,7 @@ pub struct ProvenDecision {
 /// How many patterns were decided in which arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DecisionCounts {
-    /// Decided in `f64` with bounds of rounding errors.
+    /// Decided in `f64` with bounds on rounding errors.
     pub double: u64,
     /// Decided with residuals of twice the digits.
     pub double_double: u64,
@@ -113,14 +112,13 @@ impl DecisionCounts {
     }
 }
 
-/// Decides what one pattern of a mode problem admits, by proof.
+/// Proves what one pattern of a mode problem admits.
 ///
-/// Solves `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}` for the states of `pattern`, one per
-/// contact (theory, section 3), and encloses the solution rigorously (see [`enclose_solution`]). Where
-/// a sign stays in doubt the residual is computed with twice the digits, and after that an exact
-/// problem is solved in rational numbers, so that it is never left undecided. Units are those of the
-/// problem. For an exact problem the enclosure of a solution is about as narrow as `f64` allows, unless
-/// the pattern is close to singular.
+/// Solves `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}` for the states of `pattern`, one per contact
+/// (theory, section 3), and encloses the solution rigorously (see [`enclose_solution`]). If a sign stays in
+/// doubt, the residual is computed with twice the digits; after that, an exact problem is solved in rational
+/// numbers, so it is never left undecided. Units are those of the problem. For an exact problem, the
+/// enclosure of a solution is about as narrow as `f64` allows, unless the pattern is close to singular.
 ///
 /// [`enclose_solution`]: super::enclose_solution
 ///
@@ -144,8 +142,8 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
     verdict
 }
 
-/// [`decide`], none once `proceed` is false, which is asked now and then: large matrices and rational numbers
-/// may take long.
+/// [`decide`]; `None` once `proceed` is `false`, which is called now and then, because large matrices and
+/// rational numbers may take long.
 pub(crate) fn decide_while(
     problem: ProblemView<'_>,
     pattern: &[ContactState],
@@ -182,7 +180,7 @@ pub(crate) fn decide_while(
     })
 }
 
-/// A solution that gets better step by step.
+/// A solution that is improved step by step.
 struct Approximation<'a> {
     system: &'a PatternSystem<'a>,
     inverse: ApproximateInverse,
@@ -190,14 +188,14 @@ struct Approximation<'a> {
 }
 
 impl<'a> Approximation<'a> {
-    /// None if the matrix has no approximate inverse, or once `proceed` is false.
+    /// `None` if the matrix has no approximate inverse, or once `proceed` is `false`.
     fn new(system: &'a PatternSystem<'a>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
         let inverse = ApproximateInverse::new(&system.matrix, proceed)?;
         let unknowns = inverse.apply(system.right_hand_side());
         Some(Self { system, inverse, unknowns })
     }
 
-    /// One step of iterative refinement, and the enclosure that comes with it.
+    /// One step of iterative refinement, with the resulting enclosure.
     fn improve(&mut self, precision: Precision) -> Option<SolutionBounds> {
         let residual = match precision {
             Precision::Double => self.system.residual(&self.unknowns),
@@ -216,8 +214,8 @@ impl<'a> Approximation<'a> {
 }
 
 impl Approximation<'_> {
-    /// The same solution within narrower bounds: residuals with twice the digits are taken as long as that
-    /// halves a bound.
+    /// The same solution within narrower bounds: residuals with twice the digits are used as long as they
+    /// halve a bound.
     fn sharpened(&mut self, solution: Decision) -> Decision {
         let Decision::Solution { mut unknowns, determinant } = solution else { return solution };
         let mut is_first = true;
@@ -237,7 +235,7 @@ impl Approximation<'_> {
     }
 }
 
-/// Bounds of the solution of a regular pattern's equations.
+/// Bounds on the solution of a regular pattern's equations.
 struct SolutionBounds {
     unknowns: Vec<Interval>,
     determinant: Sign,

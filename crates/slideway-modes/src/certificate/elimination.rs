@@ -1,4 +1,4 @@
-//! Fraction-free elimination of a pattern's equations in integers.
+//! Fraction-free elimination of a pattern's equations, in integers.
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
@@ -11,8 +11,8 @@ pub(super) struct IntegerSystem {
     rows: Vec<Vec<IBig>>,
 }
 
-/// The system after elimination: the first `pivots.len()` rows are independent, row `i` has its first
-/// non-zero entry in column `pivots[i]`, and the others are zero except for the right-hand side.
+/// The system after elimination: the first `pivots.len()` rows are independent, row `i` has its first nonzero
+/// entry in column `pivots[i]`, and the others are zero except for the right-hand side.
 pub(super) struct Echelon {
     rows: Vec<Vec<IBig>>,
     pivots: Vec<usize>,
@@ -27,14 +27,14 @@ impl IntegerSystem {
         Self { rows }
     }
 
-    /// [`eliminate_while`](Self::eliminate_while) nothing stops it.
+    /// [`eliminate_while`](Self::eliminate_while) without interruption.
     pub(super) fn eliminate(self) -> Echelon {
         let Some(echelon) = self.eliminate_while(&mut || true) else { unreachable!("nothing stops it") };
         echelon
     }
 
-    /// Bareiss's elimination: after each step all entries are minors of the original matrix, so that
-    /// the division by the previous pivot leaves no remainder. None once `proceed` is false.
+    /// Bareiss's elimination: after each step, all entries are minors of the original matrix, so division by
+    /// the previous pivot leaves no remainder. `None` once `proceed` is `false`.
     pub(super) fn eliminate_while(self, proceed: &mut dyn FnMut() -> bool) -> Option<Echelon> {
         let mut rows = self.rows;
         let unknowns = rows.len();
@@ -102,11 +102,11 @@ impl Echelon {
         if self.swaps_are_odd { -sign } else { sign }
     }
 
-    /// The entries of the pivot columns' unknowns, in the order of [`pivots`](Self::pivots), that
-    /// solve the independent equations with column `column` as right-hand side (`b` is the column
-    /// after the last unknown), as numerators over the last pivot.
+    /// The values of the pivot columns' unknowns, in the order of [`pivots`](Self::pivots), that solve the
+    /// independent equations with column `column` as right-hand side (`b` is the column after the last
+    /// unknown), as numerators over the last pivot.
     ///
-    /// Cramer's rule makes the numerators integers, so that no fraction has to be reduced.
+    /// By Cramer's rule the numerators are integers, so no fraction has to be reduced.
     pub(super) fn solve(&self, column: usize) -> (Vec<IBig>, IBig) {
         let rank = self.pivots.len();
         let denominator = self.pivots.last().map_or(IBig::ONE, |&last| self.rows[rank - 1][last].clone());
@@ -148,7 +148,7 @@ fn bit_length(value: &IBig) -> usize {
     value.bit_len()
 }
 
-/// Every entry of a row as a sum of plain numbers, the right-hand side last.
+/// Every entry of a row as a sum of plain numbers, with the right-hand side last.
 fn dyadic_row(view: ProblemView<'_>, pattern: &[ContactState], row: usize) -> Vec<Vec<f64>> {
     let mut entries: Vec<Vec<f64>> = pattern
         .iter()
@@ -165,7 +165,7 @@ fn dyadic_row(view: ProblemView<'_>, pattern: &[ContactState], row: usize) -> Ve
     entries
 }
 
-/// The row times the power of two that makes all its numbers integers with no common factor 2.
+/// The row multiplied by the power of two that makes all its numbers integers without a common factor 2.
 fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
     let parts: Vec<Vec<(i64, i32)>> =
         entries.iter().map(|terms| terms.iter().map(|&term| mantissa_and_exponent(term)).collect()).collect();
@@ -173,7 +173,7 @@ fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
         parts.iter().flatten().filter(|(mantissa, _)| *mantissa != 0).map(|&(_, exponent)| exponent);
     let smallest = exponents.min().unwrap_or(0);
     let integer = |&(mantissa, exponent): &(i64, i32)| {
-        // A zero has the exponent 0, which may be below the smallest one.
+        // Zero has the exponent 0, which may be below the smallest one.
         let shift = usize::try_from(exponent - smallest).unwrap_or(0);
         IBig::from(mantissa) << shift
     };

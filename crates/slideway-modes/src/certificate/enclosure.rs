@@ -1,8 +1,8 @@
 //! Verified solutions of linear systems.
 //!
-//! From `P A ~ L U` in plain arithmetic and approximate inverses `X_L` and `X_U` of the triangular
-//! factors, `R = X_U X_L P` is an approximate inverse of `A` whose determinant has a known sign.
-//! If `|I - R A| f < f` for some `f > 0`, then `A` is regular, `det(R A) > 0`, and (Krawczyk)
+//! From `P A ~ L U` in plain arithmetic and approximate inverses `X_L` and `X_U` of the triangular factors,
+//! `R = X_U X_L P` is an approximate inverse of `A` whose determinant has a known sign. If `|I - R A| f < f`
+//! for some `f > 0`, then `A` is regular, `det(R A) > 0`, and (Krawczyk)
 //!
 //! ```text
 //! |A^-1 b - x - delta| <= f    if    |R (b - A x) - delta| + |I - R A| (|delta| + f) <= f
@@ -18,32 +18,32 @@ use crate::dense::{self, Pace};
 use crate::interval::{Interval, Sign};
 use crate::interval_matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 
-/// How often a trial bound is enlarged.
+/// Maximum number of enlargements of a trial bound.
 const INFLATIONS: usize = 16;
-/// By how much more than needed.
+/// The factor by which it is enlarged beyond what is needed.
 const INFLATION: f64 = 1.1;
 
-/// An approximate inverse `R = X_U X_L P` of an interval matrix, and bounds of `|I - R A|`.
+/// An approximate inverse `R = X_U X_L P` of an interval matrix, with bounds on `|I - R A|`.
 pub(super) struct ApproximateInverse {
     lower: DMatrix<f64>,
     upper: DMatrix<f64>,
     lower_size: DMatrix<f64>,
     upper_size: DMatrix<f64>,
-    /// Upper bounds of `|X_U X_L|`.
+    /// Upper bounds on `|X_U X_L|`.
     inverse_size: DMatrix<f64>,
     /// Row `i` of `P A` is row `rows[i]` of `A`.
     rows: Vec<usize>,
     sign: Sign,
     /// `|I - fl(R A)|`.
     defect: DMatrix<f64>,
-    /// `|P A|`, `|fl(X_L P A)|` and the radius of `P A`: what bounds the rounding of `fl(R A)`.
+    /// `|P A|`, `|fl(X_L P A)|` and the radius of `P A`, which bound the rounding errors of `fl(R A)`.
     matrix_size: DMatrix<f64>,
     product_size: DMatrix<f64>,
     radius: DMatrix<f64>,
 }
 
 impl ApproximateInverse {
-    /// None if elimination breaks down or numbers overflow, or once `proceed` is false.
+    /// `None` if elimination breaks down or numbers overflow, or once `proceed` is `false`.
     pub(super) fn new(matrix: &IntervalMatrix, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
         let size = matrix.shape().0;
         let mut factors = matrix.centre().clone();
@@ -85,7 +85,7 @@ impl ApproximateInverse {
         &self.upper * (&self.lower * vector.select_rows(&self.rows))
     }
 
-    /// `R v` with a bound of its error.
+    /// `R v` with a bound on its error.
     fn apply_bounded(&self, vector: &BoundedVector) -> BoundedVector {
         let eps = rounding(self.rows.len());
         let permuted = vector.centre.select_rows(&self.rows);
@@ -98,7 +98,7 @@ impl ApproximateInverse {
         BoundedVector { centre: &self.upper * partial, bound }
     }
 
-    /// An upper bound of `|I - R A| v` for `v >= 0`.
+    /// An upper bound on `|I - R A| v` for `v >= 0`.
     ///
     /// `|I - R A| <= |I - fl(R A)| + gamma |X_U| (|X_L| |P A| + |fl(X_L P A)|) + |X_U X_L| P rad(A)`.
     fn defect_times(&self, vector: &DVector<f64>) -> DVector<f64> {
@@ -107,7 +107,7 @@ impl ApproximateInverse {
         let spread = upper_product(&self.inverse_size, &upper_product(&self.radius, vector));
         let inner = upper_product(&self.lower_size, &matrix_part);
         let product_part = upper_product(&self.product_size, vector) * eps;
-        // What products that underflow take from the entries of fl(R A).
+        // The loss by underflow of products in the entries of fl(R A).
         let underflow = self.rows.len() as f64 * f64::MIN_POSITIVE * vector.sum();
         let below = DVector::repeat(self.rows.len(), underflow + f64::MIN_POSITIVE);
         let outer = upper_product(&self.upper_size, &upper_sum(&[&inner, &product_part, &below]));
@@ -115,15 +115,15 @@ impl ApproximateInverse {
         upper_sum(&[&computed, &outer, &spread, &below])
     }
 
-    /// `delta` and `f` with `|A^-1 b - x - delta| <= f`, given the residual `b - A x`; none if that
-    /// cannot be verified.
+    /// `delta` and `f` with `|A^-1 b - x - delta| <= f`, given the residual `b - A x`; `None` if that cannot
+    /// be verified.
     pub(super) fn correction(&self, residual: &BoundedVector) -> Option<BoundedVector> {
         let step = self.apply_bounded(residual);
         let start = upper_sum(&[&step.bound, &self.defect_times(&step.centre.abs())]);
         let mut trial = start.map(|value| value * INFLATION + f64::MIN_POSITIVE);
         for _ in 0..INFLATIONS {
             let needed = upper_sum(&[&start, &self.defect_times(&trial)]);
-            // `start` is positive, so that |I - R A| f < f holds strictly as well.
+            // `start` is positive, so |I - R A| f < f also holds strictly.
             if needed.iter().zip(&trial).all(|(need, bound)| need <= bound && bound.is_finite()) {
                 return Some(BoundedVector { centre: step.centre, bound: trial });
             }
@@ -133,7 +133,7 @@ impl ApproximateInverse {
     }
 }
 
-/// Upper bounds of `|A B|`.
+/// Upper bounds on `|A B|`.
 fn size_of_product(
     left: &DMatrix<f64>,
     right: &DMatrix<f64>,
@@ -143,7 +143,7 @@ fn size_of_product(
     Some(product.centre().zip_map(product.radius(), |centre, radius| (centre.abs() + radius).next_up()))
 }
 
-/// `|vector| eps`, not lost to underflow.
+/// `|vector| eps`, protected from underflow.
 fn covered(vector: &DVector<f64>, eps: f64) -> DVector<f64> {
     vector.map(|value| value.abs() * eps + f64::MIN_POSITIVE)
 }
@@ -151,15 +151,15 @@ fn covered(vector: &DVector<f64>, eps: f64) -> DVector<f64> {
 /// Solutions of all systems within bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearEnclosure {
-    /// Holds the solution of every matrix and right-hand side within the bounds.
+    /// Contains the solution for every matrix and right-hand side within the bounds.
     pub solution: IntervalMatrix,
-    /// The sign that all determinants have.
+    /// The common sign of all determinants.
     pub determinant: Sign,
 }
 
-/// Encloses the solutions `X` of `A X = B` for every `A` (n x n) and `B` (n x m) within bounds, by a
-/// Krawczyk test with an approximate inverse; none if it is not verified that every `A` is regular,
-/// or if shapes do not fit.
+/// Encloses the solutions `X` of `A X = B` for every `A` (n x n) and `B` (n x m) within bounds, by a Krawczyk
+/// test with an approximate inverse; `None` if it is not verified that every `A` is regular, or if the shapes
+/// do not match.
 ///
 /// ```
 /// use nalgebra::dmatrix;
@@ -183,7 +183,7 @@ pub fn enclose_solution(
         let right = right_hand_side.centre().column(column).into_owned();
         let spread = right_hand_side.radius().column(column).into_owned();
         if right.amax() == 0.0 && spread.amax() == 0.0 {
-            // A X = 0 has the solution 0 alone, which needs no bound of rounding; that A is regular is seen
+            // A X = 0 has only the solution 0, which needs no rounding bound; the regularity of A is verified
             // below.
             continue;
         }
@@ -198,7 +198,7 @@ pub fn enclose_solution(
                 Interval::point(guess[row]) + Interval::around(correction.centre[row], correction.bound[row]);
         }
     }
-    // An empty system has the determinant 1; without columns nothing was verified above.
+    // An empty system has determinant 1; without columns, nothing was verified above.
     let regular = BoundedVector { centre: DVector::zeros(size), bound: DVector::repeat(size, 1.0) };
     inverse.correction(&regular)?;
     let solution = IntervalMatrix::from_intervals(&entries)?;
@@ -212,8 +212,8 @@ fn product_with_column(matrix: &IntervalMatrix, vector: &DVector<f64>) -> Option
     Some(product(&column, &matrix.transposed(), &mut || true)?.transposed())
 }
 
-/// LU factorization in place with partial pivoting: the order of rows, and whether it is an odd
-/// permutation. None if a pivot is zero or not finite, or once `proceed` is false.
+/// LU factorization in place with partial pivoting: returns the order of rows, and whether it is an odd
+/// permutation. `None` if a pivot is zero or not finite, or once `proceed` is `false`.
 fn eliminate(matrix: &mut DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<(Vec<usize>, bool)> {
     let mut pace = Pace::new(proceed);
     let size = matrix.nrows();
@@ -250,8 +250,8 @@ fn eliminate(matrix: &mut DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Op
     Some((rows, odd))
 }
 
-/// The approximate inverse of the unit lower triangle, itself exactly unit lower triangular; none once
-/// `proceed` is false.
+/// The approximate inverse of the unit lower triangle, itself exactly unit lower triangular; `None` once
+/// `proceed` is `false`.
 fn invert_unit_lower(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
     let mut pace = Pace::new(proceed);
     let size = factors.nrows();
@@ -270,8 +270,8 @@ fn invert_unit_lower(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) 
     Some(inverse)
 }
 
-/// The approximate inverse of the upper triangle, itself exactly upper triangular; none once `proceed` is
-/// false.
+/// The approximate inverse of the upper triangle, itself exactly upper triangular; `None` once `proceed` is
+/// `false`.
 fn invert_upper(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
     let mut pace = Pace::new(proceed);
     let size = factors.nrows();

@@ -10,7 +10,7 @@ use super::polyhedron::ExactSet;
 use crate::interval::{Interval, Sign};
 use crate::problem::{ContactState, ModeProblem, ProblemView};
 
-/// What the equations of one pattern admit, exactly.
+/// The exact solutions of the equations of one pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ExactOutcome {
     /// `D != 0`: one solution of the equations, admissible or not.
@@ -24,12 +24,12 @@ pub enum ExactOutcome {
     Singular(ExactSet),
 }
 
-/// Solves the equations of one pattern in rational arithmetic, for the numbers as they are given.
+/// Solves the equations of one pattern in rational arithmetic, for the numbers as given.
 ///
-/// `unknowns` are in the order of the contacts. If the pattern is singular, its set of admissible
-/// solutions (`y >= 0`, `0 <= lambda <= 1`) is described by at most `bases` trials of a vertex or
-/// direction; where more were needed it is [`ExactSet::NotComputed`]. Numbers grow to about
-/// `53 r` bits, and the work with about `r^4` to `r^5`.
+/// `unknowns` are in the order of the contacts. If the pattern is singular, its set of admissible solutions
+/// (`y >= 0`, `0 <= lambda <= 1`) is described with at most `bases` trials of a vertex or direction; if more
+/// would be needed, it is [`ExactSet::NotComputed`]. Numbers grow to about `53 r` bits, and the work grows
+/// about like `r^4` to `r^5`.
 ///
 /// # Panics
 /// If the pattern does not have one state per contact.
@@ -54,10 +54,11 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64
     ExactOutcome::Singular(ExactSet::of_echelon(&echelon, pattern, bases, &mut || true))
 }
 
-/// Solves the equations of one pattern for some contacts, with those of whatever acts on them and no others.
+/// Solves the equations of one pattern for some contacts, together only with those of the contacts that act
+/// on them.
 ///
-/// Returns these contacts in increasing order, and the outcome in that order; none if they are more than
-/// `most`. See [`solve_exactly`].
+/// Returns all these contacts in increasing order, and the outcome in that order; `None` if there are more
+/// than `most`. See [`solve_exactly`].
 ///
 /// # Panics
 /// If the pattern does not have one state per contact.
@@ -105,7 +106,7 @@ pub(crate) fn determinant_sign(problem: &ModeProblem, pattern: &[ContactState]) 
     IntegerSystem::new(problem, pattern).eliminate().determinant_sign()
 }
 
-/// The signs that decide on a regular pattern, without fractions.
+/// The signs that decide a regular pattern, without fractions.
 pub(super) struct ExactSolution {
     numerators: Vec<IBig>,
     denominator: IBig,
@@ -137,8 +138,8 @@ impl ExactSolution {
 }
 
 impl Interval {
-    /// The middle; the least number on the interval's side of zero if that would be zero by underflow. So the
-    /// sign is that of what the interval encloses, and a number too large for `f64` is infinite.
+    /// The midpoint; if that would be zero by underflow, the least number on the interval's side of zero. The
+    /// sign is therefore that of the enclosed value, and a number too large for `f64` is infinite.
     pub(crate) fn nonzero_middle(self) -> f64 {
         match self.middle() {
             0.0 if self.lower() == 0.0 => self.upper(),
@@ -147,7 +148,7 @@ impl Interval {
         }
     }
 
-    /// The narrowest interval with bounds in `f64` that holds a rational number.
+    /// The narrowest interval with `f64` bounds that contains a rational number.
     ///
     /// ```
     /// use dashu_ratio::RBig;

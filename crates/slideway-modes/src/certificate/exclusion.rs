@@ -7,32 +7,31 @@ use crate::interval::Interval;
 use crate::interval_matrix::inner_product;
 use crate::problem::{Column, ContactState, ProblemView, Side};
 
-/// Products within this fraction of their terms' size may be zero but for rounding and for the bounds
-/// of the data.
+/// Products within this fraction of the size of their terms may be zero except for rounding and the bounds of
+/// the data.
 const NEARLY_ZERO: f64 = 1e-3;
-/// Columns whose products are below this multiple of what is missing are moved away from zero, too.
+/// Columns whose products are below this multiple of the missing amount are also moved away from zero.
 const NEARBY: f64 = 64.0;
-/// What the bounds of the data can do to a product is less than the size of its terms by this factor.
+/// The effect of the data's bounds on a product is smaller than the size of its terms by this factor.
 const ABOVE_SPREAD: f64 = 1e12;
-/// How much further weights are moved than they miss.
+/// How far weights are moved, as multiples of the missing amount.
 const STEPS: [f64; 2] = [2.0, 8.0];
 
 /// Whether `weights` prove that no pattern with the given states has a solution.
 ///
-/// `partial` has one entry per contact: its state, or `None` for a contact that may be pressed on
-/// either side or rest in its gap. With `w` for the weights (one per equation) this verifies
-/// rigorously (Farkas; theory, section 4 (b))
+/// `partial` has one entry per contact: its state, or `None` for a contact that may be pressed on either side
+/// or rest in its gap. With `w` for the weights (one per equation), this verifies rigorously (Farkas; theory,
+/// section 4 (b))
 ///
 /// ```text
 /// w . c_k^{sigma} >= 0                                          for every side that contact k may take
 /// w . N(0) + sum_k max_{sigma allowed} w . d_k^{sigma} < 0      in a gap: both sides allowed
 /// ```
 ///
-/// Since `y >= 0` and the share of `d_k^+` in a gap is between 0 and 1, the equations then cannot
-/// hold. The weights may come from anywhere, for example from an inaccurate linear program: wrong
-/// ones prove nothing, and the answer is `false`. Where products `w . c_k` miss zero by rounding only,
-/// as those of a basis of a linear program do, the weights are moved by as little as that to where
-/// they are positive, and tried again.
+/// Since `y >= 0` and the share of `d_k^+` in a gap is between 0 and 1, the equations then cannot hold. The
+/// weights may come from any source, for example from an inaccurate linear program: wrong ones prove nothing,
+/// and the answer is `false`. If products `w . c_k` miss zero only by rounding, like those of a basis of a
+/// linear program, the weights are moved just far enough to make them positive, and tried again.
 ///
 /// # Panics
 /// If `partial` or `weights` does not have one entry per contact.
@@ -55,7 +54,7 @@ pub fn proves_empty<'a>(
     proves_empty_while(problem.into(), partial, weights, &mut || true)
 }
 
-/// [`proves_empty`], false once `proceed` is.
+/// [`proves_empty`]; `false` once `proceed` is `false`.
 pub(crate) fn proves_empty_while(
     problem: ProblemView<'_>,
     partial: &[Option<ContactState>],
@@ -106,8 +105,9 @@ fn usable_columns<'a>(
     sides.flat_map(move |(contact, sides)| sides.iter().map(move |&side| problem.column(contact, side)))
 }
 
-/// By how much at most `w . c_k^{sigma} >= 0` is not verified, as a fraction of the size of its terms:
-/// 0 if it is for all columns. None if that is more than rounding and the bounds of the data can do.
+/// The largest amount by which `w . c_k^{sigma} >= 0` is not verified, as a fraction of the size of its
+/// terms: 0 if it is verified for all columns. `None` if it is more than rounding and the bounds of the data
+/// can cause.
 fn missing_fraction(
     problem: ProblemView<'_>,
     partial: &[Option<ContactState>],
@@ -128,9 +128,9 @@ fn missing_fraction(
     Some(most)
 }
 
-/// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of its size, or negative;
-/// also those that have nothing in the equations that count, which weights that are moved would not leave at
-/// zero.
+/// The nonzero columns for which `w . c_k^{sigma}` is at most a `fraction` of its size, or negative; also
+/// those without entries in the equations that count, since moving the weights would not leave these products
+/// at zero.
 fn nearly_zero_columns<'a>(
     problem: ProblemView<'a>,
     partial: &[Option<ContactState>],
@@ -146,20 +146,21 @@ fn nearly_zero_columns<'a>(
     usable_columns(problem, partial).filter(is_nearly_zero).collect()
 }
 
-/// The size of the terms of `w . c`: `|w| . |c|`, but far more than the bounds of the data can do where
-/// nothing else is in the equations that count.
+/// The size of the terms of `w . c`: `|w| . |c|`, but far more than the effect of the data's bounds if there
+/// is nothing else in the equations that count.
 fn product_size(weights: &[f64], column: Column<'_>) -> f64 {
     let of = |values: &[f64]| weights.iter().zip(values).map(|(w, value)| (w * value).abs()).sum::<f64>();
     of(column.centre).max(column.radius.map_or(0.0, of) * ABOVE_SPREAD)
 }
 
-/// `w . c` with no rounding where every partial sum is an `f64`.
+/// `w . c`, without rounding if every partial sum is an `f64`.
 fn exact_where_possible(weights: &[f64], column: Column<'_>) -> Interval {
     (0..weights.len()).map(|row| Interval::point(weights[row]) * column.entry(row)).sum()
 }
 
-/// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns, of that of all their
-/// entries where these terms are all zero; none if they depend on each other, or once `proceed` is false.
+/// The shortest `v` for which `v . c_k` has the size of `w . c_k` for the given columns, or the size of all
+/// their entries if these terms are all zero; `None` if the columns depend on each other, or once `proceed`
+/// is `false`.
 fn direction_inwards(
     columns: &[Column<'_>],
     weights: &[f64],
@@ -190,7 +191,7 @@ pub(super) fn column_sides(state: Option<ContactState>) -> &'static [Side] {
     }
 }
 
-/// The sides whose jump vectors may be part of the right-hand side.
+/// The sides whose jump vectors may contribute to the right-hand side.
 pub(super) fn jump_sides(state: Option<ContactState>) -> &'static [Side] {
     match state {
         Some(ContactState::Gap) | None => &Side::BOTH,

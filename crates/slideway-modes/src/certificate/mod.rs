@@ -1,25 +1,22 @@
 //! Proofs about the patterns of a mode problem.
 //!
-//! Everything here is rigorous for the numbers given: no tolerance decides anything. Rounding is
-//! enclosed by intervals, and what intervals leave in doubt is decided in exact rational arithmetic
-//! (every `f64` is a rational number).
+//! Everything here is rigorous for the given numbers: no tolerance decides anything. Rounding is enclosed by
+//! intervals, and what intervals leave in doubt is decided in exact rational arithmetic (every `f64` is a
+//! rational number).
 //!
-//! - [`decide`] tells what one pattern of
-//!   `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` admits: a solution with its
-//!   enclosure, none, a solution on the boundary with the `y_k` that are exactly zero, or a singular
-//!   system and the exact set of its solutions (theory, section 3).
-//! - [`proves_empty`] and [`proves_at_most_one`] verify the arguments by which a
-//!   search leaves out whole sets of patterns (theory, section 4).
+//! - [`decide`] determines what one pattern of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0`
+//!   admits: a solution with its enclosure, none, a solution on the boundary with the `y_k` that are exactly
+//!   zero, or a singular system with the exact set of its solutions (theory, section 3).
+//! - [`proves_empty`] and [`proves_at_most_one`] verify the arguments by which a search excludes whole sets
+//!   of patterns (theory, section 4).
 //!
 //! Each of them takes a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact (sums of two
-//! matrices unrounded), or an
-//! [`IntervalModeProblem`], whose numbers lie anywhere within bounds. In the second case a result
-//! holds for all values within the bounds, and what differs between them is
-//! [`Decision::Undecided`].
+//! matrices unrounded), or an [`IntervalModeProblem`], whose numbers lie anywhere within bounds. In the
+//! latter case, a result holds for all values within the bounds, and a pattern whose outcome differs between
+//! them is [`Decision::Undecided`].
 //!
-//! Contacts in their gap have the column `-(d_k^+ - d_k^-)`, and their unknown is the share
-//! `lambda_k`, `0 <= lambda_k <= 1`. A jump is any difference between `d_k^+` and `d_k^-`, however
-//! small.
+//! Contacts in their gap have the column `-(d_k^+ - d_k^-)`, and their unknown is the share `lambda_k`,
+//! `0 <= lambda_k <= 1`. Any difference between `d_k^+` and `d_k^-`, however small, is a jump.
 
 mod decision;
 mod elimination;

@@ -7,22 +7,21 @@ use crate::dense::has_cholesky_factor;
 use crate::interval_matrix::{IntervalMatrix, product, rounding};
 use crate::problem::{ContactState, ProblemView};
 
-/// Whether the patterns with the given states have at most one solution, because a spectral norm is
-/// below 1.
+/// Whether the patterns with the given states have at most one solution, because a spectral norm is below 1.
 ///
-/// `partial` has one entry per contact: its state, or `None` for a contact that may take any. The
+/// `partial` has one entry per contact: its state, or `None` for a contact that may take any state. The
 /// equations are written as `A x + B |x| = b`, where `x_k = N_k`, `A_k = (c_k^+ - c_k^-) / 2` and
-/// `B_k = (c_k^+ + c_k^-) / 2` for undecided contacts, and `x_k = y_k`, `A_k = c_k^sigma`, `B_k = 0`
-/// for those that are pressed on a known side (a share `lambda_k` likewise). If
+/// `B_k = (c_k^+ + c_k^-) / 2` for undecided contacts, and `x_k = y_k`, `A_k = c_k^sigma`, `B_k = 0` for
+/// those pressed on a known side (and likewise for a share `lambda_k`). If
 ///
 /// ```text
 /// sigma_max(A^-1 B) < 1,   that is,   A A^T - B B^T is positive definite
 /// ```
 ///
-/// there is exactly one `x` for every `b` (theory, section 4 (c)). So if no contact is decided there
-/// is exactly one solution; else there is one if the `x_k` of the decided contacts are admissible,
-/// and none otherwise. It is verified rigorously; `false` means that it was not proved, and it always
-/// is where the right-hand side jumps at an undecided contact.
+/// there is exactly one `x` for every `b` (theory, section 4 (c)). Thus, if no contact is decided, there is
+/// exactly one solution; otherwise there is one if the `x_k` of the decided contacts are admissible, and none
+/// if not. This is verified rigorously; `false` means that it was not proved, which is always the case if the
+/// right-hand side jumps at an undecided contact.
 ///
 /// # Panics
 /// If `partial` does not have one entry per contact.
@@ -47,7 +46,7 @@ pub fn proves_at_most_one<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Op
     }
     let Some(base) = BaseSystem::new(problem, partial) else { return false };
     let Some(inverse) = base.matrix().centre().clone().try_inverse() else { return false };
-    // R A and R B in place of A and B: (R A)^-1 R B = A^-1 B.
+    // R A and R B instead of A and B: (R A)^-1 R B = A^-1 B.
     let preconditioned = |matrix| product(&inverse, matrix, &mut || true);
     let parts = preconditioned(base.matrix()).zip(preconditioned(base.absolute()));
     parts.is_some_and(|(one, other)| is_larger(&one, &other))
@@ -65,7 +64,7 @@ fn is_larger(one: &IntervalMatrix, other: &IntervalMatrix) -> bool {
     exceeds(difference, largest)
 }
 
-/// `M M^T`, and an upper bound of the difference for all `M` within bounds.
+/// `M M^T`, and an upper bound on the difference for all `M` within bounds.
 fn gram(matrix: &IntervalMatrix) -> (DMatrix<f64>, DMatrix<f64>) {
     let (centre, radius) = (matrix.centre(), matrix.radius());
     let (size, terms) = (centre.abs(), centre.ncols());
@@ -80,14 +79,13 @@ fn gram(matrix: &IntervalMatrix) -> (DMatrix<f64>, DMatrix<f64>) {
 /// Whether all eigenvalues of every symmetric matrix within `spread` (in the spectral norm) of
 /// `matrix` are positive. Only the lower triangle of `matrix` is used.
 ///
-/// If the Cholesky factorization of `G - c I` in plain arithmetic runs to its end, then `G` is
-/// positive definite, provided that `c >= gamma / (1 - gamma) trace(G)`, `gamma = gamma_{n+2}`,
-/// underflow apart (Rump, Verification of positive definiteness, BIT 46 (2006)); here
-/// `spread` is subtracted as well.
+/// If the Cholesky factorization of `G - c I` in plain arithmetic completes, `G` is positive definite,
+/// provided that `c >= gamma / (1 - gamma) trace(G)`, `gamma = gamma_{n+2}`, apart from underflow (Rump,
+/// Verification of positive definiteness, BIT 46 (2006)); here `spread` is subtracted as well.
 fn exceeds(mut matrix: DMatrix<f64>, spread: f64) -> bool {
     let size = matrix.nrows();
     let trace: f64 = matrix.diagonal().iter().map(|value| value.abs()).sum();
-    // The last term covers the rounding of the subtraction itself and underflow.
+    // The last term covers the rounding error of the subtraction itself, and underflow.
     let shift = spread + 4.0 * rounding(size) * (trace + spread) + size as f64 * f64::MIN_POSITIVE;
     for at in 0..size {
         matrix[(at, at)] -= shift;

@@ -1,4 +1,4 @@
-//! What a singular pattern admits, exactly.
+//! The exact set of solutions that a singular pattern admits.
 
 use std::collections::HashSet;
 
@@ -9,16 +9,16 @@ use super::elimination::Echelon;
 use crate::interval::Interval;
 use crate::problem::{ContactState, SolutionSet};
 
-/// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1`
-/// for a contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
+/// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1` for a
+/// contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
 pub type ExactSet = SolutionSet<Vec<RBig>>;
 
 impl ExactSet {
-    /// The signed normal forces `N_k = sigma_k y_k` of the set, rounded; shares are left out, so that
-    /// points that differ only in them become one.
+    /// The signed normal forces `N_k = sigma_k y_k` of the set, rounded; shares are omitted, so points that
+    /// differ only in them coincide.
     ///
-    /// For a pattern with several contacts in their gaps the vertices may include points that are no
-    /// corner once the shares are left out.
+    /// For a pattern with several contacts in their gaps, the vertices may include points that are not
+    /// corners once the shares are omitted.
     pub fn normal_forces(&self, pattern: &[ContactState]) -> SolutionSet {
         if *self == Self::NotComputed {
             return SolutionSet::NotComputed;
@@ -32,8 +32,8 @@ impl ExactSet {
             .map(|point| DVector::from_iterator(point.len(), point.iter().map(nearest)))
     }
 
-    /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once
-    /// `proceed` is false.
+    /// The set for equations in echelon form. It is not computed if that takes more than `bases` trials, or
+    /// once `proceed` is `false`.
     pub(super) fn of_echelon(
         echelon: &Echelon,
         pattern: &[ContactState],
@@ -44,7 +44,7 @@ impl ExactSet {
             return Self::Empty;
         }
         let limits = WorkLimits::new(echelon, pattern);
-        // The set holds no line, so it is empty exactly if it has no vertex.
+        // The set contains no line, so it is empty exactly if it has no vertex.
         let corners = limits.corners(bases, proceed);
         corners.map_or(Self::NotComputed, |corners| Self::from_corners(corners.vertices, corners.directions))
     }
@@ -89,8 +89,8 @@ impl WorkLimits {
         Self { parameters: free.len(), unknowns, rows }
     }
 
-    /// Vertices and extreme directions; none if that takes more than `bases` trials, or once `proceed` is
-    /// false.
+    /// Vertices and extreme directions; `None` if that takes more than `bases` trials, or once `proceed` is
+    /// `false`.
     fn corners(&self, bases: u64, proceed: &mut dyn FnMut() -> bool) -> Option<Corners> {
         let (rows, parameters) = (self.rows.len(), self.parameters);
         let work = binomial(rows, parameters).saturating_add(binomial(rows, parameters - 1));
@@ -110,7 +110,7 @@ impl WorkLimits {
         })
     }
 
-    /// The point at which the given limits are reached, if it is one point and within all others.
+    /// The point at which the given limits are reached, if it is a single point and within all other limits.
     fn vertex(&self, tight: &[usize]) -> Option<Vec<RBig>> {
         let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
         let reduced = SolvedRows::new(equations, self.parameters);
@@ -122,7 +122,8 @@ impl WorkLimits {
         admissible.then(|| self.unknowns.iter().map(|row| evaluate(row, &RBig::ONE, &parameters)).collect())
     }
 
-    /// The direction along which the given limits stay reached, if it is one and leads past no limit.
+    /// The direction along which the given limits remain reached, if there is a single one and it violates no
+    /// limit.
     fn direction(&self, tight: &[usize]) -> Option<Vec<RBig>> {
         let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
         let reduced = SolvedRows::new(equations, self.parameters);
@@ -197,7 +198,7 @@ fn signed_forces(point: &[RBig], pattern: &[ContactState]) -> Vec<RBig> {
     point.iter().zip(pattern).map(signed).collect()
 }
 
-/// Divided by the size of the largest component; none if all are zero.
+/// Divided by the size of the largest component; `None` if all are zero.
 fn scaled_to_one(direction: Vec<RBig>) -> Option<Vec<RBig>> {
     let size = |value: &RBig| if *value < RBig::ZERO { -value.clone() } else { value.clone() };
     let largest = direction.iter().map(size).max().filter(|largest| !largest.is_zero())?;

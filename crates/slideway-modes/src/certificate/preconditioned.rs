@@ -24,7 +24,7 @@ pub(super) struct BaseSystem {
 }
 
 impl BaseSystem {
-    /// None if numbers overflow.
+    /// `None` if numbers overflow.
     pub(super) fn new(problem: ProblemView<'_>, partial: &[Option<ContactState>]) -> Option<Self> {
         let contacts = partial.len();
         let zeros = DMatrix::from_element(contacts, contacts, Interval::ZERO);
@@ -80,12 +80,12 @@ impl BaseSystem {
         &self.absolute
     }
 
-    /// The equations multiplied with an approximate inverse `R` of `A`; none if there is none.
+    /// The equations multiplied by an approximate inverse `R` of `A`; `None` if there is none.
     pub(super) fn preconditioned(&self) -> Option<Preconditioned> {
         let inverse = self.matrix.centre().clone().try_inverse()?;
         let near_identity = product(&inverse, &self.matrix, &mut || true)?;
         let identity = DMatrix::identity(inverse.nrows(), inverse.nrows());
-        // 1 - c is exact for c between 1/2 and 2, where c has to be; the radius covers the rest.
+        // 1 - c is exact for c between 1/2 and 2, where c must lie; the radius covers the rest.
         let rounded = (near_identity.centre() - &identity).abs() * f64::EPSILON;
         let defect =
             IntervalMatrix::around(identity - near_identity.centre(), near_identity.radius() + rounded)?;
@@ -108,12 +108,12 @@ impl BaseSystem {
 
 /// `x = R b + (I - R A) x - R B |x| + R j tau`.
 pub(super) struct Preconditioned {
-    /// Upper bounds of `|I - R A|`.
+    /// Upper bounds on `|I - R A|`.
     pub(super) defect: DMatrix<f64>,
-    /// `R B`, and upper bounds of its size.
+    /// `R B`, with upper bounds on its size.
     pub(super) absolute: IntervalMatrix,
     pub(super) absolute_size: DMatrix<f64>,
-    /// `R j`, and upper bounds of its size.
+    /// `R j`, with upper bounds on its size.
     pub(super) jumps: IntervalMatrix,
     pub(super) jump_size: DMatrix<f64>,
     /// `R b`.

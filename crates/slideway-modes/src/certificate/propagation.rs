@@ -1,4 +1,4 @@
-//! Bounds of the normal forces of all solutions.
+//! Bounds on the normal forces of all solutions.
 
 use nalgebra::DVector;
 
@@ -7,43 +7,42 @@ use crate::interval::{Interval, Sign};
 use crate::interval_matrix::{upper_product, upper_sum};
 use crate::problem::{ContactState, ProblemView};
 
-/// How often bounds are tightened, at most.
+/// Maximum number of times that bounds are tightened.
 const SWEEPS: usize = 8;
 /// Tightening stops when no bound improves by more than this fraction of the width.
 const WORTHWHILE: f64 = 0.05;
 
-/// What [`propagate`] found.
+/// The result of [`propagate`].
 #[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Propagation {
     /// No pattern with the given states has a solution.
     Empty,
-    /// Every solution has its unknowns in these intervals, one per contact: `N_k` for an undecided
-    /// contact, else `y_k`, or the share `lambda_k` in a gap. An undecided contact whose interval is
-    /// positive is pressed on the positive side in every solution, and likewise for negative.
+    /// Every solution has its unknowns in these intervals, one per contact: `N_k` for an undecided contact,
+    /// otherwise `y_k`, or the share `lambda_k` in a gap. An undecided contact whose interval is positive is
+    /// pressed on the positive side in every solution; likewise for negative.
     Bounds(Vec<Interval>),
     /// No bounds were found.
     Unknown,
 }
 
-/// Bounds the normal forces of all solutions of the patterns with the given states, by proof.
+/// Proves bounds on the normal forces of all solutions of the patterns with the given states.
 ///
-/// The search has a faster one of its own; this one, slow and independent of it, is what tests and benchmarks
-/// compare it with, and so is not in the documentation.
+/// The search has a faster implementation of its own. This one is slow and independent of it; tests and
+/// benchmarks compare the two, so it is not part of the documentation.
 ///
-/// `partial` has one entry per contact: its state, or `None` for a contact that may be pressed on
-/// either side or rest in its gap. With the equations preconditioned to
-/// `x = R b + (I - R A) x - R B |x| + R j tau`, `-1 <= tau <= 1` (`A`, `B`, `j` half the difference and
-/// half the sum of both columns, half the difference of both jumps, of undecided contacts), the first
-/// bound is the `e` with
+/// `partial` has one entry per contact: its state, or `None` for a contact that may be pressed on either side
+/// or rest in its gap. With the equations preconditioned to `x = R b + (I - R A) x - R B |x| + R j tau`,
+/// `-1 <= tau <= 1` (where `A`, `B` and `j` are, for undecided contacts, half the difference and half the sum
+/// of both columns, and half the difference of both jumps), the first bound is the `e` with
 ///
 /// ```text
 /// |R b| + |R j| 1 + (|I - R A| + |R B|) e <= e
 /// ```
 ///
-/// if there is one (theory, section 4 (a)); it is then tightened by evaluating the right-hand side
-/// with what is known of `x`, `|x|` and `tau` already. Both versions of columns and jumps are covered,
-/// and all rounding.
+/// if there is one (theory, section 4 (a)). It is then tightened by evaluating the right-hand side with what
+/// is already known about `x`, `|x|` and `tau`. Both versions of columns and jumps are covered, and all
+/// rounding.
 ///
 /// # Panics
 /// If `partial` does not have one entry per contact.
@@ -83,7 +82,7 @@ pub fn propagate<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Option<Cont
     Propagation::Bounds(bounds)
 }
 
-/// Where the unknown of a contact may lie at all.
+/// The range in which the unknown of a contact may lie at all.
 fn admissible(state: Option<ContactState>) -> Interval {
     match state {
         None => Interval::REAL_LINE,
@@ -111,15 +110,15 @@ fn largest_sizes(equations: &Preconditioned) -> Option<DVector<f64>> {
         upper_sum(&[&constant, &defect, &absolute])
     };
     let system = nalgebra::DMatrix::identity(contacts, contacts) - coupling;
-    // A little more than the solution, so that rounding does not matter; the test below is what counts.
+    // Slightly more than the solution, so that rounding does not matter; the test below is what counts.
     let floor = constant.amax().max(f64::MIN_POSITIVE);
     let trial = system.lu().solve(&constant.map(|value| value * 1.000_001 + floor * 1e-9))?;
     let holds = |(image, trial): (&f64, &f64)| *trial > 0.0 && image <= trial && trial.is_finite();
     image(&trial).iter().zip(&trial).all(holds).then_some(trial)
 }
 
-/// One evaluation of the right-hand side for every unknown. None if that leaves no value for one of
-/// them, otherwise the largest relative gain.
+/// One evaluation of the right-hand side for every unknown. `None` if that leaves no value for one of them,
+/// otherwise the largest relative improvement.
 fn tighten(
     equations: &Preconditioned,
     partial: &[Option<ContactState>],
@@ -146,7 +145,7 @@ fn tighten(
     Some(gain)
 }
 
-/// Where `tau` lies, given bounds of the normal force.
+/// The range of `tau`, given bounds on the normal force.
 fn jump_factor(normal_force: Interval) -> Interval {
     match normal_force.sign() {
         Some(Sign::Positive) => Interval::point(1.0),

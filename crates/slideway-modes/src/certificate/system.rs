@@ -1,4 +1,4 @@
-//! The equations of one pattern, with bounds of their rounding errors.
+//! The equations of one pattern, with bounds on their rounding errors.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,21 +11,21 @@ use crate::problem::{Column, ContactState, ProblemView, Side};
 pub(super) struct PatternSystem<'a> {
     problem: ProblemView<'a>,
     pattern: &'a [ContactState],
-    /// Entries that are sums are rounded, and the radius covers that.
+    /// Entries that are sums are rounded; the radius covers this.
     pub(super) matrix: IntervalMatrix,
     right_hand_side: DVector<f64>,
-    /// Covers the rounding of sums, besides the bounds of the data.
+    /// Covers the rounding of sums in addition to the bounds of the data.
     right_hand_side_radius: DVector<f64>,
 }
 
-/// A vector and a bound of its error.
+/// A vector and a bound on its error.
 pub(super) struct BoundedVector {
     pub(super) centre: DVector<f64>,
     pub(super) bound: DVector<f64>,
 }
 
 impl<'a> PatternSystem<'a> {
-    /// None if numbers overflow.
+    /// `None` if numbers overflow.
     pub(super) fn new(problem: ProblemView<'a>, pattern: &'a [ContactState]) -> Option<Self> {
         let contacts = problem.contacts();
         let mut centre = DMatrix::zeros(contacts, contacts);
@@ -76,9 +76,9 @@ impl<'a> PatternSystem<'a> {
 
     /// `b - A z` as if computed with twice the digits and then rounded.
     ///
-    /// All terms of the data enter unrounded, by a compensated inner product (Ogita, Rump & Oishi,
-    /// Accurate sum and dot product, 2005, algorithm 5.3): its error is at most
-    /// `u |result| + gamma_n^2 sum |terms|`, underflow apart.
+    /// All terms of the data enter unrounded, by a compensated inner product (Ogita, Rump & Oishi, Accurate
+    /// sum and dot product, 2005, algorithm 5.3): its error is at most `u |result| + gamma_n^2 sum |terms|`,
+    /// apart from underflow.
     pub(super) fn accurate_residual(&self, z: &DVector<f64>) -> BoundedVector {
         let contacts = self.pattern.len();
         let mut sums = vec![CompensatedSum::default(); contacts];
@@ -134,7 +134,7 @@ fn accumulate(sums: &mut [CompensatedSum], column: &[f64], factor: f64) {
     }
 }
 
-/// A sum of products that carries along what rounding takes from it.
+/// A sum of products that accumulates its rounding errors separately.
 #[derive(Debug, Clone, Copy, Default)]
 struct CompensatedSum {
     sum: f64,

@@ -4,7 +4,7 @@
 
 use crate::error_free::{ordered_sum_remainder, product_remainder, sum_remainder};
 
-/// Bound on the relative error of one operation: 2^-98, with room to spare.
+/// Bound on the relative error of one operation: 2^-98, with a margin.
 pub(super) const UNIT: f64 = 3.2e-30;
 
 /// `high + low`, with `|low| <= ulp(high)/2`.

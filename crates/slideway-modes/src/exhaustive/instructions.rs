@@ -1,6 +1,6 @@
-//! Which instructions of the processor the loops use.
+//! Which processor instructions the loops use.
 
-/// A set of vector instructions that this processor has, out of those that the screening is compiled for.
+/// A set of vector instructions of this processor, among those for which the screening is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Instructions(Set);
 
@@ -14,7 +14,7 @@ pub(super) enum Set {
 }
 
 impl Instructions {
-    /// All sets that this processor has, the fastest first.
+    /// All sets available on this processor, the fastest first.
     pub fn available() -> Vec<Self> {
         let mut sets = Vec::new();
         #[cfg(target_arch = "x86_64")]

@@ -1,5 +1,5 @@
 //! The lower part of the tree: the last levels in `f64`, for several sibling nodes at once, with the
-//! instructions of the processor at hand.
+//! processor's vector instructions.
 
 use std::hint::black_box;
 
@@ -11,7 +11,7 @@ use super::level::{Level, Pivot, ROUNDED_UP, UNIT, WIDTH, bound_below};
 use super::pattern::Pattern;
 use super::upper::{Node, ResolvedRow};
 
-/// Where a lane comes from.
+/// The origin of a lane.
 #[derive(Clone, Default)]
 struct Origin {
     pattern: Pattern,
@@ -21,7 +21,7 @@ struct Origin {
 /// Workspace of one thread.
 pub(super) struct Kernel {
     instructions: Instructions,
-    /// Places that the kernel decides.
+    /// Places decided by the kernel.
     places: usize,
     /// How many of them, above those of Cramer's rule, hold contacts whose negative side has no solution.
     padded: usize,
@@ -63,7 +63,7 @@ impl Kernel {
         self.remaining.push(pattern);
     }
 
-    /// All patterns that were kept since the last call.
+    /// All patterns kept since the last call.
     pub(super) fn take_remaining(&mut self, layout: &Layout) -> Vec<Pattern> {
         self.flush();
         let mut remaining: Vec<Pattern> =
@@ -72,7 +72,7 @@ impl Kernel {
         remaining
     }
 
-    /// Takes over a node whose undecided places are the kernel's.
+    /// Takes over a node whose undecided places are those of the kernel.
     pub(super) fn push(&mut self, node: &Node, layout: &Layout) {
         let lane = self.used;
         let level = &mut self.levels[self.places];
@@ -90,7 +90,7 @@ impl Kernel {
         }
     }
 
-    /// Screens the nodes at hand. Lanes that are not used repeat the first.
+    /// Screens the collected nodes. Unused lanes repeat the first.
     fn flush(&mut self) {
         if self.used == 0 {
             return;
@@ -105,8 +105,8 @@ impl Kernel {
         self.used = 0;
     }
 
-    /// Visits all patterns of the kernel's places. From one to the next, only the lowest places are decided
-    /// anew.
+    /// Visits all patterns of the kernel's places. From one pattern to the next, only the lowest places
+    /// change.
     #[inline(always)]
     fn descend<const FUSED: bool>(&mut self) {
         for index in (0..1_usize << (self.places - CRAMER)).step_by(1 << self.padded) {
@@ -129,7 +129,7 @@ impl Kernel {
         }
     }
 
-    /// One elimination step: the last undecided place goes to `side`. Each lane has its own pivot row.
+    /// One elimination step: the last undecided place takes `side`. Each lane has its own pivot row.
     #[inline(always)]
     fn decide<const FUSED: bool, const PLACE: usize>(&mut self, side: usize) {
         let place = PLACE;
@@ -139,7 +139,7 @@ impl Kernel {
         let (child, node) = (&mut below[place], &here[0]);
         let stored = &mut self.pivots[place];
         let rows = &node.rows[..=PLACE];
-        // Where the pivot changes places with the first row.
+        // Where the pivot row and the first row are exchanged.
         let mut pivot = rows[0][column];
         let mut swapped = [Mask::NONE; LEVELS];
         for row in 1..=PLACE {
@@ -147,7 +147,7 @@ impl Kernel {
             swapped[row - 1] = pivot.is_smaller_than(candidate);
             pivot = swapped[row - 1].select(candidate, pivot);
         }
-        // Only the last of them holds.
+        // Only the last one set counts.
         let mut later = Mask::NONE;
         for row in (0..PLACE).rev() {
             let first = swapped[row].without(later);
@@ -291,7 +291,7 @@ impl Kernel {
         self.keep_lanes(excess, solved.error_of_y(bounds, bounds.determinant, largest));
     }
 
-    /// Keeps the patterns of the lanes that are left, unless the places above exclude them.
+    /// Keeps the patterns of the remaining lanes, unless the places above exclude them.
     #[inline(never)]
     fn keep_lanes(&mut self, excess: Lanes, error: Lanes) {
         let negative =
@@ -306,7 +306,7 @@ impl Kernel {
     }
 
     /// Back-substitution of one lane from the places of the leaf, whose errors are given: whether some
-    /// unknown is certainly outside of its range.
+    /// unknown is certainly out of range.
     fn is_excluded(&self, lane: usize, error: f64) -> bool {
         let mut unknowns = Vec::with_capacity(self.places + self.origins[lane].above.len());
         unknowns.extend(self.y[..CRAMER].iter().map(|y| Unknown { value: y.0[lane], error }));
@@ -383,12 +383,12 @@ fn descend_avx2(kernel: &mut Kernel) {
     kernel.descend::<true>();
 }
 
-/// Visits all patterns below the nodes at hand.
+/// Visits all patterns below the collected nodes.
 fn descend(kernel: &mut Kernel) {
     match kernel.instructions.set() {
         #[cfg(target_arch = "x86_64")]
         #[expect(unsafe_code, reason = "several times as fast as generic x86-64, chosen at run time")]
-        // SAFETY: `Instructions` are only those that the processor has.
+        // SAFETY: `Instructions` contains only those that the processor has.
         Set::Avx512 => unsafe { descend_avx512(kernel) },
         #[cfg(target_arch = "x86_64")]
         #[expect(unsafe_code, reason = "several times as fast as generic x86-64, chosen at run time")]

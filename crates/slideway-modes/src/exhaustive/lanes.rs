@@ -1,9 +1,9 @@
-//! One number of each of several sibling nodes, side by side.
+//! The same number of several sibling nodes, side by side.
 //!
-//! Every operation is a loop of fixed length over plain arrays without a branch, which the compiler turns
-//! into vector instructions of whatever width the surrounding function may use.
+//! Every operation is a branch-free loop of fixed length over plain arrays, which the compiler turns into
+//! vector instructions of whatever width the surrounding function may use.
 
-/// Nodes that are treated together.
+/// Nodes that are processed together.
 pub(super) const LANES: usize = 8;
 
 /// One number of each node.
@@ -56,13 +56,13 @@ impl Lanes {
         self.map(f64::abs)
     }
 
-    /// The larger of both numbers; `self` where `other` is not a number.
+    /// The larger of both numbers; `self` where `other` is NaN.
     #[inline(always)]
     pub(super) fn larger(self, other: Self) -> Self {
         self.zip(other, |a, b| if b > a { b } else { a })
     }
 
-    /// Where the size of `other` is larger than that of this.
+    /// Where `other` is larger in magnitude.
     #[inline(always)]
     pub(super) fn is_smaller_than(self, other: Self) -> Mask {
         let mut mask = [0; LANES];
@@ -72,7 +72,7 @@ impl Lanes {
         Mask(mask)
     }
 
-    /// Whether all numbers are above zero; not a number is not above zero.
+    /// Whether all numbers are above zero; NaN is not.
     #[inline(always)]
     pub(super) fn all_positive(self) -> bool {
         let mut all = true;
@@ -111,7 +111,7 @@ impl Mask {
         result
     }
 
-    /// `one` where the mask is set, else `other`.
+    /// `one` where the mask is set, otherwise `other`.
     #[inline(always)]
     pub(super) fn select(self, one: Lanes, other: Lanes) -> Lanes {
         let mut result = [0.0; LANES];

@@ -6,25 +6,25 @@ use super::lanes::LANES;
 use super::pattern::Pattern;
 use crate::problem::{ContactState, ProblemView, Side};
 
-/// Places that the kernel decides, at most.
+/// The maximum number of places that the kernel decides.
 pub(super) const LEVELS: usize = 12;
-/// Places that are solved together by Cramer's rule.
+/// Number of places that are solved together by Cramer's rule.
 pub(super) const CRAMER: usize = 3;
-/// Places whose unknowns are found as multiples of the determinant.
+/// Number of places whose unknowns are found as multiples of the determinant.
 pub(super) const SOLVED: usize = 6;
 
 /// Places of contacts in the tree; the last place is decided first.
 ///
-/// Places `0..padding` hold contacts with the equation `sigma y = 1`, so that there are as many without a
-/// jump as the leaves need. Then follow the contacts without a jump, then those with one.
+/// Places `0..padding` hold contacts with the equation `sigma y = 1`, so that there are as many contacts
+/// without a jump as the leaves need. The contacts without a jump follow, then those with one.
 #[derive(Debug)]
 pub(super) struct Layout {
     padding: usize,
     /// The contact at each place from `padding` on.
     order: Vec<usize>,
-    /// Places of contacts without a jump, padding included.
+    /// Places of contacts without a jump, including padding.
     pub(super) plain: usize,
-    /// What to compute with.
+    /// The vector instructions to use.
     pub(super) instructions: Instructions,
 }
 
@@ -47,7 +47,7 @@ impl Layout {
         self.padding + self.order.len()
     }
 
-    /// Places that are left to the kernel: few enough that there are nodes for all of its lanes.
+    /// Number of places left to the kernel: few enough that there are nodes for all of its lanes.
     pub(super) fn kernel_places(&self) -> usize {
         let levels = LANES.ilog2() as usize;
         self.plain.min(self.places().saturating_sub(levels)).clamp(SOLVED, LEVELS)
@@ -57,19 +57,20 @@ impl Layout {
         if place < self.plain { &ContactState::PRESSED } else { &ContactState::ALL }
     }
 
-    /// How many patterns the places below this one have. None if they are more than `u64` can count.
+    /// Number of patterns of the places below this one; `None` if it exceeds `u64`.
     pub(super) fn patterns_below(&self, place: usize) -> Option<u64> {
         let states = |place| self.states(place).len() as u64;
         (self.padding..place).try_fold(1_u64, |count, place| count.checked_mul(states(place)))
     }
 
     /// The column of the positive side of the contact at a place. Column 0 is the right-hand side; a contact
-    /// has the columns `c^+, c^-`, and `d^+, d^-` if there is a jump.
+    /// has the columns `c^+, c^-`, and also `d^+, d^-` if there is a jump.
     pub(super) fn column(&self, place: usize) -> usize {
         1 + 2 * place + 2 * place.saturating_sub(self.plain)
     }
 
-    /// From places to contacts. None if a padding contact is on its negative side, where it has no solution.
+    /// Translates places to contacts. `None` if a padding contact is on its negative side, where it has no
+    /// solution.
     pub(super) fn pattern(&self, places: Pattern) -> Option<Pattern> {
         if places.negative & ((1 << self.padding) - 1) != 0 {
             return None;
@@ -89,11 +90,11 @@ pub(super) struct ScaledEquations {
 }
 
 impl ScaledEquations {
-    /// Rows are scaled by powers of two, and so are the loads. This changes no sign of a `y` and no share.
+    /// Rows and loads are scaled by powers of two. This changes neither the sign of a `y` nor a share.
     pub(super) fn new(problem: ProblemView<'_>, layout: &Layout) -> Self {
         let scales: Vec<f64> = (0..problem.contacts()).map(|row| row_scale(problem, row)).collect();
         let loads = Loads::new(problem, layout, &scales);
-        // Scaling may round numbers near the least ones, and loads are scaled twice.
+        // Scaling may round numbers near the least normal ones, and loads are scaled twice.
         let mut bound = 4.0 * f64::MIN_POSITIVE * loads.scale.max(1.0);
         let mut rows = Vec::new();
         for row in 0..layout.padding {
@@ -141,7 +142,7 @@ fn row_scale(problem: ProblemView<'_>, row: usize) -> f64 {
     scale_to_one(entries.fold(0.0, f64::max))
 }
 
-/// The power of two that brings a size near 1.
+/// The power of two that brings a number near 1.
 fn scale_to_one(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { (-size.log2().round()).clamp(-1000.0, 1000.0).exp2() }
 }

@@ -1,10 +1,10 @@
-//! The last three contacts by Cramer's rule, and those above while no division is needed.
+//! The last three contacts by Cramer's rule, and those above them as long as no division is needed.
 
 use super::lanes::{LANES, Lanes};
 use super::layout::{CRAMER, SOLVED};
 use super::level::{Level, Pivot, ROUNDED_UP, UNIT};
 
-/// LeafErrors of the multiples `x_k = D y_k`, for all patterns of a leaf.
+/// Errors of the multiples `x_k = D y_k`, for all patterns of a leaf.
 pub(super) struct LeafErrors {
     /// Bound on the error of the determinant `D` and of the first `x_k`.
     pub(super) determinant: Lanes,
@@ -57,7 +57,7 @@ pub(super) struct Solved {
 }
 
 impl Solved {
-    /// Above zero where `|D|` is above its error and some `x_k / D` is certainly negative.
+    /// Above zero where `|D|` exceeds its error and some `x_k / D` is certainly negative.
     #[inline(always)]
     pub(super) fn excess(&self, bounds: &LeafErrors) -> Lanes {
         let mut result = Lanes::ZERO;
@@ -109,7 +109,7 @@ pub(super) fn dot<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3]) -> Lanes {
     a[0].times_plus::<FUSED>(b[0], a[1].times_plus::<FUSED>(b[1], a[2].times(b[2])))
 }
 
-/// Bound for entries of size `a` at most, each of them wrong by `e` at most.
+/// Bound for entries of size at most `a`, each of them wrong by at most `e`.
 #[inline(always)]
 pub(super) fn error_of_determinants(a: Lanes, e: Lanes) -> Lanes {
     a.zip(e, |a, e| {

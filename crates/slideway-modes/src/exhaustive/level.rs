@@ -1,9 +1,9 @@
-//! Equations of several nodes side by side, and the bounds of their errors.
+//! Equations of several nodes side by side, with bounds on their errors.
 
 use super::lanes::{LANES, Lanes};
 use super::layout::LEVELS;
 
-/// Entries of a row: right-hand side and two columns for each place.
+/// Entries of a row: the right-hand side and two columns for each place.
 pub(super) const WIDTH: usize = 2 * LEVELS + 1;
 /// Unit roundoff of `f64`.
 pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
@@ -19,7 +19,7 @@ pub(super) struct Level {
     pub(super) size: Lanes,
 }
 
-/// The equation from which the unknown of a place follows once those below are known.
+/// The equation that gives the unknown of a place once those below are known.
 #[derive(Clone)]
 pub(super) struct Pivot {
     pub(super) entries: Row,
@@ -33,8 +33,8 @@ pub(super) struct Pivot {
 }
 
 impl Pivot {
-    /// Bound on the error of the unknown `y` that follows from `count` others, given the largest of these and
-    /// of their errors.
+    /// Bound on the error of the unknown `y` computed from `count` others, given the largest of these and of
+    /// their errors.
     #[inline(always)]
     pub(super) fn error_of_y(&self, count: f64, y: Lanes, largest: Lanes, error: Lanes) -> Lanes {
         let (bound, size, guard) = (self.bound, self.size, self.guard);
@@ -52,7 +52,7 @@ impl Pivot {
     }
 }
 
-/// The bound of the module documentation; `factor` is the largest `|l|`, `guard` at least
+/// The bound of the module documentation; `factor` is the largest `|l|`, and `guard` at least
 /// `1 / (|p| - bound)`.
 #[inline(always)]
 pub(super) fn bound_below(bound: f64, factor: f64, guard: f64, row: f64, node: f64, unit: f64) -> f64 {
@@ -61,5 +61,5 @@ pub(super) fn bound_below(bound: f64, factor: f64, guard: f64, row: f64, node: f
     exact * ROUNDED_UP + f64::MIN_POSITIVE
 }
 
-/// Covers the roundings of a bound's own evaluation.
+/// Covers the rounding errors in evaluating a bound.
 pub(super) const ROUNDED_UP: f64 = 1.0 + 1e-9;

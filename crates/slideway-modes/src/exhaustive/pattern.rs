@@ -1,8 +1,9 @@
-//! One pattern of states in a few bits.
+//! The states of a pattern in a few bits.
 
 use crate::problem::ContactState;
 
-/// The states of all contacts. Ordered by the contacts in their gap, then by those on their negative side.
+/// The states of all contacts. They are ordered by the contacts in their gap, then by those on their negative
+/// side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Pattern {
     /// Bit `k` is set where contact `k` is in its gap.
@@ -26,7 +27,7 @@ impl Pattern {
         (0..contacts).map(|contact| self.state(contact)).collect()
     }
 
-    /// The same pattern with one more contact in a state.
+    /// The same pattern with one more contact in the given state.
     pub(super) fn with(self, contact: usize, state: ContactState) -> Self {
         match state {
             ContactState::Positive => self,

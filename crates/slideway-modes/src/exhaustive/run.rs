@@ -1,4 +1,4 @@
-//! The tree shared among threads.
+//! Distributes the tree among threads.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -14,20 +14,20 @@ use super::upper::Node;
 use crate::problem::ProblemView;
 use crate::progress::Progress;
 
-/// Levels of the tree that are expanded before its subtrees are shared among threads.
+/// Levels of the tree that are expanded before its subtrees are distributed among threads.
 const SHARED_LEVELS: usize = 6;
 
-/// What is done with the patterns that a subtree leaves.
+/// The processing of the patterns that a subtree leaves.
 pub(super) type Examine<'a, T> = &'a (dyn Fn(Vec<Pattern>) -> Vec<T> + Sync);
 
-/// What became of the patterns.
+/// The outcome of a walk over the patterns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tally {
-    /// Patterns that the visitor was told of, or would have been in the subtree at which it stopped.
+    /// Patterns that the visitor received, or would have received in the subtree at which it stopped.
     pub visited: u64,
     /// Patterns that were proved to have no solution.
     pub excluded: u64,
-    /// Whether the walk came to its end, so that the two counts add up to all patterns.
+    /// Whether the walk was completed, so that the two counts add up to all patterns.
     pub complete: bool,
 }
 
@@ -56,7 +56,7 @@ impl<'a, T: Send> Run<'a, T> {
         Self { layout, examine, progress, total, done: AtomicU64::new(0), stopped: AtomicBool::new(false) }
     }
 
-    /// Hands what is left to the visitor, subtree after subtree.
+    /// Passes the remaining patterns to the visitor, subtree after subtree.
     pub(super) fn visit_all(
         &self,
         problem: ProblemView<'_>,
@@ -70,7 +70,8 @@ impl<'a, T: Send> Run<'a, T> {
         tally
     }
 
-    /// Places of the subtrees that make up one piece of work: they fill the lanes of the kernel once.
+    /// Number of places of the subtrees that make up one piece of work: they fill the lanes of the kernel
+    /// once.
     fn subtree_places(&self) -> usize {
         self.layout.places().min(self.layout.kernel_places() + LANES.ilog2() as usize)
     }
@@ -102,7 +103,7 @@ impl<'a, T: Send> Run<'a, T> {
         ControlFlow::Continue(())
     }
 
-    /// What a subtree leaves. None if the walk was stopped.
+    /// The remaining patterns of a subtree; `None` if the walk was stopped.
     fn screen_subtree(&self, kernel: &mut Kernel, node: &Node) -> Option<Vec<T>> {
         if self.stopped.load(Ordering::Relaxed) {
             return None;
@@ -130,7 +131,7 @@ fn descend(node: &Node, kernel: &mut Kernel, layout: &Layout) {
     }
 }
 
-/// Keeps every pattern that shares the decided states of `pattern`.
+/// Keeps every pattern that agrees with the decided states of `pattern`.
 fn keep_all_below(pattern: Pattern, places: usize, kernel: &mut Kernel, layout: &Layout) {
     let Some(place) = places.checked_sub(1) else { return kernel.keep(pattern) };
     for &state in layout.states(place) {

@@ -1,4 +1,5 @@
-//! Each bound against the worst that numbers within their errors can do, which attains it but for roundings.
+//! Compares each bound with the worst case of numbers within their errors, which attains it except for
+//! rounding.
 
 use super::kernel::{Equation, Unknown};
 use super::lanes::Lanes;
@@ -14,13 +15,13 @@ fn all(value: f64) -> Lanes {
     Lanes([value; 8])
 }
 
-/// LeafErrors may be above the worst by roundings, but not below.
+/// Bounds may exceed the worst case by rounding, but must not be below it.
 fn check_attained(bound: f64, worst: f64) {
     assert!(bound >= worst * (1.0 - 1e-12), "{bound} is below {worst}");
     assert!(bound <= worst * 1.02 + 1e-9, "{bound} is far above {worst}");
 }
 
-/// `a - (c / p) r` with `a = 0`, `p = 1`, `c = -L`: everything pulls in one direction.
+/// `a - (c / p) r` with `a = 0`, `p = 1`, `c = -L`: all errors act in one direction.
 #[test]
 fn elimination_is_wrong_by_its_bound_at_most() {
     for factor in [0.0, 0.25, 1.0] {
@@ -32,7 +33,7 @@ fn elimination_is_wrong_by_its_bound_at_most() {
     }
 }
 
-/// Where the entries are exact, the first step has the roundings of the factor, the product and the
+/// If the entries are exact, the first step has the rounding errors of the factor, the product and the
 /// difference.
 #[test]
 fn roundings_of_an_elimination_are_within_its_bound() {
@@ -49,7 +50,7 @@ fn pivot(size: f64) -> Pivot {
     Pivot { entries, inverse, bound, guard: all(1.0 / (1.0 - E)), size: all(size) }
 }
 
-/// `y = b + k c y'` with a pivot of 1, as `b`, `c`, `y'` grow and the pivot shrinks.
+/// `y = b + k c y'` with a pivot of 1, where `b`, `c`, `y'` grow and the pivot shrinks.
 #[test]
 fn back_substitution_is_wrong_by_its_bound_at_most() {
     for size in SIZES {
@@ -84,7 +85,7 @@ fn determinant(m: [[f64; 3]; 3]) -> f64 {
     m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1)
 }
 
-/// Half of the bound would not hold for the determinant of `+-1` that is largest.
+/// Half of the bound would be insufficient for the largest determinant with entries `+-1`.
 #[test]
 fn determinants_are_wrong_by_their_bound_at_most() {
     let signs = [[1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, -1.0]];
@@ -98,7 +99,7 @@ fn determinants_are_wrong_by_their_bound_at_most() {
     }
 }
 
-/// `p x = b D + sum c_i x_i` with `p = 1`, for the greatest `D` and `x_i` that the bounds allow for.
+/// `p x = b D + sum c_i x_i` with `p = 1`, for the greatest `D` and `x_i` that the bounds allow.
 #[test]
 fn multiples_of_the_determinant_are_wrong_by_their_bounds_at_most() {
     for (size, entry, bound) in [(0.001, 1.0, E), (1.0, 0.125, E), (4.0, 1.0, 1e-9), (0.0, 1.0, E)] {

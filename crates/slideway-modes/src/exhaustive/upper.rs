@@ -1,4 +1,4 @@
-//! The upper part of the tree: few nodes, double-double arithmetic.
+//! The upper part of the tree: few nodes, in double-double arithmetic.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use super::level::{ROUNDED_UP, bound_below};
 use super::pattern::Pattern;
 use crate::problem::ContactState;
 
-/// The equations that remain when the contacts at the last places have been decided.
+/// The equations that remain once the contacts at the last places have been decided.
 #[derive(Clone)]
 pub(super) struct Node {
-    /// Places that are undecided.
+    /// Number of undecided places.
     pub(super) places: usize,
     /// Leading and trailing parts of the entries, row after row.
     high: Vec<f64>,
@@ -21,15 +21,15 @@ pub(super) struct Node {
     pub(super) bound: f64,
     /// Bound on the size of every entry.
     pub(super) size: f64,
-    /// The pivot rows of the decided places, the one decided first at the front.
+    /// The pivot rows of the decided places, in the order of decision.
     pivots: Vec<Arc<PivotRow>>,
     /// States of the decided places.
     pub(super) pattern: Pattern,
-    /// Whether some pivot on the way was too small to go on: nothing below can be excluded.
+    /// Whether some pivot on the way was too small to continue: nothing below can be excluded.
     pub(super) irregular: bool,
 }
 
-/// The equation from which the unknown of a decided place follows once those below are known.
+/// The equation that gives the unknown of a decided place once those below are known.
 struct PivotRow {
     /// Right-hand side and columns of the places below.
     entries: Vec<f64>,
@@ -37,7 +37,7 @@ struct PivotRow {
     bound: f64,
 }
 
-/// A pivot row whose right-hand side holds the jumps below, and that has one column for each decided place.
+/// A pivot row whose right-hand side includes the jumps below, with one column for each decided place.
 #[derive(Clone, Default)]
 pub(super) struct ResolvedRow {
     /// Right-hand side, both columns of the undecided places, one column of the decided places below.
@@ -77,7 +77,7 @@ impl Node {
         layout.states(self.places - 1).iter().map(|&state| self.decide(layout, state))
     }
 
-    /// The node below, with the contact at the last undecided place in a state.
+    /// The node below, with the contact at the last undecided place in the given state.
     fn decide(&self, layout: &Layout, state: ContactState) -> Self {
         let place = self.places - 1;
         let width = layout.column(place);
@@ -113,7 +113,7 @@ impl Node {
         child
     }
 
-    /// One elimination step on equations within the bounds of this node, which becomes the child.
+    /// One elimination step on equations within the bounds of this node, which yields the child.
     fn eliminate(&mut self, step: &Elimination<'_>, instructions: Instructions) {
         let &Elimination { high, at, column, width, stride, .. } = step;
         let pivot = high[at * stride + column].abs();
@@ -129,7 +129,7 @@ impl Node {
         self.pivots.push(Arc::new(PivotRow {
             entries: pivot_row.to_vec(),
             pivot: high[at * stride + column],
-            // What is lost by keeping the leading parts only.
+            // The loss from keeping only the leading parts.
             bound: self.bound + f64::EPSILON * row.max(pivot),
         }));
         self.bound = bound_below(self.bound, 1.0, ROUNDED_UP / (pivot - self.bound), row, self.size, UNIT);
@@ -160,14 +160,14 @@ impl Node {
             entries[0] += jump;
             entries.push(coefficient);
         }
-        // Sums of 1 + jumps entries: their errors, and as many roundings.
+        // Sums of 1 + jumps entries: their errors, and as many rounding errors.
         let terms = 1.0 + jumps;
         let rounding = if jumps > 0.0 { terms * terms * f64::EPSILON * largest(&row.entries) } else { 0.0 };
         ResolvedRow { entries, pivot: row.pivot, bound: terms * row.bound + rounding }
     }
 }
 
-/// The jump of the contact whose columns begin at `column` goes to the right-hand side. For a contact in its
+/// Moves the jump of the contact whose columns begin at `column` to the right-hand side. For a contact in its
 /// gap, `-(d^+ - d^-)` becomes the column of its share.
 fn apply_jump(high: &mut [f64], low: &mut [f64], column: usize, state: ContactState) {
     let entry = |at: usize| DoubleDouble { high: high[at], low: low[at] };
@@ -180,7 +180,7 @@ fn apply_jump(high: &mut [f64], low: &mut [f64], column: usize, state: ContactSt
     }
 }
 
-/// Equations, and the pivot to eliminate with.
+/// Equations, and the pivot for their elimination.
 struct Elimination<'a> {
     high: &'a [f64],
     low: &'a [f64],
@@ -198,7 +198,7 @@ impl<'a> Elimination<'a> {
         Self { high, low, at, column, width, stride }
     }
 
-    /// All rows but the pivot's, less their multiple of it.
+    /// All rows except the pivot's, minus their multiple of it.
     #[inline(always)]
     fn rows<const FUSED: bool>(&self, high: &mut [f64], low: &mut [f64]) {
         let entry = |at: usize| DoubleDouble { high: self.high[at], low: self.low[at] };
@@ -231,8 +231,8 @@ impl<'a> Elimination<'a> {
         match instructions.set() {
             #[cfg(target_arch = "x86_64")]
             #[expect(unsafe_code, reason = "three times as fast as generic x86-64, chosen at run time")]
-            // SAFETY: `Instructions` are only those that the processor has, and AVX-512 is told with AVX2
-            // only.
+            // SAFETY: `Instructions` contains only those that the processor has, and AVX-512 is reported only
+            // together with AVX2.
             Set::Avx512 | Set::Avx2 => unsafe { self.rows_avx2(high, low) },
             Set::Generic => self.rows::<false>(high, low),
         }

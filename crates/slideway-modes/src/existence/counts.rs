@@ -1,11 +1,11 @@
-//! How many solutions there are along a line of parameters.
+//! The number of solutions along a line of parameters.
 
 use nalgebra::DVector;
 
 use super::{Existence, ModeInterval, ModeProblemLine};
 use crate::problem::ContactState;
 
-/// Ends closer than this share of the larger one are the same.
+/// Ends closer than this fraction of the larger one count as the same.
 const SAME_END: f64 = 1e-10;
 
 /// An interval of the parameter with the same number of solutions throughout.
@@ -21,23 +21,23 @@ pub struct CountInterval {
     pub gap_states: usize,
 }
 
-/// The number of solutions in each interval of a range, neighbours with equal numbers joined.
+/// The number of solutions in each interval of a range; neighbours with equal numbers are joined.
 ///
-/// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same
-/// solution, as they do when a normal force is zero throughout.
+/// `existence` contains the modes of `line` in that `range`. Two patterns count once if they have the same
+/// solution, as they do if a normal force is zero throughout.
 pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
     let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
     let cells = cells(ends.chain(range), is_same_end);
     counts_in(existence, &cells, &|modes, at| line.distinct(modes, at))
 }
 
-/// Whether an end of a mode is the same as the one before it.
+/// Whether an end of a mode coincides with the one before it.
 pub fn is_same_end(next: f64, kept: f64) -> bool {
     next.is_finite() && next - kept <= SAME_END * next.abs()
 }
 
-/// The number of solutions in each of several cells, between whose ends no mode begins or ends; neighbours
-/// with equal numbers are joined. `distinct` has the number of different solutions of some modes at a place.
+/// The number of solutions in each of several cells, inside which no mode begins or ends; neighbours with
+/// equal numbers are joined. `distinct` returns the number of different solutions of some modes at a place.
 pub fn counts_in(
     existence: &Existence,
     cells: &[[f64; 2]],
@@ -63,7 +63,7 @@ pub fn counts_in(
     intervals
 }
 
-/// The cells between places in any order; those that are the same are one.
+/// The cells between places given in any order; coinciding places count as one.
 pub fn cells(places: impl Iterator<Item = f64>, same: impl Fn(f64, f64) -> bool) -> Vec<[f64; 2]> {
     let mut places: Vec<f64> = places.collect();
     places.sort_by(f64::total_cmp);
@@ -80,8 +80,8 @@ impl ModeProblemLine {
     /// Number of different solutions of some modes at a parameter where all of them exist.
     ///
     /// Two patterns have the same solution only if the normal forces of all contacts in which they differ
-    /// vanish in both, that is, within their own rounding errors, however small they are beside others, and
-    /// if nothing else [tells their sides](Self::sides_differ).
+    /// vanish in both, that is, are within their own rounding errors, however small they are compared with
+    /// others, and if nothing else [distinguishes their sides](Self::sides_differ).
     pub fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
         if modes.len() < 2 {
             return modes.len();
@@ -100,13 +100,13 @@ impl ModeProblemLine {
         known.len()
     }
 
-    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs;
-    /// none where its determinant vanishes.
+    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` for a contact in its gap, then the outputs;
+    /// `None` if its determinant vanishes.
     pub fn unknowns(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
         self.line(pattern).solution(at)
     }
 
-    /// Signed normal forces of a pattern, 0 in a gap; none where its determinant vanishes.
+    /// Signed normal forces of a pattern, 0 in a gap; `None` if its determinant vanishes.
     pub fn normal_force(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
         let unknowns = self.line(pattern).solution(at)?;
         Some(DVector::from_iterator(

@@ -5,11 +5,11 @@ use nalgebra::{Dyn, LU};
 use super::line::{Cause, Condition, End, Line, Part, Value, pivot_ratio};
 use super::roots::{Reduced, Root};
 
-/// Equations whose pivots differ by more than this are no base point for the others.
+/// Equations whose pivots differ by more than this are not used as a base point for the others.
 const SMALLEST_PIVOT: f64 = 1e-9;
 /// Fractions of the range that are tried as base points.
 const BASE_POINTS: [f64; 6] = [0.0, 0.381_966, 0.763_932, 0.145_898, 0.527_864, 0.909_83];
-/// Places closer than this share of the range are the same.
+/// Places closer than this fraction of the range count as the same.
 const SAME_PLACE: f64 = 1e-14;
 
 /// Where the conditions hold.
@@ -17,7 +17,7 @@ const SAME_PLACE: f64 = 1e-14;
 pub(super) enum Extent {
     /// In these parts, in increasing order.
     Parts(Vec<Part>),
-    /// `det A(t)` vanishes, or is too close to it to tell, for all parameters.
+    /// `det A(t)` vanishes for all parameters, or is too close to zero to tell.
     SingularThroughout,
     /// Eigenvalues could not be computed.
     NotComputed,
@@ -27,7 +27,7 @@ impl Line {
     /// The parts of a range in which all conditions hold.
     ///
     /// A determinant and a Cramer numerator of equations that are linear in `t` are polynomials whose zeros
-    /// are eigenvalues (theory, section 6), so nothing is scanned: the range is cut at the zeros of the
+    /// are eigenvalues (theory, section 6), so no scanning is needed: the range is cut at the zeros of the
     /// determinant, then at those of one condition after the other.
     pub(super) fn extent(&self, conditions: &[Condition], range: [f64; 2]) -> Extent {
         let end = |at| End { at, cause: Cause::Range };
@@ -70,7 +70,7 @@ impl Line {
     }
 }
 
-/// The parts of a range in which all conditions hold; none if eigenvalues could not be computed.
+/// The parts of a range in which all conditions hold; `None` if eigenvalues could not be computed.
 fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
     let signs = reduced.signs(range);
     if signs.exclude() {
@@ -101,7 +101,7 @@ fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
     Some(parts)
 }
 
-/// Cuts parts at roots inside them, that is not within `room` of an end.
+/// Cuts parts at roots inside them, that is, not within `room` of an end.
 fn cut(parts: &mut Vec<Part>, roots: &[Root], cause: &Cause, room: f64) {
     for &Root(at) in roots {
         let inside = |part: &Part| at > part.from.at + room && at < part.to.at - room;
@@ -146,7 +146,7 @@ fn polish(reduced: &Reduced, end: &mut End, inside: f64) {
     }
 }
 
-/// The zero of a function close to `root`; none if it does not change its sign there.
+/// The zero of a function close to `root`; `None` if it does not change sign there.
 fn bisect(root: f64, inside: f64, function: impl Fn(f64) -> f64) -> Option<f64> {
     let mut reach = 1e-13 * (inside - root).abs().max(root.abs());
     let (mut low, mut high) = loop {

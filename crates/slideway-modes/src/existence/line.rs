@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-/// Relative rounding errors up to which an inequality counts as met.
+/// Relative rounding errors up to which an inequality counts as satisfied.
 pub(super) const TOLERANCE: f64 = 1e-11;
-/// How near to a singular end limits are taken, as a fraction of the interval.
+/// How close to a singular end limits are evaluated, as a fraction of the interval.
 const NEAR: [f64; 2] = [1e-5, 1e-7];
-/// Growth between these two places beyond which an unknown grows without bound.
+/// Growth between these two places beyond which an unknown is taken to grow without bound.
 const GROWTH: f64 = 30.0;
 
 /// `A(t) z = b(t)` with `A(t) = A_0 + t A_1` and `b(t) = b_0 + t b_1`.
@@ -54,19 +54,19 @@ pub(super) struct End {
     pub(super) cause: Cause,
 }
 
-/// A part of the line with `det A(t) != 0` and all conditions met inside.
+/// A part of the line with `det A(t) != 0` and all conditions satisfied inside.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Part {
     pub(super) from: End,
     pub(super) to: End,
 }
 
-/// What an unknown does as the parameter approaches an end.
+/// The behaviour of an unknown as the parameter approaches an end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Limit {
     /// It has this limit.
     Finite(f64),
-    /// It grows beyond all bounds, with this sign (1 or -1).
+    /// It grows without bound, with this sign (1 or -1).
     Infinite(f64),
 }
 
@@ -84,7 +84,7 @@ impl Limit {
 
 impl Line {
     /// The same equations and conditions with unknowns in units (powers of two, so that nothing is rounded)
-    /// in which the columns have entries of order one: a coefficient of friction may be very great.
+    /// in which the columns have entries of order one: a friction coefficient may be very large.
     pub(super) fn in_units(&self, conditions: &[Condition], range: [f64; 2]) -> (Self, Vec<Condition>) {
         let reach = range[0].abs().max(range[1].abs());
         let unit = |column: usize| {
@@ -106,7 +106,7 @@ impl Line {
         (line, conditions.collect())
     }
 
-    /// The same equations in the parameter `1 / t`, multiplied by it.
+    /// The same equations, multiplied by the parameter `1 / t` and expressed in it.
     pub(super) fn reversed(&self) -> Self {
         let [m0, m1] = self.matrix.clone();
         let [b0, b1] = self.right_hand_side.clone();
@@ -121,7 +121,7 @@ impl Line {
         &self.right_hand_side[0] + &self.right_hand_side[1] * at
     }
 
-    /// The solution at a parameter; none where the equations are singular.
+    /// The solution at a parameter; `None` if the equations are singular.
     pub(super) fn solution(&self, at: f64) -> Option<DVector<f64>> {
         if self.right_hand_side[0].is_empty() {
             return Some(DVector::zeros(0));
@@ -129,8 +129,8 @@ impl Line {
         self.matrix_at(at).lu().solve(&self.right_hand_side_at(at))
     }
 
-    /// Which unknowns are zero within rounding, at a parameter where the equations are regular: no greater
-    /// than the tolerance times `|A^-1| (|A| |z| + |b|)`, the size of what they are the sum of.
+    /// Which unknowns are zero within rounding, at a parameter where the equations are regular: not greater
+    /// than the tolerance times `|A^-1| (|A| |z| + |b|)`, the size of the terms that they are composed of.
     pub(super) fn vanishes(&self, at: f64) -> Option<Vec<bool>> {
         let (matrix, right) = (self.matrix_at(at), self.right_hand_side_at(at));
         let solution = self.solution(at)?;
@@ -139,7 +139,7 @@ impl Line {
         Some(solution.iter().zip(&size).map(|(value, size)| value.abs() <= TOLERANCE * size).collect())
     }
 
-    /// What every unknown does towards the end of a part, whose other end is given.
+    /// The behaviour of every unknown towards the end of a part, whose other end is given.
     pub(super) fn limits(&self, end: &End, other: f64) -> Option<Vec<Limit>> {
         if end.at.is_infinite() {
             // Columns that do not vary vanish there.
@@ -163,13 +163,13 @@ impl Line {
     }
 }
 
-/// The smallest pivot over the greatest; 1 without equations.
+/// The smallest pivot divided by the greatest; 1 without equations.
 pub(super) fn pivot_ratio(lu: &LU<f64, Dyn, Dyn>) -> f64 {
     let pivots = lu.lu_internal().diagonal();
     if pivots.is_empty() { 1.0 } else { pivots.amin() / pivots.amax() }
 }
 
-/// The value of an inequality, and the rounding errors it may have.
+/// The value of an inequality, and its possible rounding error.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Value {
     pub(super) value: f64,
@@ -177,12 +177,12 @@ pub(super) struct Value {
 }
 
 impl Value {
-    /// Whether the inequality holds, rounding aside.
+    /// Whether the inequality holds, apart from rounding.
     pub(super) fn is_met(self) -> bool {
         self.value >= -TOLERANCE * self.magnitude
     }
 
-    /// Whether it is an equality, rounding aside.
+    /// Whether it is an equality, apart from rounding.
     pub(super) fn vanishes(self) -> bool {
         self.value.abs() <= 10.0 * TOLERANCE * self.magnitude
     }

@@ -1,21 +1,21 @@
 //! Where modes exist: the parameters of a line of mode problems for which each pattern has a solution.
 //!
-//! Along a line every number of the problem is affine in one parameter `t`: one coefficient of friction,
-//! several that are scaled together, a preload, a load. The equations of a pattern are then `A(t) z = b(t)`
-//! with `A(t) = A_0 + t A_1`, `b(t) = b_0 + t b_1`, and where their solution begins or ceases to exist is
-//! known without scanning (theory, section 6): `det A(t)` vanishes where `-1/t` is an eigenvalue of
-//! `A_0^-1 A_1`, and so do Cramer's numerators of the unknowns for a bordered pencil. Only the `m` columns
-//! that vary count, so that the pencils have size `m` and `m + 1`; for `m = 1` the zeros are those of a
-//! linear or quadratic function:
+//! Along a line, every number of the problem is affine in one parameter `t`: one friction coefficient,
+//! several that are scaled together, a preload, or a load. The equations of a pattern are then
+//! `A(t) z = b(t)` with `A(t) = A_0 + t A_1`, `b(t) = b_0 + t b_1`, and where their solution begins or ceases
+//! to exist is found without scanning (theory, section 6): `det A(t)` vanishes where `-1/t` is an eigenvalue
+//! of `A_0^-1 A_1`, and the same holds for Cramer's numerators of the unknowns with a bordered pencil. Only
+//! the `m` columns that vary count, so the pencils have size `m` and `m + 1`; for `m = 1` the zeros are those
+//! of a linear or quadratic function:
 //!
 //! ```text
 //! D(mu) = det(A) (1 + mu v_k),       y_j(mu) = y0_j - mu v_j y0_k / (1 + mu v_k)
 //! ```
 //!
-//! Every end is then polished to machine precision, where it is a simple zero.
+//! Every end that is a simple zero is then polished to machine precision.
 //!
 //! Outputs are further unknowns that are affine in the `y_k`, such as the couples of guided sliders, with
-//! bounds `|output| <= factor * y_k` that a solution has to obey.
+//! bounds `|output| <= factor * y_k` that a solution must satisfy.
 
 mod counts;
 mod extent;
@@ -35,23 +35,23 @@ pub use counts::is_same_end;
 pub use counts::{CountInterval, cells, counts, counts_in};
 pub use line::Limit;
 
-/// Mode problems whose numbers are affine in a parameter `t`: index 0 holds the values at `t = 0`, index 1
-/// what each unit of `t` adds. With `r` contacts and `o` outputs matrices are `(r + o) x r`, the right-hand
-/// side `r + o`.
+/// Mode problems whose numbers are affine in a parameter `t`: index 0 contains the values at `t = 0`, and
+/// index 1 the change per unit of `t`. With `r` contacts and `o` outputs, matrices are `(r + o) x r`, and the
+/// right-hand side has `r + o` entries.
 #[derive(Debug, Clone)]
 pub struct ModeProblemLine {
-    /// Columns `c_k` of each side; below them the negative of what a unit `y_k` adds to each output.
+    /// Columns `c_k` of each side; below them, minus the contribution of one unit of `y_k` to each output.
     pub columns: [BySide<DMatrix<f64>>; 2],
-    /// Jumps `d_k` of each side; below them what the preload friction adds to each output.
+    /// Jumps `d_k` of each side; below them, the contribution of the preload friction to each output.
     pub jumps: [BySide<DMatrix<f64>>; 2],
-    /// `N(0)`; below it the outputs without friction.
+    /// `N(0)`; below it, the outputs without friction.
     pub right_hand_side: [DVector<f64>; 2],
     /// Bounds of the outputs.
     pub bounds: Vec<OutputBound>,
     /// Whether the right-hand side jumps at a contact, so that it has preload-gap states.
     pub has_jump: Vec<bool>,
-    /// Whether both sides of a contact are different states even where `y_k = 0`, by what the problem leaves
-    /// out.
+    /// Whether the two sides of a contact are different states even where `y_k = 0`, because of something
+    /// that the problem does not contain.
     pub sides_differ: Vec<bool>,
 }
 
@@ -66,14 +66,14 @@ pub struct OutputBound {
     pub factor: f64,
 }
 
-/// What to look for.
+/// What to search for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExistenceOptions {
-    /// The values of the parameter. The end may be infinite if the start is positive.
+    /// The range of the parameter. The end may be infinite if the start is positive.
     pub range: [f64; 2],
-    /// Modes count only where no `y_k` exceeds this.
+    /// Modes count only where no `y_k` exceeds this value.
     pub greatest_normal_force: Option<f64>,
-    /// The most patterns that are tried, gap states included.
+    /// The maximum number of patterns that are tried, gap states included.
     pub patterns: u64,
 }
 
@@ -84,7 +84,7 @@ pub enum EndCause {
     Range,
     /// Its determinant vanishes: locking of the mode.
     Locking,
-    /// These contacts have `y_k = 0`: they change their side.
+    /// These contacts have `y_k = 0`: they change sides.
     SideChange(Vec<usize>),
     /// The preload friction of these contacts has moved to one face: the gap closes.
     GapCloses(Vec<usize>),
@@ -92,15 +92,15 @@ pub enum EndCause {
     OutputBound(Vec<usize>),
     /// These contacts reach [`ExistenceOptions::greatest_normal_force`].
     GreatestNormalForce(Vec<usize>),
-    /// A sliding velocity vanishes, so that its friction has no direction and turns round beyond; only where
-    /// the numbers do not depend linearly on the parameter.
+    /// A sliding velocity vanishes, so its friction has no direction and reverses beyond; only if the numbers
+    /// do not depend linearly on the parameter.
     Reversal,
-    /// Beyond it there is no mode problem; only where the numbers do not depend linearly on the parameter.
+    /// Beyond it, there is no mode problem; only if the numbers do not depend linearly on the parameter.
     NoProblem,
 }
 
 impl EndCause {
-    /// Whether all that this names is named by another cause of the same kind.
+    /// Whether everything that this cause names is also named by another cause of the same kind.
     fn is_part_of(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::SideChange(part), Self::SideChange(all))
@@ -121,7 +121,7 @@ pub struct ModeEnd {
     pub at: f64,
     /// Why the mode ends there.
     pub cause: EndCause,
-    /// What each normal force `N_k` does towards this end; nothing where the limit could not be computed.
+    /// The behaviour of each normal force `N_k` towards this end; `None` if the limit could not be computed.
     pub normal_force: Option<Vec<Limit>>,
 }
 
@@ -160,7 +160,7 @@ pub struct TooManyModes {
 }
 
 impl ModeProblemLine {
-    /// The line from one problem to another: `t = 0` and `t = 1`.
+    /// The line from one problem at `t = 0` to another at `t = 1`.
     pub fn between(start: &ModeProblem, end: &ModeProblem) -> Self {
         let by_side = |part: fn(&ModeProblem, Side) -> &DMatrix<f64>| {
             let at = |side| [part(start, side).clone(), part(end, side) - part(start, side)];
@@ -188,8 +188,8 @@ impl ModeProblemLine {
 
     /// The exact intervals in which each pattern has a solution.
     ///
-    /// Patterns come in the order of enumeration, those with preload gaps among them. Isolated values of the
-    /// parameter at which a pattern has a solution are left out.
+    /// Patterns are in the order of enumeration, including those with preload gaps. Isolated values of the
+    /// parameter at which a pattern has a solution are omitted.
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than the options allow.
@@ -217,7 +217,7 @@ impl ModeProblemLine {
         Ok(self.existence_with(options, &mut |_| ControlFlow::Continue(()))?.unwrap_or_default())
     }
 
-    /// [`Self::existence`] with a callback that is called for every pattern; nothing if it breaks.
+    /// [`Self::existence`] with a callback that is called for every pattern; `None` if it breaks.
     ///
     /// # Errors
     /// As [`Self::existence`].
@@ -251,8 +251,8 @@ impl ModeProblemLine {
     }
 
     /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and
-    /// the pattern; none if there is no such parameter. Without jumps every load has exactly one solution up
-    /// to there, if determinants have one orientation at `t = 0` (theory, section 5).
+    /// the pattern; `None` if there is no such parameter. Without jumps, every load has exactly one solution
+    /// up to that parameter, if all determinants have the same orientation at `t = 0` (theory, section 5).
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than `limit`.
@@ -269,8 +269,8 @@ impl ModeProblemLine {
         Ok(first)
     }
 
-    /// The patterns that have a solution at one parameter, in the order of enumeration; those that `goes_on`,
-    /// which is asked before each, lets be tried.
+    /// The patterns that have a solution at one parameter, in the order of enumeration. Only those for which
+    /// `goes_on`, called before each, returns `true` are tried.
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than the options allow.
@@ -292,7 +292,7 @@ impl ModeProblemLine {
     }
 
     /// What vanishes within rounding in the solution of a pattern at a parameter, as the cause by which it
-    /// would end there; [`EndCause::Range`] if nothing does, or its determinant vanishes.
+    /// would end there; [`EndCause::Range`] if nothing does, or if its determinant vanishes.
     pub fn cause_at(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> EndCause {
         let mode = self.mode(pattern, options);
         let Some(unknowns) = mode.line.solution(at) else { return EndCause::Range };
@@ -300,8 +300,8 @@ impl ModeProblemLine {
         if vanishing.is_empty() { EndCause::Range } else { mode.cause(&Cause::Conditions(vanishing)) }
     }
 
-    /// Why a pattern that has a solution here has none in a problem close by, both at `t = 0`; none where its
-    /// determinant changes its sign between them.
+    /// Why a pattern that has a solution here has none in a nearby problem, both at `t = 0`; `None` if its
+    /// determinant changes sign between them.
     pub fn cause(
         &self,
         beyond: &Self,
@@ -317,8 +317,8 @@ impl ModeProblemLine {
         (!violated.is_empty()).then(|| there.cause(&Cause::Conditions(violated)))
     }
 
-    /// What vanishes where a mode ends for this reason, positive where the mode exists but for the sign of a
-    /// determinant; none where its equations are singular.
+    /// The quantity that vanishes where a mode ends for this reason, positive where the mode exists, apart
+    /// from the sign of a determinant; `None` if its equations are singular.
     pub fn slack(
         &self,
         pattern: &[ContactState],
@@ -339,7 +339,7 @@ impl ModeProblemLine {
         concerned.map(value).reduce(f64::min)
     }
 
-    /// All patterns in the order of enumeration: the first contact varies slowest.
+    /// All patterns in the order of enumeration, with the first contact varying slowest.
     fn patterns(&self, limit: u64) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
         let with_jump = self.has_jump.iter().filter(|&&jump| jump).count();
         let contacts = self.contacts();
@@ -361,7 +361,7 @@ impl ModeProblemLine {
         Ok(patterns)
     }
 
-    /// The equations of one pattern. Unknowns: `y_k`, or the share `lambda_k` of a contact in its gap, then
+    /// The equations of one pattern. Unknowns: `y_k`, or the share `lambda_k` for a contact in its gap, then
     /// the outputs.
     fn line(&self, pattern: &[ContactState]) -> Line {
         let size = self.right_hand_side[0].len();
@@ -416,11 +416,11 @@ impl ModeProblemLine {
     }
 }
 
-/// In a range without end, places farther out than the inverse of this, relative to its start, count as
+/// In an unbounded range, places farther out than the inverse of this, relative to its start, count as
 /// infinite.
 const INFINITY: f64 = 1e-6;
 
-/// What a condition says.
+/// The meaning of a condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Meaning {
     /// `y_k >= 0`.
@@ -441,11 +441,11 @@ struct Mode<'p> {
     meanings: Vec<Meaning>,
 }
 
-/// No second unknown in a condition.
+/// Stands for no second unknown in a condition.
 const NONE: (usize, f64) = (0, 0.0);
 
 impl Mode<'_> {
-    /// The conditions that a solution contradicts.
+    /// The conditions that a solution violates.
     fn violated(&self, unknowns: &DVector<f64>) -> Vec<usize> {
         self.conditions_where(unknowns, |value| !value.is_met())
     }
@@ -470,8 +470,8 @@ impl Mode<'_> {
         self.meanings.push(meaning);
     }
 
-    /// Where the mode exists. Up to infinity the equations are taken with the parameter `u = 1/t`: multiplied
-    /// by `u` they have the same solution.
+    /// Where the mode exists. Up to infinity, the equations are expressed in the parameter `u = 1/t`:
+    /// multiplied by `u`, they have the same solution.
     fn extent(&self, range: [f64; 2]) -> Extent {
         if range[1].is_finite() {
             return self.line.extent(&self.conditions, range);
@@ -508,7 +508,8 @@ impl Mode<'_> {
         ModeEnd { at: end.at, cause: self.cause(&end.cause), normal_force }
     }
 
-    /// The cause in terms of contacts; what tips or changes side counts before what merely reaches a limit.
+    /// The cause in terms of contacts; tipping and changes of side take precedence over merely reaching a
+    /// limit.
     fn cause(&self, cause: &Cause) -> EndCause {
         let conditions = match cause {
             Cause::Range => return EndCause::Range,

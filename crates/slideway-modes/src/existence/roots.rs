@@ -4,19 +4,20 @@ use nalgebra::{Complex, DMatrix, DVector, Dyn, LU, Schur};
 
 use super::line::{Condition, Line, Value, pivot_ratio};
 
-/// An eigenvalue with an imaginary part below this share of it may be a double real one.
+/// An eigenvalue whose imaginary part is below this fraction of it may be a double real one.
 const REAL: f64 = 1e-5;
-/// Tolerances of the iteration for eigenvalues, which are polished afterwards: greater ones where it fails.
+/// Tolerances of the iteration for eigenvalues, which are polished afterwards: larger ones are used if it
+/// fails.
 const TOLERANCES: [f64; 3] = [f64::EPSILON, 8.0 * f64::EPSILON, 64.0 * f64::EPSILON];
-/// Steps of the iteration for eigenvalues, for each of them.
+/// Iteration steps per eigenvalue.
 const STEPS: usize = 300;
 
 /// A parameter at which a function may vanish.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) struct Root(pub(super) f64);
 
-/// The equations reduced to the `m` columns that vary. With `tau = t - base`, `X = A(base)^-1 A_1` of those
-/// columns, `K` the rows of `X` that belong to them and `z_0`, `z_1` the solutions for `b(base)` and `b_1`,
+/// The equations reduced to the `m` columns that vary. With `tau = t - base`, `X = A(base)^-1 A_1` for those
+/// columns, `K` the rows of `X` that belong to them, and `z_0`, `z_1` the solutions for `b(base)` and `b_1`,
 ///
 /// ```text
 /// z = z_0 + tau z_1 - tau X (I + tau K)^-1 (z_0 + tau z_1)_varying,     det A(t) = det A(base) det(I + tau K)
@@ -35,7 +36,7 @@ pub(super) struct Reduced {
 }
 
 impl Reduced {
-    /// Reduces the equations at a base point with the factorization given.
+    /// Reduces the equations at a base point with the given factorization.
     pub(super) fn new(
         line: &Line,
         conditions: &[Condition],
@@ -73,7 +74,7 @@ impl Reduced {
         self.magnitudes.len()
     }
 
-    /// The conditions, those first that most places of the range contradict.
+    /// The conditions, ordered so that those violated at most places of the range come first.
     pub(super) fn order(&self, range: [f64; 2]) -> Vec<usize> {
         let places = [0.13, 0.41, 0.66, 0.94].map(|fraction| range[0] + fraction * (range[1] - range[0]));
         let met = |condition: usize| {
@@ -93,7 +94,7 @@ impl Reduced {
         DMatrix::identity(self.k.nrows(), self.k.nrows()) + &self.k * tau
     }
 
-    /// The value of a condition; none where the equations are singular.
+    /// The value of a condition; `None` if the equations are singular.
     pub(super) fn value(&self, condition: usize, at: f64) -> Option<Value> {
         let tau = at - self.base;
         let constant = self.values[0][condition];
@@ -120,15 +121,15 @@ impl Reduced {
         value.is_finite().then_some(Value { value, magnitude })
     }
 
-    /// Where `det A(t)` may vanish: `tau = -1 / (eigenvalue of K)`.
-    /// None if the eigenvalues could not be computed.
+    /// Where `det A(t)` may vanish: `tau = -1 / (eigenvalue of K)`. `None` if the eigenvalues could not be
+    /// computed.
     pub(super) fn poles(&self) -> Option<Vec<Root>> {
         let places = reciprocals(&self.k)?.into_iter().map(|tau| Root(self.base + tau));
         Some(sorted(places.collect()))
     }
 
     /// Where a condition may vanish: zeros of `(w . z + offset) det(I + tau K)`, the determinant of
-    /// `[[I + tau K, source], [tau w . X, value]]`. None if the eigenvalues could not be computed.
+    /// `[[I + tau K, source], [tau w . X, value]]`. `None` if the eigenvalues could not be computed.
     pub(super) fn zeros(&self, condition: usize) -> Option<Vec<Root>> {
         let [constant, linear] = [0, 1].map(|power| self.values[power][condition]);
         let taus = match self.k.nrows() {
@@ -143,7 +144,7 @@ impl Reduced {
         Some(sorted(taus.into_iter().map(|tau| Root(self.base + tau)).collect()))
     }
 
-    /// Zeros of `det(P + tau Q)`, shifted to where `P` is regular.
+    /// Zeros of `det(P + tau Q)`, shifted to a place where `P` is regular.
     fn pencil_zeros(&self, condition: usize) -> Option<Vec<f64>> {
         let size = self.k.nrows();
         let mut constant = DMatrix::identity(size + 1, size + 1);
@@ -154,7 +155,7 @@ impl Reduced {
             matrix.view_mut((0, size), (size, 1)).copy_from(&self.sources[power]);
             matrix[(size, size)] = self.values[power][condition];
         }
-        // The last column has the unit of the load: scaling it moves no zero.
+        // The last column has the unit of the load: scaling it does not move any zero.
         let scale = constant.column(size).amax().max(slope.column(size).amax());
         if scale == 0.0 || !scale.is_finite() {
             return Some(Vec::new());
@@ -193,7 +194,8 @@ fn reciprocals(matrix: &DMatrix<f64>) -> Option<Vec<f64>> {
         let value = matrix[(0, 0)];
         return Some(if value == 0.0 { Vec::new() } else { vec![-value.recip()] });
     }
-    // The iteration fails now and then for no fault of the matrix: its transpose has the same eigenvalues.
+    // The iteration occasionally fails without any defect of the matrix: its transpose has the same
+    // eigenvalues.
     let attempts = TOLERANCES.iter().flat_map(|&tolerance| {
         [matrix.clone(), matrix.transpose()].map(|matrix| Schur::try_new(matrix, tolerance, STEPS * size))
     });

@@ -1,26 +1,27 @@
-//! Signs that a determinant and Cramer numerators keep throughout a range: where a sign is certain there is
-//! no zero to look for.
+//! Signs that a determinant and Cramer numerators keep throughout a range: if a sign is certain, there is no
+//! zero to search for.
 
 use super::line::TOLERANCE;
 use super::roots::Reduced;
 use nalgebra::{DMatrix, DVector};
 
-/// Most varying columns for which polynomials are made.
+/// Maximum number of varying columns for which polynomials are formed.
 const MOST_COLUMNS: usize = 4;
-/// Coefficients of the polynomials: a numerator has a degree of one more than there are varying columns.
+/// Number of coefficients of the polynomials: the degree of a numerator is one more than the number of
+/// varying columns.
 const LENGTH: usize = MOST_COLUMNS + 2;
 
 /// Coefficients, the constant first.
 type Polynomial = [f64; LENGTH];
 
-/// 1 or -1; none if the sign changes or is too close to doing so to tell.
+/// 1 or -1; `None` if the sign changes, or is too close to changing to tell.
 type CertainSign = Option<f64>;
 
 /// Signs throughout a range.
 pub(super) struct Signs {
-    /// That of `det(I + tau K)`.
+    /// The sign of `det(I + tau K)`.
     pub(super) determinant: CertainSign,
-    /// Those of the conditions' numerators, which are their values times that determinant.
+    /// The signs of the conditions' numerators, which are their values times that determinant.
     pub(super) numerators: Vec<CertainSign>,
 }
 
@@ -63,7 +64,8 @@ impl Expansion {
 }
 
 impl Reduced {
-    /// The signs in a range that holds the base point; nothing is certain with many varying columns.
+    /// The signs in a range that contains the base point; nothing is certain if there are many varying
+    /// columns.
     pub(super) fn signs(&self, range: [f64; 2]) -> Signs {
         let columns = self.k.nrows();
         if columns > MOST_COLUMNS {
@@ -108,8 +110,8 @@ impl Reduced {
     }
 }
 
-/// The sign of a polynomial throughout an interval, whose terms have this size: that of all its Bernstein
-/// coefficients.
+/// The sign of a polynomial whose terms have this size, throughout an interval: the common sign of all its
+/// Bernstein coefficients.
 fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64) -> CertainSign {
     let mut shifted = *polynomial;
     // Horner's scheme: in powers of tau - from.
@@ -118,8 +120,8 @@ fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64)
             shifted[power] += from * shifted[power + 1];
         }
     }
-    // In powers of s = (tau - from) / (to - from), divided by binomial coefficients; then Bernstein
-    // coefficients are sums of (i over k) times those.
+    // In powers of s = (tau - from) / (to - from), divided by binomial coefficients; the Bernstein
+    // coefficients are then sums of (i over k) times these.
     let mut scale = 1.0;
     for (power, coefficient) in shifted.iter_mut().enumerate().take(degree + 1) {
         *coefficient *= scale;
@@ -134,7 +136,7 @@ fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64)
         shifted[..=degree].iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), &one| {
             (least.min(one), greatest.max(one))
         });
-    // A condition counts as violated from its tolerance on.
+    // A condition counts as violated beyond its tolerance.
     let slack = 4.0 * TOLERANCE * size;
     if least > slack {
         Some(1.0)
@@ -159,7 +161,7 @@ mod tests {
         }
     }
 
-    /// The oracle are determinants and solutions by elimination at many places.
+    /// The oracle consists of determinants and solutions computed by elimination at many places.
     #[test]
     fn certain_signs_are_those_of_determinants_and_solutions() {
         let mut random = random_numbers();
@@ -203,7 +205,8 @@ mod tests {
         assert!(certain > 3000 && open > 500 && excluded > 500, "{certain}, {open}, {excluded}");
     }
 
-    /// (1 - tau)(3 - tau) touches or crosses zero in intervals with 1 or 3, and is negative between them.
+    /// (1 - tau)(3 - tau) touches or crosses zero in intervals containing 1 or 3, and is negative between
+    /// them.
     #[test]
     fn signs_of_a_parabola() {
         let parabola = [3.0, -4.0, 1.0, 0.0, 0.0, 0.0];

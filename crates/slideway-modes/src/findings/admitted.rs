@@ -1,4 +1,4 @@
-//! What a singular pattern admits, as it is filed.
+//! What a singular pattern admits, as it is recorded.
 
 use dashu_ratio::RBig;
 
@@ -11,8 +11,8 @@ use crate::solutions::{GapShare, Support};
 pub(crate) struct Admitted {
     pub(crate) set: SolutionSet,
     pub(crate) support: Support,
-    /// The mean of the shares at the vertices, which is one of the states, where all have the same normal
-    /// forces.
+    /// If all states have the same normal forces: the mean of the shares at the vertices, which is one of the
+    /// states.
     pub(crate) shares: Vec<GapShare>,
     /// Whether states with the same normal forces differ in their shares.
     pub(crate) shares_vary: bool,
@@ -20,7 +20,7 @@ pub(crate) struct Admitted {
 
 impl Admitted {
     /// From the normal forces, the number of vertices with their shares, and the mean share of a contact at
-    /// these.
+    /// these vertices.
     pub(crate) fn new(
         pattern: &[ContactState],
         (set, support): (SolutionSet, Support),
@@ -32,13 +32,13 @@ impl Admitted {
         Self { set, support, shares, shares_vary: is_point && vertices > 1 }
     }
 
-    /// Nothing is known of it.
+    /// Nothing is known about it.
     pub(crate) fn not_computed(contacts: usize) -> Self {
         let (set, support) = (SolutionSet::NotComputed, Support::none_of(contacts));
         Self { set, support, shares: Vec::new(), shares_vary: false }
     }
 
-    /// From all solutions of the equations, exactly.
+    /// From all exact solutions of the equations.
     pub(crate) fn exactly(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
         let support = Support::of_exact_set(pattern, set, has_jump);
         let vertices = set.vertices();

@@ -8,29 +8,29 @@ use crate::solutions::ContactSet;
 
 /// Values within this fraction of the largest `y` (or of 1 for a share) count as zero.
 const ZERO: f64 = 1e-12;
-/// Factor on the unit roundoff in the bound of rounding errors.
+/// Factor on the unit roundoff in the bound on rounding errors.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The solution of one pattern's equations, in the problem's own units.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
-    /// `y_k`, or `lambda_k` in a gap; those that count as zero (or a share as one) are exactly that.
+    /// `y_k`, or `lambda_k` in a gap; those that count as zero (or a share as one) are set to exactly that.
     pub(crate) unknowns: DVector<f64>,
     /// Contacts with `y_k = 0`.
     pub(crate) zero: ContactSet,
     /// Contacts in the gap with a share of 0 or 1.
     pub(crate) at_end: ContactSet,
-    /// No `y_k < 0`, no share outside of 0 to 1.
+    /// Whether no `y_k` is negative and no share is outside 0 to 1.
     pub(crate) admissible: bool,
     pub(crate) determinant: f64,
     /// Largest error bound among the `y_k`.
     pub(crate) tolerance: f64,
-    /// Condition number of the scaled matrix, in the norm of row sums.
+    /// Condition number of the scaled matrix, in the row-sum norm.
     pub(crate) condition: f64,
 }
 
-/// Solves the equations of a pattern by LU with partial pivoting and one step of iterative
-/// refinement; none if the matrix is exactly singular or numbers overflow, or once `proceed` is false.
+/// Solves the equations of a pattern by LU with partial pivoting and one step of iterative refinement; `None`
+/// if the matrix is exactly singular or numbers overflow, or once `proceed` is `false`.
 pub(crate) fn solve_pattern(
     problem: &ScaledProblem,
     pattern: &[ContactState],
@@ -52,7 +52,7 @@ pub(crate) fn solve_pattern(
     Some(Candidate { determinant: unscaled_determinant(problem, pattern, &factors), condition, ..candidate })
 }
 
-/// `D` of a pattern; none once `proceed` is false.
+/// `D` of a pattern; `None` once `proceed` is `false`.
 pub(crate) fn determinant(
     problem: &ScaledProblem,
     pattern: &[ContactState],
@@ -103,8 +103,7 @@ fn largest_row_sum(matrix: &DMatrix<f64>) -> f64 {
     matrix.row_iter().fold(0.0, |most: f64, row| most.max(row.abs().sum()))
 }
 
-/// `det C` of the unscaled matrix, as the product of scaled pivots so that nothing overflows that
-/// need not.
+/// `det C` of the unscaled matrix, as the product of scaled pivots, to avoid unnecessary overflow.
 fn unscaled_determinant(problem: &ScaledProblem, pattern: &[ContactState], factors: &Lu) -> f64 {
     let pivots = factors.pivots();
     let scaled = pattern

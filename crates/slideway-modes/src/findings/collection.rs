@@ -1,4 +1,4 @@
-//! Collects what the tree finds: merges what several patterns share, and counts every pattern.
+//! Collects what the tree finds: merges solutions that several patterns share, and counts every pattern.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -14,7 +14,7 @@ use crate::solutions::{
     Solutions, Support, UndecidedPattern, oriented,
 };
 
-/// How many patterns close to locking are reported.
+/// Number of patterns close to locking that are reported.
 const CLOSEST: usize = 4;
 /// A pattern whose matrix has a condition number above this may be singular.
 pub(crate) const SUSPECT_CONDITION: f64 = 1e7;
@@ -25,8 +25,8 @@ pub(crate) struct TooManySolutions {
     pub(crate) limit: usize,
 }
 
-/// What patterns with the same boundary solution have in common: the states of contacts that are
-/// not free to change their side, and which ones are.
+/// What patterns with the same boundary solution have in common: the states of the contacts that are not free
+/// to change sides, and which contacts are free.
 #[derive(PartialEq, Eq, Hash)]
 struct SharedPattern {
     states: Vec<ContactState>,
@@ -41,11 +41,11 @@ pub(crate) struct Findings<'a> {
     found: Vec<Found>,
     shared: HashMap<SharedPattern, usize>,
     singular: Vec<SingularMode>,
-    /// Places in `singular` of non-empty sets. What patterns admit are faces of one polyhedron, so that those
-    /// with the same support are one set.
+    /// Indices in `singular` of nonempty sets. The sets that patterns admit are faces of one polyhedron, so
+    /// those with the same support are equal.
     singular_places: HashMap<Support, usize>,
     pub(crate) undecided: Vec<UndecidedPattern>,
-    /// Whether what is found is exact but for rounding, so that nothing is merged within tolerances.
+    /// Whether findings are exact apart from rounding, so that nothing is merged within tolerances.
     exact: bool,
     pub(crate) examined: usize,
     pub(crate) bases: u64,
@@ -71,17 +71,17 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// Whether as many (nearly) singular patterns have been examined as may be.
+    /// Whether the maximum number of (nearly) singular patterns has been examined.
     pub(crate) fn has_examined_enough(&self) -> bool {
         self.examined >= self.limits.singular
     }
 
-    /// Whether a pattern may be singular, within tolerances; also once `proceed` is false.
+    /// Whether a pattern may be singular, within tolerances; also `true` once `proceed` is `false`.
     pub(crate) fn is_suspect(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
         solve_pattern(self.problem, pattern, proceed).is_none_or(|found| found.condition >= SUSPECT_CONDITION)
     }
 
-    /// Whatever is filed is proven for exact data: nothing is merged within tolerances.
+    /// Everything recorded is proven for exact data: nothing is merged within tolerances.
     pub(crate) fn exact(self) -> Self {
         Self { exact: true, ..self }
     }
@@ -90,12 +90,12 @@ impl<'a> Findings<'a> {
         if pattern.contains(&ContactState::Gap) { &mut self.gap_counts } else { &mut self.counts }
     }
 
-    /// How many solutions, gap states and singular sets have been found so far.
+    /// Number of solutions, gap states and singular sets found so far.
     pub(crate) fn found(&self) -> usize {
         self.found.len() + self.singular.len() + self.undecided.len()
     }
 
-    /// Puts what was found into the order of enumeration, whatever the order it was found in.
+    /// Sorts the findings into the order of enumeration, whatever the order in which they were found.
     pub(crate) fn sort(&mut self) {
         self.found.sort_by(|one, other| one.pattern().cmp(other.pattern()));
         self.singular.sort_by(|one, other| one.pattern.cmp(&other.pattern));
@@ -132,7 +132,7 @@ impl<'a> Findings<'a> {
         self.closest.truncate(CLOSEST);
     }
 
-    /// Solves a pattern carefully and files its outcome.
+    /// Solves a pattern carefully and records its outcome.
     pub(crate) fn examine_candidate(
         &mut self,
         pattern: &[ContactState],
@@ -145,8 +145,8 @@ impl<'a> Findings<'a> {
         self.file_candidate(pattern, candidate)
     }
 
-    /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
-    /// What a singular pattern admits is left open once `proceed` is false.
+    /// Decides one pattern: solved carefully if it is well-conditioned, otherwise examined more closely. What
+    /// a singular pattern admits is left open once `proceed` is `false`.
     pub(crate) fn examine_leaf(
         &mut self,
         pattern: &[ContactState],
@@ -164,7 +164,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// A closer look at a pattern that may be singular.
+    /// Examines a pattern that may be singular more closely.
     pub(crate) fn examine_suspect(
         &mut self,
         pattern: &[ContactState],
@@ -194,7 +194,7 @@ impl<'a> Findings<'a> {
         Ok(())
     }
 
-    /// Files a solution.
+    /// Records a solution.
     pub(crate) fn file_admissible(
         &mut self,
         pattern: &[ContactState],
@@ -218,8 +218,8 @@ impl<'a> Findings<'a> {
         Ok(())
     }
 
-    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False
-    /// if it has not, or if there are loads.
+    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. Returns
+    /// `false` if it has not been found, or if there are loads.
     pub(crate) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
         let [zero] = &mut self.found[..] else { return false };
         if self.problem.load_size().amax() != 0.0 {
@@ -238,7 +238,8 @@ impl<'a> Findings<'a> {
         let key = SharedPattern { states: canonical(pattern, &free), free };
         let new = Found::new(pattern, candidate, certificate);
         match self.shared.get(&key) {
-            // Contacts that are exactly zero drop out of the equations, and the others have the same.
+            // Contacts that are exactly zero drop out of the equations, and the other contacts have the same
+            // equations.
             Some(&index) if self.exact || self.found[index].agrees_with(&new) => {
                 self.found[index].absorb(new, self.limits.listed);
             }
@@ -249,7 +250,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// Contacts with `y_k = 0` at which the right-hand side does not jump: either side will do.
+    /// Contacts with `y_k = 0` at which the right-hand side does not jump: they may be on either side.
     fn free_contacts(&self, candidate: &Candidate) -> ContactSet {
         let mut free = candidate.zero.clone();
         let jumps = self.problem.has_jump.iter().enumerate().filter(|(_, jump)| **jump);
@@ -257,7 +258,7 @@ impl<'a> Findings<'a> {
         free
     }
 
-    /// Examines one by one all patterns that share the states of the contacts before `first`.
+    /// Examines individually all patterns with the given states of the contacts before `first`.
     pub(crate) fn examine_all_below(
         &mut self,
         pattern: &mut [ContactState],
@@ -357,8 +358,8 @@ impl<'a> Findings<'a> {
         if self.exact { one == other } else { same_point(one, other) }
     }
 
-    /// Merges boundary solutions with the solution of a neighbour that was not quite on the
-    /// boundary by its own tolerance.
+    /// Merges boundary solutions with the solution of a neighbour that was not quite on the boundary within
+    /// its own tolerance.
     fn merge_neighbours(&mut self) {
         let merged = self.merging_neighbours();
         if merged.iter().all(Option::is_none) {
@@ -379,8 +380,8 @@ impl<'a> Findings<'a> {
         self.found = kept;
     }
 
-    /// For each finding an earlier one that it agrees with, and from which it differs only in
-    /// contacts that are free in one of the two.
+    /// For each finding, an earlier one with which it agrees and from which it differs only in contacts that
+    /// are free in one of the two.
     fn merging_neighbours(&self) -> Vec<Option<usize>> {
         let free: Vec<ContactSet> =
             self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
@@ -400,14 +401,14 @@ impl<'a> Findings<'a> {
         merged
     }
 
-    /// Whether a gap state with a share of 0 or 1 is reported already: as a solution, as a gap state
-    /// with fewer gaps, or as a vertex of what a singular pattern admits.
+    /// Whether a gap state with a share of 0 or 1 is already reported: as a solution, as a gap state with
+    /// fewer gaps, or as a vertex of what a singular pattern admits.
     fn is_known(&self, gap: &Found, ordinary: &[Found], gaps: &[Found]) -> bool {
         if gap.candidate.at_end.is_empty() {
             return false;
         }
         let mut vertices = self.singular.iter().flat_map(|mode| mode.set.vertices());
-        // What is exactly at its end solves the equations at that face, which have one solution.
+        // A state that is exactly at its end solves the equations at that face, which have one solution.
         let ends_at = |other: &Found| {
             gap.closes_to(other, &self.problem.has_jump) && (self.exact || gap.agrees_with(other))
         };
@@ -426,7 +427,7 @@ impl<'a> Findings<'a> {
     }
 }
 
-/// Marks what is part of a larger set.
+/// Marks states that are part of a larger set.
 fn mark_parts(solutions: &mut [ModeSolution], gaps: &mut [GapState], singular: &mut [SingularMode]) {
     let sets = singular.iter().filter(|mode| mode.set.is_continuum() || mode.shares_vary);
     let mut supports: Vec<&Support> = sets.map(|mode| &mode.support).collect();

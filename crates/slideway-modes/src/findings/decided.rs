@@ -1,4 +1,4 @@
-//! Files what proofs say of patterns.
+//! Records the proven outcomes of patterns.
 
 use crate::certificate::{Decision, ExactSet};
 use crate::findings::admitted::Admitted;
@@ -12,13 +12,13 @@ use crate::solutions::{Certificate, ContactSet, UndecidedPattern};
 /// Whether a decision settled a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Filed {
-    /// As it was decided.
+    /// Recorded as decided.
     Proven,
-    /// Within tolerances, since what the pattern admits takes too much work to describe exactly.
+    /// Recorded within tolerances, because what the pattern admits takes too much work to describe exactly.
     NotProven,
 }
 
-/// What the middle of the bounds says of a pattern that is not decided within them.
+/// The outcome, at the midpoint of the bounds, of a pattern that is undecided within them.
 enum Centre {
     Solution(Candidate),
     Set(Admitted),
@@ -27,7 +27,8 @@ enum Centre {
 }
 
 impl Findings<'_> {
-    /// Files a pattern by its decision. What is not known yet is left open once `proceed` is false.
+    /// Records a pattern according to its decision. What is not yet known is left open once `proceed` is
+    /// `false`.
     pub(crate) fn file_decision(
         &mut self,
         pattern: &[ContactState],
@@ -70,8 +71,8 @@ impl Findings<'_> {
         Ok(Filed::Proven)
     }
 
-    /// Files a pattern whose outcome differs between values within bounds: as a state if it is one in
-    /// their middle.
+    /// Records a pattern whose outcome differs between values within bounds: as a state if it is one at the
+    /// midpoint.
     fn file_undecided(
         &mut self,
         pattern: &[ContactState],
@@ -104,7 +105,7 @@ impl Findings<'_> {
         }
     }
 
-    /// What the pattern admits in the middle of the bounds, within tolerances.
+    /// What the pattern admits at the midpoint of the bounds, within tolerances.
     fn centre(&mut self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> Centre {
         let judged = |candidate: Candidate| {
             if candidate.admissible { Centre::Solution(candidate) } else { Centre::Nothing }
@@ -124,8 +125,8 @@ impl Findings<'_> {
         }
     }
 
-    /// The solution in the middle of its enclosure; contacts on a boundary are left to the caller. The
-    /// pattern is left unexamined once `proceed` is false.
+    /// The solution at the midpoint of its enclosure; the caller handles contacts on a boundary. The pattern
+    /// is left unexamined once `proceed` is `false`.
     fn candidate(
         &mut self,
         pattern: &[ContactState],

@@ -1,4 +1,4 @@
-//! Singular patterns: what they admit.
+//! What singular patterns admit.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,16 +7,16 @@ use crate::findings::admitted::Admitted;
 use crate::problem::{ContactState, ScaledProblem, SolutionSet};
 use crate::solutions::Support;
 
-/// A pivot below this, with columns scaled to a largest entry of 1, is zero.
+/// A pivot below this counts as zero, with columns scaled to a largest entry of 1.
 const ZERO_PIVOT: f64 = 1e-12;
 /// Equations that hold to this are consistent.
 const CONSISTENT: f64 = 1e-10;
-/// Values above minus this fraction of the largest are not negative.
+/// Values above minus this fraction of the largest count as nonnegative.
 const NON_NEGATIVE: f64 = 1e-9;
-/// Points closer than this fraction of their size are one point.
+/// Points closer than this fraction of their size count as one point.
 const SAME_POINT: f64 = 1e-8;
 
-/// The outcome of a closer look at a suspect pattern.
+/// The outcome of a closer examination of a suspect pattern.
 pub(crate) enum Examined {
     /// It is regular.
     Regular,
@@ -24,8 +24,8 @@ pub(crate) enum Examined {
     Singular(Admitted),
 }
 
-/// Whether a pattern is singular, by elimination with complete pivoting, and what it admits.
-/// `bases` is the work that is left and gets less. Nothing is computed once `proceed` is false.
+/// Determines by elimination with complete pivoting whether a pattern is singular, and what it admits.
+/// `bases` is the remaining work and is reduced. Nothing is computed once `proceed` is `false`.
 pub(crate) fn examine(
     problem: &ScaledProblem,
     pattern: &[ContactState],
@@ -51,7 +51,7 @@ pub(crate) fn examine(
         corners.iter().map(|corner| corner[contact]).sum::<f64>()
             / (corners.len() as f64 * column_sizes[contact])
     };
-    // Signed normal forces from scaled unknowns; shares and their complements are left out.
+    // Signed normal forces from scaled unknowns; shares and their complements are omitted.
     let normal_force = |unknowns: &DVector<f64>| {
         DVector::from_fn(contacts, |contact, _| {
             pattern[contact].sign() * unknowns[contact] * problem.load_unit / column_sizes[contact]
@@ -65,7 +65,7 @@ pub(crate) fn examine(
     Examined::Singular(Admitted::new(pattern, (set, support), (corners.len(), &mean_share)))
 }
 
-/// Divides every column by its largest entry, and returns these (1 for a zero column).
+/// Divides every column by its largest entry, and returns these entries (1 for a zero column).
 fn scale_columns(matrix: &mut DMatrix<f64>) -> Vec<f64> {
     matrix
         .column_iter_mut()
@@ -91,7 +91,7 @@ fn with_share_limits(
     let mut extended_right = right_hand_side.clone().resize_vertically(size, 0.0);
     for (index, &contact) in in_gap.iter().enumerate() {
         let row = contacts + index;
-        // With z = size lambda as unknown: z + z' = size, each divided by size.
+        // With z = size lambda as the unknown: z + z' = size, with each divided by size.
         extended[(row, contact)] = column_sizes[contact].recip();
         extended[(row, row)] = 1.0;
         extended_right[row] = 1.0;
@@ -108,13 +108,13 @@ fn augment(matrix: &DMatrix<f64>, right_hand_side: &DVector<f64>) -> DMatrix<f64
 
 /// Equations reduced to independent ones by Gauss-Jordan elimination with complete pivoting.
 struct IndependentEquations {
-    /// The independent equations first, right-hand side last.
+    /// The independent equations first, with the right-hand side last.
     table: DMatrix<f64>,
     basic: Vec<usize>,
 }
 
 impl IndependentEquations {
-    /// None once `proceed` is false.
+    /// `None` once `proceed` is `false`.
     fn new(mut table: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
         let mut pace = Pace::new(proceed);
         let unknowns = table.ncols() - 1;
@@ -157,15 +157,15 @@ impl IndependentEquations {
     }
 }
 
-/// `{z >= 0, A z = b}` by its vertices and extreme directions. It has no lines, so it is empty
-/// exactly if it has no vertex.
+/// `{z >= 0, A z = b}` by its vertices and extreme directions. It contains no lines, so it is empty exactly
+/// if it has no vertex.
 struct Polyhedron {
     vertices: Vec<DVector<f64>>,
     directions: Vec<DVector<f64>>,
 }
 
 impl Polyhedron {
-    /// None if there are more bases to try than `bases` allows, or once `proceed` is false.
+    /// `None` if there are more bases to try than `bases` allows, or once `proceed` is `false`.
     fn new(
         matrix: &DMatrix<f64>,
         right_hand_side: &DVector<f64>,
@@ -192,8 +192,8 @@ impl Polyhedron {
     }
 }
 
-/// All points `z >= 0` that solve the independent equations with as many non-zero unknowns as there
-/// are equations; none once `proceed` is false.
+/// All points `z >= 0` that solve the independent equations with as many nonzero unknowns as there are
+/// equations; `None` once `proceed` is `false`.
 fn basic_feasible_points(
     equations: &DMatrix<f64>,
     proceed: &mut dyn FnMut() -> bool,

@@ -1,4 +1,4 @@
-//! One solution or gap state on the way to the result.
+//! A solution or gap state while results are being collected.
 
 use nalgebra::DVector;
 
@@ -16,7 +16,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// The candidate of a pattern.
+    /// From the candidate of a pattern.
     pub(crate) fn new(pattern: &[ContactState], candidate: Candidate, certificate: Certificate) -> Self {
         let signed = pattern.iter().zip(&candidate.unknowns).map(|(state, value)| state.sign() * value);
         let normal_force = DVector::from_iterator(pattern.len(), signed);
@@ -114,8 +114,8 @@ impl Found {
         }
     }
 
-    /// What may be a state of its own for some values within bounds, though in their middle it is another
-    /// one.
+    /// A state that may be separate for some values within bounds, although it coincides with another one at
+    /// their midpoint.
     pub(crate) fn into_undecided(self) -> Option<UndecidedPattern> {
         let Certificate::OnBoundaryWithinBounds { unknowns, in_doubt } = self.certificate else {
             return None;
@@ -131,7 +131,7 @@ pub(crate) fn sides(pattern: &[ContactState]) -> Vec<Side> {
 }
 
 impl Certificate {
-    /// Adds what is known of another pattern with the same solution.
+    /// Adds what is known about another pattern with the same solution.
     fn absorb(&mut self, other: Self) {
         let (
             Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), in_doubt },

@@ -1,9 +1,9 @@
-//! What patterns admit, gathered: solutions that several patterns share are one, and every pattern is
+//! Collects what patterns admit: a solution shared by several patterns is recorded once, and every pattern is
 //! counted.
 //!
-//! `collection.rs` gathers, `found.rs` is one state on the way; a pattern is filed as it is decided by proof
-//! (`decided.rs`), or within tolerances: `candidate.rs` solves a regular one, `degenerate.rs` looks closer at
-//! a singular one, and `admitted.rs` is what that admits.
+//! `collection.rs` collects the findings; `found.rs` is one state while they are being collected. A pattern
+//! is recorded as decided by proof (`decided.rs`) or within tolerances: `candidate.rs` solves a regular one,
+//! `degenerate.rs` examines a singular one more closely, and `admitted.rs` is what that one admits.
 
 mod admitted;
 mod candidate;

@@ -3,14 +3,14 @@
 use super::{Interval, REMAINDER_IS_EXACT, Real, Sign};
 use num_traits::{One, Zero};
 
-/// The values of sine and cosine.
+/// The range of sine and cosine.
 const UNIT: Interval = Interval { lower: -1.0, upper: 1.0 };
-/// Beyond this many half turns the parity of their number is not known.
+/// Beyond this many half turns, the parity of their number is unknown.
 const MOST_TURNS: f64 = 1e15;
-/// Powers with whole exponents up to this one are products.
+/// Powers with integer exponents up to this one are products.
 const GREATEST_EXPONENT: f64 = 1024.0;
 
-/// Below the true value whose rounded one is `value`, by more than three units in the last place of that.
+/// A bound below the true value that rounds to `value`, by more than three units in its last place.
 fn below(value: f64) -> f64 {
     if value.is_nan() || value == f64::NEG_INFINITY {
         f64::NEG_INFINITY
@@ -25,8 +25,8 @@ fn above(value: f64) -> f64 {
     -below(-value)
 }
 
-/// The value of a function at a number. Functions are exact at 0 where they are 0 or 1 there, and at 1 where
-/// they are 0 there.
+/// The value of a function at a number. Functions are exact at 0 if their value there is 0 or 1, and at 1 if
+/// their value there is 0.
 fn at(function: fn(f64) -> f64, x: f64) -> Interval {
     let value = function(x);
     let exact = x == 0.0 && (value == 0.0 || value == 1.0) || x == 1.0 && value == 0.0;
@@ -39,13 +39,12 @@ fn monotonic(function: fn(f64) -> f64, x: Interval) -> Interval {
     if x.lower == x.upper { lower } else { lower.hull(at(function, x.upper)) }
 }
 
-/// `interval`, of which everything below `least` is known to be too wide.
+/// `interval`, where everything below `least` is known to be impossible.
 fn from(least: f64, interval: Interval) -> Interval {
     Interval { lower: interval.lower.max(least), upper: interval.upper.max(least) }
 }
 
-/// The values of sine or cosine, whose extrema are at whole numbers of `half_turns`: 1 at even ones, -1 at
-/// odd ones.
+/// The values of sine or cosine, whose extrema are at integer `half_turns`: 1 at even ones, -1 at odd ones.
 fn wave(function: fn(f64) -> f64, x: Interval, half_turns: Interval) -> Interval {
     let (first, last) = (half_turns.lower.ceil(), half_turns.upper.floor());
     if half_turns.magnitude() >= MOST_TURNS || last > first {
@@ -67,7 +66,7 @@ fn half_turns_from_quarter(x: Interval) -> Interval {
     x / Interval::PI - Interval::point(0.5)
 }
 
-/// `base^exponent` for a base from 0 on and a whole exponent from 1 on.
+/// `base^exponent` for a nonnegative base and a positive integer exponent.
 fn product_of(base: Interval, exponent: f64) -> Interval {
     let (mut result, mut square, mut rest) = (Interval::ONE, base, exponent);
     while rest > 1.0 {
@@ -80,7 +79,7 @@ fn product_of(base: Interval, exponent: f64) -> Interval {
     from(0.0, result * square)
 }
 
-/// `base^exponent` for a whole exponent.
+/// `base^exponent` for an integer exponent.
 fn whole_power(base: Interval, exponent: f64) -> Interval {
     let count = exponent.abs();
     if count == 0.0 {
@@ -89,7 +88,7 @@ fn whole_power(base: Interval, exponent: f64) -> Interval {
     let power = if count % 2.0 == 0.0 {
         product_of(base.abs(), count)
     } else {
-        // Odd powers grow with their base.
+        // Odd powers increase with their base.
         let end = |x: f64| {
             let size = product_of(Interval::point(x.abs()), count);
             if x < 0.0 { -size } else { size }
@@ -99,7 +98,7 @@ fn whole_power(base: Interval, exponent: f64) -> Interval {
     if exponent < 0.0 { Interval::ONE / power } else { power }
 }
 
-/// Bounds of a function of two numbers that is monotonic in each.
+/// Bounds on a function of two numbers that is monotonic in each.
 fn corners(function: fn(f64, f64) -> f64, x: Interval, y: Interval) -> Interval {
     let values = [(x.lower, y.lower), (x.lower, y.upper), (x.upper, y.lower), (x.upper, y.upper)]
         .map(|(x, y)| function(x, y));
@@ -107,14 +106,14 @@ fn corners(function: fn(f64, f64) -> f64, x: Interval, y: Interval) -> Interval 
     values.into_iter().fold(Interval { lower: f64::INFINITY, upper: f64::NEG_INFINITY }, hull)
 }
 
-/// A lower bound of the square root; `x >= 0`.
+/// A lower bound on the square root; `x >= 0`.
 fn root_below(x: f64) -> f64 {
     let root = x.sqrt();
     let is_exact = x == 0.0 || x >= REMAINDER_IS_EXACT && root.mul_add(-root, x) >= 0.0;
     if is_exact { root } else { root.next_down() }
 }
 
-/// An upper bound of the square root; `x >= 0`.
+/// An upper bound on the square root; `x >= 0`.
 fn root_above(x: f64) -> f64 {
     let root = x.sqrt();
     let is_exact = x == 0.0 || x >= REMAINDER_IS_EXACT && root.mul_add(-root, x) <= 0.0;
@@ -259,7 +258,7 @@ impl Real for Interval {
         if self.is_zero() && x.lower > 0.0 {
             return Self::ZERO;
         }
-        // The angle jumps at the negative x axis, and has no value at the origin.
+        // The angle jumps at the negative x axis, and is undefined at the origin.
         if self.contains(0.0) && x.lower <= 0.0 {
             return (-Self::PI).hull(Self::PI);
         }

@@ -1,20 +1,20 @@
 //! Closed intervals with outward rounding, and the arithmetic that they share with plain numbers.
 //!
-//! Sums, products, quotients and square roots are rounded from the exact remainder. The other functions widen
-//! what the mathematical library of the platform returns, see below.
+//! Sums, products, quotients and square roots are rounded using the exact remainder. The other functions
+//! widen the results of the platform's mathematical library, see below.
 //!
 //! # Elementary functions
-//! The library's results are taken to be within two units in the last place, and are widened by at least
-//! three. The libraries of glibc, musl, macOS and Windows stay within one for the functions used here,
-//! `sinh`, `cosh` and `tanh` within two (Gladman et al., Accuracy of Mathematical Functions in Single,
+//! The library's results are assumed to be within two units in the last place, and are widened by at least
+//! three. The libraries of glibc, musl, macOS and Windows stay within one for the functions used here, and
+//! within two for `sinh`, `cosh` and `tanh` (Gladman et al., Accuracy of Mathematical Functions in Single,
 //! Double, Extended Double and Quadruple Precision, 2024).
 //!
 //! # Files
-//! `interval` has closed intervals, their elementary functions, and the trait `Real` of the arithmetic that
-//! they share with `f64`; `Sloped` adds bounds of a slope. Formulas, mechanisms, configurations and the rows
-//! of the kinetic equations are generic over it (`f64` by default), so that `enclosure` evaluates and
-//! assembles with the code of the other stages. Its own are the interval Newton operator for the positions
-//! and the verified linear systems (`modes::certificate::enclose_solution`).
+//! `interval` contains closed intervals, their elementary functions, and the trait `Real` for the arithmetic
+//! that they share with `f64`; `Sloped` adds bounds on a slope. Formulas, mechanisms, configurations and the
+//! rows of the kinetic equations are generic over it (`f64` by default), so that `enclosure` evaluates and
+//! assembles with the code of the other stages. Only the interval Newton operator for the positions and the
+//! verified linear systems (`modes::certificate::enclose_solution`) are separate.
 
 mod functions;
 mod real;
@@ -27,7 +27,7 @@ use crate::error_free::{product_remainder, sum_remainder};
 use std::f64::consts::PI;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// Below this size the remainder of a product or quotient may itself be rounded.
+/// Below this size, the remainder of a product or quotient may itself be rounded.
 const REMAINDER_IS_EXACT: f64 = f64::MIN_POSITIVE * (1_u64 << 60) as f64 * (1_u64 << 60) as f64;
 
 /// The sign of a number.
@@ -55,9 +55,9 @@ impl Neg for Sign {
 
 /// All real numbers from `lower` to `upper`.
 ///
-/// Every operation returns an interval that holds all exact results for operands in the given
-/// intervals, whatever overflows or underflows. Bounds that are exact stay exact. An infinite bound
-/// means that nothing is known on that side.
+/// Every operation returns an interval that contains all exact results for operands in the given intervals,
+/// even in case of overflow or underflow. Bounds that are exact stay exact. An infinite bound means that
+/// nothing is known on that side.
 ///
 /// ```
 /// use slideway_modes::interval::Interval;
@@ -77,12 +77,12 @@ impl Interval {
     pub const ZERO: Self = Self { lower: 0.0, upper: 0.0 };
     /// One.
     pub const ONE: Self = Self { lower: 1.0, upper: 1.0 };
-    /// The half turn pi, between two neighbouring numbers.
+    /// The half turn pi, between two adjacent numbers.
     pub const PI: Self = Self { lower: PI, upper: PI.next_up() };
     /// All real numbers.
     pub const REAL_LINE: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
-    /// The interval with the given bounds; none if `lower > upper` or one is not a number.
+    /// The interval with the given bounds; `None` if `lower > upper` or one of them is NaN.
     ///
     /// ```
     /// use slideway_modes::interval::Interval;
@@ -93,13 +93,13 @@ impl Interval {
         (lower <= upper).then_some(Self { lower, upper })
     }
 
-    /// The single number `value`; the whole real line if it is infinite or not a number.
+    /// The single number `value`; the whole real line if it is infinite or NaN.
     pub fn point(value: f64) -> Self {
         if value.is_finite() { Self { lower: value, upper: value } } else { Self::REAL_LINE }
     }
 
-    /// All numbers at most `radius >= 0` away from `centre`; the whole real line if one of the two is
-    /// not a number.
+    /// All numbers at a distance of at most `radius >= 0` from `centre`; the whole real line if one of the
+    /// two is NaN.
     pub fn around(centre: f64, radius: f64) -> Self {
         if !centre.is_finite() {
             return Self::REAL_LINE;
@@ -123,7 +123,7 @@ impl Interval {
         add_up(self.upper, -self.lower)
     }
 
-    /// A number in the middle, up to rounding; within the interval.
+    /// A number near the midpoint, up to rounding; always within the interval.
     pub fn middle(self) -> f64 {
         if self.lower == -self.upper {
             return 0.0;
@@ -141,7 +141,7 @@ impl Interval {
         self.lower <= other.lower && other.upper <= self.upper
     }
 
-    /// The sign that all numbers in the interval have; none if they differ.
+    /// The common sign of all numbers in the interval; `None` if their signs differ.
     ///
     /// ```
     /// use slideway_modes::interval::{Interval, Sign};
@@ -176,12 +176,12 @@ impl Interval {
         self.lower.abs().max(self.upper.abs())
     }
 
-    /// The numbers in both intervals; none if there are none.
+    /// The numbers in both intervals; `None` if there are none.
     pub fn intersection(self, other: Self) -> Option<Self> {
         Self::new(self.lower.max(other.lower), self.upper.min(other.upper))
     }
 
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
@@ -230,7 +230,7 @@ impl Mul for Interval {
 impl Div for Interval {
     type Output = Self;
 
-    /// The quotients; the whole real line if the divisor holds zero.
+    /// The quotients; the whole real line if the divisor contains zero.
     fn div(self, divisor: Self) -> Self {
         if divisor.contains(0.0) {
             return Self::REAL_LINE;
@@ -273,7 +273,7 @@ fn corners(one: Interval, other: Interval) -> [(f64, f64); 4] {
     [(one.lower, other.lower), (one.lower, other.upper), (one.upper, other.lower), (one.upper, other.upper)]
 }
 
-/// The largest `f64` at or below `rounded + remainder`, where `rounded` is the nearest to that sum.
+/// The largest `f64` not above `rounded + remainder`, where `rounded` is nearest to that sum.
 fn round_down(rounded: f64, remainder: f64) -> f64 {
     let known = (0.0..f64::INFINITY).contains(&remainder);
     if known && rounded.is_finite() { rounded } else { rounded.next_down() }
@@ -324,7 +324,7 @@ fn div_down(one: f64, divisor: f64) -> f64 {
     }
     let quotient = one / divisor;
     if divisor.is_infinite() {
-        // Limit 0 of finite quotients; with an infinite dividend nothing is known.
+        // Limit 0 of finite quotients; with an infinite dividend, nothing is known.
         return if one.is_infinite() { f64::NEG_INFINITY } else { 0.0_f64.next_down() };
     }
     if one.is_infinite() {

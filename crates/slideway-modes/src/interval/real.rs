@@ -9,8 +9,9 @@ use std::ops::{AddAssign, Div, DivAssign, MulAssign, Neg, Sub, SubAssign};
 /// A real number in the equations of a mechanism: `f64` with its rounding, or an [`Interval`] that encloses
 /// it.
 ///
-/// One code thus evaluates formulas and assembles equations in both. Functions of an interval hold all their
-/// values there; where one has no value for a number of the interval the result is not finite.
+/// The same code thus evaluates formulas and assembles equations for both. Functions of an interval contain
+/// all their values on it; if a function is undefined for some number of the interval, the result is not
+/// finite.
 ///
 /// ```
 /// use slideway_modes::interval::{Interval, Real};
@@ -37,16 +38,16 @@ pub trait Real:
     /// The number `value` itself.
     fn exactly(value: f64) -> Self;
 
-    /// A number that somebody wrote: nearest to `value`, and somewhere in `enclosure`.
+    /// A number as written by a user: nearest to `value`, and somewhere in `enclosure`.
     fn written(value: f64, enclosure: Interval) -> Self;
 
-    /// The least value that it may have.
+    /// Its least possible value.
     fn lower(self) -> f64;
 
-    /// The greatest value that it may have.
+    /// Its greatest possible value.
     fn upper(self) -> f64;
 
-    /// A value that stands for all that it may have.
+    /// A representative value.
     fn middle(self) -> f64;
 
     /// Whether it is bounded.
@@ -54,12 +55,12 @@ pub trait Real:
         self.lower().is_finite() && self.upper().is_finite()
     }
 
-    /// The greatest absolute value that it may have.
+    /// Its greatest possible absolute value.
     fn magnitude(self) -> f64 {
         self.lower().abs().max(self.upper().abs())
     }
 
-    /// The value of a function that is given for numbers and, enclosing all its values, for intervals.
+    /// Applies a function that is given for numbers and, enclosing all its values, for intervals.
     #[must_use]
     fn image(self, number: impl FnOnce(f64) -> f64, interval: impl FnOnce(Interval) -> Interval) -> Self;
 
@@ -75,7 +76,7 @@ pub trait Real:
     /// -1, 0 or 1.
     #[must_use]
     fn sign_value(self) -> Self;
-    /// 0 below zero, else 1.
+    /// 0 below zero, otherwise 1.
     #[must_use]
     fn step(self) -> Self;
     /// Sine.
@@ -84,8 +85,8 @@ pub trait Real:
     /// Cosine.
     #[must_use]
     fn cos(self) -> Self;
-    /// The unit vector at this angle from the x axis; that of a plain number is exact along the axes, so that
-    /// a guide at 90 degrees is truly vertical.
+    /// The unit vector at this angle from the x axis; for a plain number it is exact along the axes, so that
+    /// a guide at 90 degrees is exactly vertical.
     fn direction(self) -> [Self; 2];
     /// Tangent.
     #[must_use]

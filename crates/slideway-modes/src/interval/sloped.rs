@@ -1,16 +1,16 @@
-//! Intervals with bounds of a slope: functions of one variable over a range of it.
+//! Intervals with bounds on a slope: functions of one variable over a range of it.
 
 use super::{Interval, Real, Sign};
 use num_traits::{One, Zero};
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// The values of a function over a range of its variable, and those of its derivative there.
+/// The values of a function over a range of its variable, and the values of its derivative there.
 ///
-/// Formulas that are evaluated with it hold the values of their derivative by the chain rule (R. E. Moore, R.
-/// B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009, chapter 9). Where a function has a
-/// kink the slopes are those on both sides, so that the mean value theorem holds across it; where it jumps
-/// nothing is known of the slope.
+/// Formulas evaluated with it contain the values of their derivative by the chain rule (R. E. Moore, R. B.
+/// Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009, chapter 9). If a function has a kink,
+/// the slopes are those on both sides, so the mean value theorem holds across it; if it jumps, nothing is
+/// known about the slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sloped {
     /// All values.
@@ -25,12 +25,12 @@ impl Sloped {
         Self { value: range, slope: Interval::ONE }
     }
 
-    /// What does not depend on the variable.
+    /// A value that does not depend on the variable.
     pub fn constant(value: Interval) -> Self {
         Self { value, slope: Interval::ZERO }
     }
 
-    /// A function of this one with such a derivative.
+    /// A function of this one with the given derivative.
     fn chain(self, value: Interval, derivative: impl FnOnce(Interval) -> Interval) -> Self {
         let constant = self.slope.is_zero();
         Self { value, slope: if constant { Interval::ZERO } else { derivative(self.value) * self.slope } }
@@ -40,7 +40,7 @@ impl Sloped {
         self.slope.is_zero()
     }
 
-    /// One of two functions where it is certain which, else either.
+    /// One of two functions if it is certain which one applies, otherwise their union.
     fn either(value: Interval, first: Option<bool>, [one, other]: [Self; 2]) -> Self {
         let slope = match first {
             Some(true) => one.slope,
@@ -50,7 +50,7 @@ impl Sloped {
         Self { value, slope }
     }
 
-    /// A function that is constant but for jumps.
+    /// A function that is constant except for jumps.
     fn with_jumps(self, value: Interval) -> Self {
         let is_smooth = self.is_constant() || value.width() == 0.0;
         Self { value, slope: if is_smooth { Interval::ZERO } else { Interval::REAL_LINE } }
@@ -291,7 +291,7 @@ impl Real for Sloped {
     }
 }
 
-/// Whether all numbers are positive, or all negative; nothing where neither is certain.
+/// Whether all numbers are positive, or all negative; `None` if neither is certain.
 fn is_positive(interval: Interval) -> Option<bool> {
     match interval.sign() {
         Some(Sign::Positive) => Some(true),
@@ -354,7 +354,7 @@ mod tests {
         (kinks, kinks),
     ];
 
-    /// Values at numbers lie within the bounds, and so do difference quotients: the mean value theorem.
+    /// Values at numbers lie within the bounds, and so do difference quotients, by the mean value theorem.
     #[test]
     fn slopes_hold_all_difference_quotients() {
         for (which, (at, over)) in FUNCTIONS.into_iter().enumerate() {

@@ -33,9 +33,9 @@ impl IntervalModeProblem {
     /// c_k^{sigma} = sigma e_k - mu_k^{sigma} s_k eta_k^{sigma},   d_k^{sigma} = s_k F_k0^{sigma} eta_preload_k^{sigma}
     /// ```
     ///
-    /// (Klepp (2002), eq. (6)), without loss by rounding. All entries of the result may vary
-    /// independently, so that one `mu_k` with wide bounds counts as a different one in each equation:
-    /// what is proved holds, but more may be left undecided than needs be.
+    /// (Klepp (2002), eq. (6)), without loss by rounding. All entries of the result may vary independently,
+    /// so one `mu_k` with wide bounds counts as a different one in each equation: what is proved holds, but
+    /// more may be left undecided than necessary.
     ///
     /// # Errors
     /// [`IntervalModeProblemError`] for shapes, for velocity signs other than -1, 0, 1, and for
@@ -114,7 +114,7 @@ impl IntervalInfluence {
     }
 }
 
-/// The matrix of the given entries; an error if one of them has overflown.
+/// The matrix with the given entries; an error if one of them has overflowed.
 fn bounded(
     part: ProblemPart,
     contacts: usize,

@@ -9,10 +9,10 @@ use crate::problem::pattern::ContactState;
 use crate::problem::radii::Radii;
 use crate::problem::side::{BySide, ProblemPart, Side};
 
-/// Bounds that do not make a mode problem.
+/// Bounds that do not define a mode problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum IntervalModeProblemError {
-    /// The middle of the bounds is no mode problem.
+    /// The midpoint of the bounds is not a mode problem.
     #[error(transparent)]
     Problem(#[from] ModeProblemError),
     /// A radius is negative, infinite or not a number.
@@ -23,16 +23,16 @@ pub enum IntervalModeProblemError {
         /// The radius.
         value: f64,
     },
-    /// The right-hand side is no column vector.
+    /// The right-hand side is not a column vector.
     #[error("right-hand side: expected one column, found {columns}")]
     RightHandSideColumns {
-        /// Columns that were given.
+        /// The number of columns given.
         columns: usize,
     },
 }
 
-/// All mode problems `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` whose numbers lie
-/// within bounds, independently of each other.
+/// All mode problems `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` whose numbers lie within
+/// bounds, independently of each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntervalModeProblem {
     centre: ModeProblem,
@@ -44,7 +44,7 @@ impl IntervalModeProblem {
     /// (r x r, likewise) and right-hand side `N(0)` (r x 1) within bounds.
     ///
     /// # Errors
-    /// [`IntervalModeProblemError`], for the first fault that is met.
+    /// [`IntervalModeProblemError`], for the first fault found.
     ///
     /// ```
     /// use nalgebra::{dmatrix, DMatrix};
@@ -93,7 +93,7 @@ impl IntervalModeProblem {
         Ok(Self { centre, radii })
     }
 
-    /// A problem whose every number may be off by `relative` times its size; zeros stay zero.
+    /// A problem in which every number may be off by `relative` times its size; zeros stay zero.
     ///
     /// # Errors
     /// [`IntervalModeProblemError::Radius`] if `relative` is negative, not finite, or so large that a
@@ -104,7 +104,7 @@ impl IntervalModeProblem {
             return Err(IntervalModeProblemError::Radius { part, value: relative });
         }
         let radius = |value: f64| if value == 0.0 { 0.0 } else { (value.abs() * relative).next_up() };
-        // What rounding took from a column changes its size by less than one part in 2^52.
+        // Rounding changed the size of a column by less than one part in 2^52.
         let of_columns = |side: Side| {
             let plain = problem.columns(side).map(radius);
             match problem.remainder(side) {
@@ -129,19 +129,20 @@ impl IntervalModeProblem {
         }
     }
 
-    /// The problem in the middle of the bounds.
+    /// The problem at the midpoint of the bounds.
     pub fn centre(&self) -> &ModeProblem {
         &self.centre
     }
 }
 
-/// What proofs are about: one problem with exact numbers, or all problems within bounds.
+/// The subject of proofs: one problem with exact numbers, or all problems within bounds.
 ///
-/// Made from a reference to a [`ModeProblem`] or to an [`IntervalModeProblem`].
+/// Created from a reference to a [`ModeProblem`] or to an [`IntervalModeProblem`].
 #[derive(Debug, Clone, Copy)]
 pub struct ProblemView<'a> {
     pub(crate) centre: &'a ModeProblem,
-    /// How far numbers may be from those of `centre`; of an exact problem what its remainder amounts to.
+    /// The maximum distance of numbers from those of `centre`; for an exact problem, the size of its
+    /// remainder.
     pub(crate) radii: Option<&'a Radii>,
     /// Whether the problem is `centre` itself, with its remainder.
     pub(crate) exact: bool,
@@ -159,25 +160,24 @@ impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
     }
 }
 
-/// One column of the data: its middle, and how far it may be off.
+/// One column of the data: its midpoint and its maximum error.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Column<'a> {
     pub(crate) centre: &'a [f64],
     pub(crate) radius: Option<&'a [f64]>,
-    /// If there is one, the column is exactly `centre + remainder`, and `radius` is the size of the
-    /// remainder.
+    /// If present, the column is exactly `centre + remainder`, and `radius` is the size of the remainder.
     remainder: Option<&'a [f64]>,
 }
 
 impl Column<'_> {
-    /// The terms that add up to the column: one, or two where it is exact but rounded in its middle.
+    /// The terms whose sum is the column: one, or two if it is exact but its midpoint is rounded.
     pub(crate) fn terms(self) -> impl Iterator<Item = Self> {
         let radius = self.radius.filter(|_| self.remainder.is_none());
         let rest = self.remainder.map(|centre| Self { centre, radius: None, remainder: None });
         std::iter::once(Self { radius, remainder: None, ..self }).chain(rest)
     }
 
-    /// The middle of an entry, and how far it may be off.
+    /// The midpoint of an entry, and its maximum error.
     pub(crate) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
         (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
     }
@@ -251,8 +251,8 @@ impl<'a> ProblemView<'a> {
         one.centre[row] != other.centre[row] || spread(one) || spread(other)
     }
 
-    /// The side whose jump vector is in the constant part of the right-hand side; for a contact in
-    /// its gap that is the negative one.
+    /// The side whose jump vector is in the constant part of the right-hand side; for a contact in its gap,
+    /// this is the negative one.
     pub(crate) fn constant_jump_side(state: ContactState) -> Side {
         state.side().unwrap_or(Side::Negative)
     }

@@ -1,8 +1,8 @@
-//! The mode problem: exact or within bounds, what its contacts do, and its units.
+//! The mode problem: exact or within bounds, the states of its contacts, and its units.
 //!
-//! `side.rs` and `pattern.rs` are the words, `mode_problem.rs` holds exact numbers, `bounds.rs` those within
-//! bounds (`radii.rs`), of which `bounded_influence.rs` makes one from influence coefficients; `scaling.rs`
-//! chooses units in which tolerances are plain numbers.
+//! `side.rs` and `pattern.rs` define the basic terms. `mode_problem.rs` contains exact numbers, and
+//! `bounds.rs` those within bounds (`radii.rs`); `bounded_influence.rs` builds a problem within bounds from
+//! influence coefficients. `scaling.rs` chooses units in which tolerances are pure numbers.
 
 mod bounded_influence;
 mod bounds;

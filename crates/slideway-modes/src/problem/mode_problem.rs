@@ -6,20 +6,20 @@ use crate::error_free::sum_remainder;
 use crate::problem::radii::Radii;
 use crate::problem::side::{BySide, ProblemPart, Side};
 
-/// Data that do not make a mode problem.
+/// Data that do not define a mode problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ModeProblemError {
-    /// A matrix or vector does not fit the number of contacts.
+    /// A matrix or vector does not match the number of contacts.
     #[error("{part}: expected {} x {}, found {} x {}", expected.0, expected.1, found.0, found.1)]
     Shape {
         /// The part that does not fit.
         part: ProblemPart,
-        /// Rows and columns that the right-hand side asks for.
+        /// Rows and columns that the right-hand side requires.
         expected: (usize, usize),
-        /// Rows and columns that were given.
+        /// Rows and columns found.
         found: (usize, usize),
     },
-    /// An entry is infinite or not a number.
+    /// An entry is infinite or NaN.
     #[error("{part}: entry in row {row}, column {column} (counted from 0) is {value}")]
     NotFinite {
         /// The part that holds the entry.
@@ -31,12 +31,12 @@ pub enum ModeProblemError {
         /// The entry.
         value: f64,
     },
-    /// The sign of a sliding velocity is none of -1, 0, 1.
+    /// The sign of a sliding velocity is not -1, 0 or 1.
     #[error("velocity sign of contact {contact} (counted from 0) is {value}; it must be -1, 0 or 1")]
     VelocitySign {
         /// The contact, from 0.
         contact: usize,
-        /// What was given.
+        /// The value found.
         value: f64,
     },
 }
@@ -77,16 +77,16 @@ pub struct ModeProblem {
     remainder: Option<Box<Remainder>>,
 }
 
-/// What rounding took from columns that are sums: the exact columns are `columns + remainder`.
+/// The rounding errors of columns that are sums: the exact columns are `columns + remainder`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Remainder {
     pub(crate) columns: BySide<DMatrix<f64>>,
-    /// Its sizes, as the radii of a problem within bounds.
+    /// Their sizes, as the radii of a problem within bounds.
     pub(crate) radii: Radii,
 }
 
 impl Remainder {
-    /// None if nothing was lost.
+    /// `None` if nothing was rounded.
     fn new(columns: BySide<DMatrix<f64>>) -> Option<Box<Self>> {
         let radii = Radii {
             columns: BySide { positive: columns.positive.abs(), negative: columns.negative.abs() },
@@ -100,11 +100,11 @@ impl ModeProblem {
     /// The problem with the given columns `c_k` (r x r, column `k` belongs to contact `k`), jump
     /// vectors `d_k` (r x r, likewise) and right-hand side `N(0)` (r).
     ///
-    /// `d` and `N(0)` have one unit (a force), which is then the unit of `y` where the columns are
+    /// `d` and `N(0)` have the same unit (a force), which is also the unit of `y` if the columns are
     /// dimensionless.
     ///
     /// # Errors
-    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`], the first that is met.
+    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`], for the first fault found.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector, DMatrix};
@@ -142,8 +142,8 @@ impl ModeProblem {
     /// (Klepp (2002), eq. (6)).
     ///
     /// # Errors
-    /// [`ModeProblemError`] for shapes, for entries that are not finite, and for velocity signs
-    /// other than -1, 0, 1.
+    /// [`ModeProblemError`] for shapes, for entries that are not finite, and for velocity signs other than
+    /// -1, 0, 1.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector};
@@ -236,9 +236,9 @@ impl ModeProblem {
     /// The problem that lists all solutions of the linear complementarity problem
     /// `w = M z + q, w >= 0, z >= 0, w^T z = 0`.
     ///
-    /// On the positive side of contact `k` the unknown `y_k` is `z_k` (column `-M_k`), on the
-    /// negative side it is `w_k` (column `e_k`); the right-hand side is `q`. So `z` is the positive
-    /// part of the signed solution `N` and `w` its negative part.
+    /// On the positive side of contact `k`, the unknown `y_k` is `z_k` (column `-M_k`); on the negative side
+    /// it is `w_k` (column `e_k`); the right-hand side is `q`. Thus `z` is the positive part of the signed
+    /// solution `N`, and `w` its negative part.
     ///
     /// # Errors
     /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`].
@@ -263,8 +263,8 @@ impl ModeProblem {
     /// `A w - B z = q, w >= 0, z >= 0, w^T z = 0` (the form of Sznajder and Gowda, Linear Algebra and
     /// its Applications 223/224 (1995)). With `A = I` it is the linear complementarity problem of `B`.
     ///
-    /// On the positive side of contact `k` the unknown `y_k` is `z_k` (column `-B_k`), on the
-    /// negative side it is `w_k` (column `A_k`), as in [`Self::from_linear_complementarity`].
+    /// On the positive side of contact `k`, the unknown `y_k` is `z_k` (column `-B_k`); on the negative side
+    /// it is `w_k` (column `A_k`), as in [`Self::from_linear_complementarity`].
     ///
     /// # Errors
     /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`].
@@ -293,7 +293,7 @@ impl ModeProblem {
         self.right_hand_side.len()
     }
 
-    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`, which are
+    /// The equations and columns of only some contacts, with their entries of `right_hand_side`, which are
     /// finite.
     pub(crate) fn restricted(&self, contacts: &[usize], right_hand_side: &DVector<f64>) -> Self {
         let size = contacts.len();
@@ -309,7 +309,7 @@ impl ModeProblem {
         Self { remainder, ..Self::unchecked(by_side(&self.columns), by_side(&self.jumps), right_hand_side) }
     }
 
-    /// The problem of finite numbers in matrices that fit.
+    /// The problem from finite numbers in matching matrices.
     fn unchecked(
         columns: BySide<DMatrix<f64>>,
         jumps: BySide<DMatrix<f64>>,
@@ -320,14 +320,14 @@ impl ModeProblem {
         Self { columns, jumps, right_hand_side, has_jump, remainder: None }
     }
 
-    /// The columns `c_k` of one side (r x r); where they are sums of two matrices, rounded: see
+    /// The columns `c_k` of one side (r x r); rounded if they are sums of two matrices: see
     /// [`Self::remainder`].
     pub fn columns(&self, side: Side) -> &DMatrix<f64> {
         self.columns.get(side)
     }
 
-    /// What rounding took from [`Self::columns`] (r x r), exactly; none if that is nothing. The problem is
-    /// the one with the columns `columns + remainder`.
+    /// The exact rounding errors of [`Self::columns`] (r x r); `None` if there are none. The problem is the
+    /// one with the columns `columns + remainder`.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector};
@@ -341,7 +341,7 @@ impl ModeProblem {
         self.remainder.as_ref().map(|lost| lost.columns.get(side))
     }
 
-    /// The sizes of the remainder as radii of the rounded columns; none if nothing was rounded.
+    /// The sizes of the remainder as radii of the rounded columns; `None` if nothing was rounded.
     pub(crate) fn remainder_radii(&self) -> Option<&Radii> {
         self.remainder.as_ref().map(|lost| &lost.radii)
     }

@@ -1,10 +1,10 @@
-//! What contacts do in a pattern, and the sets of normal forces that a pattern may admit.
+//! The states of contacts in a pattern, and the sets of normal forces that a pattern may admit.
 
 use nalgebra::DVector;
 
 use crate::problem::side::Side;
 
-/// What one contact does in a pattern: pressed on one of its sides, or between its faces.
+/// The state of one contact in a pattern: pressed on one of its sides, or between its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ContactState {
     /// `N > 0`.
@@ -19,7 +19,7 @@ impl ContactState {
     pub(crate) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
     pub(crate) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
 
-    /// The side on which the contact is pressed; none in the gap.
+    /// The side on which the contact is pressed; `None` in the gap.
     pub fn side(self) -> Option<Side> {
         match self {
             Self::Positive => Some(Side::Positive),
@@ -43,7 +43,7 @@ impl From<Side> for ContactState {
     }
 }
 
-/// What a singular pattern admits: points and directions of signed normal forces, or, as an
+/// What a singular pattern admits: points and directions of signed normal forces or, for an
 /// [`ExactSet`](crate::certificate::ExactSet), of exact unknowns.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolutionSet<P = DVector<f64>> {
@@ -62,18 +62,17 @@ pub enum SolutionSet<P = DVector<f64>> {
     Ray {
         /// The end of the ray.
         from: P,
-        /// The direction, its largest component being 1 in size.
+        /// The direction, with a largest component of size 1.
         direction: P,
     },
-    /// Convex combinations of the vertices plus non-negative combinations of the directions.
+    /// Convex combinations of the vertices plus nonnegative combinations of the directions.
     Polytope {
         /// The vertices.
         vertices: Vec<P>,
-        /// Extreme directions, the largest component of each being 1 in size.
+        /// Extreme directions, each with a largest component of size 1.
         directions: Vec<P>,
     },
-    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases), or whoever asked,
-    /// allows.
+    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases) or the caller allows.
     NotComputed,
 }
 
@@ -89,7 +88,7 @@ impl<P> SolutionSet<P> {
         }
     }
 
-    /// The vertices of the set, none if it is empty or was not computed.
+    /// The vertices of the set; none if it is empty or was not computed.
     pub fn vertices(&self) -> Vec<&P> {
         match self {
             Self::Empty | Self::NotComputed => Vec::new(),
@@ -100,7 +99,7 @@ impl<P> SolutionSet<P> {
         }
     }
 
-    /// The extreme directions of the set, none if it is bounded or was not computed.
+    /// The extreme directions of the set; none if it is bounded or was not computed.
     pub fn directions(&self) -> Vec<&P> {
         match self {
             Self::Ray { direction, .. } => vec![direction],
@@ -109,13 +108,13 @@ impl<P> SolutionSet<P> {
         }
     }
 
-    /// Whether the set holds more than one point.
+    /// Whether the set contains more than one point.
     pub fn is_continuum(&self) -> bool {
         matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
     }
 
-    /// The set of the images of points and directions under a linear map that keeps vertices and extreme
-    /// directions apart.
+    /// The set with the images of all points and directions under a linear map that keeps vertices and
+    /// extreme directions distinct.
     pub(crate) fn map<Q>(self, image: impl Fn(P) -> Q) -> SolutionSet<Q> {
         let all = |points: Vec<P>| points.into_iter().map(&image).collect();
         match self {

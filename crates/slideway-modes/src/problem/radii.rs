@@ -1,10 +1,10 @@
-//! How far the numbers of a problem may be off.
+//! Maximum errors of the numbers of a problem.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::problem::side::{BySide, ProblemPart, Side};
 
-/// How far the numbers of a problem may be from its middle.
+/// The maximum distances of the numbers of a problem from its midpoint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Radii {
     pub(crate) columns: BySide<DMatrix<f64>>,
@@ -13,7 +13,7 @@ pub(crate) struct Radii {
 }
 
 impl Radii {
-    /// Those of exact numbers.
+    /// The radii of exact numbers.
     pub(crate) fn zero(contacts: usize) -> Self {
         let none = BySide::same(DMatrix::zeros(contacts, contacts));
         Self { columns: none.clone(), jumps: none, right_hand_side: DVector::zeros(contacts) }

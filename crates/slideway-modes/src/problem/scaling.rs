@@ -1,4 +1,4 @@
-//! The mode problem in units in which tolerances are plain numbers.
+//! The mode problem in units in which tolerances are pure numbers.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 
@@ -7,13 +7,13 @@ use crate::problem::mode_problem::ModeProblem;
 use crate::problem::pattern::ContactState;
 use crate::problem::side::Side;
 
-/// Coefficients of scaled rows below this are not told from zero in proofs: far enough above the least number
-/// that products of them with what multiplies them do not underflow.
+/// Coefficients of scaled rows below this are treated like zero in proofs: it is far enough above the least
+/// number that their products with other factors do not underflow.
 const NEGLIGIBLE: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// A mode problem with rows divided by their largest coefficient and loads divided by the largest load, both
-/// rounded to powers of two so that scaling makes no rounding error, underflow and overflow apart. What these
-/// do is part of the bounds of errors.
+/// rounded to powers of two so that scaling causes no rounding errors apart from underflow and overflow. The
+/// effect of these is included in the error bounds.
 ///
 /// Unknowns are `y_k` divided by `load_unit`, and `lambda_k` itself for a contact in its gap.
 pub(crate) struct ScaledProblem {
@@ -22,14 +22,14 @@ pub(crate) struct ScaledProblem {
     jump_difference: DMatrix<f64>,
     /// `N(0) + sum_k d_k^-`.
     base: DVector<f64>,
-    /// `|N(0)| + sum_k max(|d_k^+|, |d_k^-|)`: the size of the terms a right-hand side is made of.
+    /// `|N(0)| + sum_k max(|d_k^+|, |d_k^-|)`: the size of the terms of a right-hand side.
     load_size: DVector<f64>,
     row_scale: DVector<f64>,
     pub(crate) load_unit: f64,
     pub(crate) has_jump: Vec<bool>,
-    /// How far scaling may have changed the sum of all loads of a row.
+    /// The maximum change by scaling of the sum of all loads of a row.
     lost_load: DVector<f64>,
-    /// How far the columns may be off; none if they are exact.
+    /// The maximum errors of the columns; `None` if they are exact.
     column_radius: Option<[DMatrix<f64>; 2]>,
 }
 
@@ -78,7 +78,7 @@ impl ScaledProblem {
         }
     }
 
-    /// The problem in the middle of bounds, with jumps wherever there may be one.
+    /// The problem at the midpoint of the bounds, with jumps wherever there may be one.
     pub(crate) fn within(problem: ProblemView<'_>) -> Self {
         let mut scaled = Self::with_jumps(problem.centre, |contact| problem.has_jump(contact));
         let radii = Side::BOTH.map(|side| scaled.scaled_radius(problem, side));
@@ -87,8 +87,7 @@ impl ScaledProblem {
         scaled
     }
 
-    /// How far the scaled columns may be off. Numbers too small for products with them are not told from
-    /// zero.
+    /// The maximum errors of the scaled columns. Numbers too small for products are treated like zero.
     fn scaled_radius(&self, problem: ProblemView<'_>, side: Side) -> DMatrix<f64> {
         let centre = problem.centre.columns(side);
         DMatrix::from_fn(self.contacts(), self.contacts(), |row, contact| {
@@ -100,19 +99,19 @@ impl ScaledProblem {
         })
     }
 
-    /// How far `A N + B |N|` with `A = (c^+ - c^-) / 2` and `B = (c^+ + c^-) / 2` may be off per unit of each
-    /// `|N_k|`; none if the columns are exact.
+    /// The maximum error of `A N + B |N|` with `A = (c^+ - c^-) / 2` and `B = (c^+ + c^-) / 2`, per unit of
+    /// each `|N_k|`; `None` if the columns are exact.
     pub(crate) fn spread_of_columns(&self) -> Option<DMatrix<f64>> {
         self.column_radius.as_ref().map(|[positive, negative]| positive + negative)
     }
 
-    /// How far the columns of both sides may be off; none if they are exact.
+    /// The maximum errors of the columns of both sides; `None` if they are exact.
     pub(crate) fn column_radii(&self) -> Option<&[DMatrix<f64>; 2]> {
         self.column_radius.as_ref()
     }
 
-    /// How far the column of a contact may be off, row by row; none if it is exact. For a contact in its
-    /// gap that is part of the radius of the right-hand side.
+    /// The maximum error of the column of a contact, row by row; `None` if it is exact. For a contact in its
+    /// gap, it is part of the radius of the right-hand side.
     pub(crate) fn column_radius(&self, contact: usize, state: ContactState) -> Option<DVectorView<'_, f64>> {
         let side = match state {
             ContactState::Positive => 0,
@@ -168,7 +167,8 @@ impl ScaledProblem {
         (matrix, right_hand_side)
     }
 
-    /// A bound of the error of the problem's right-hand side in scaled units, with what scaling adds to it.
+    /// A bound on the error of the problem's right-hand side in scaled units, including the effect of
+    /// scaling.
     pub(crate) fn scaled_load_radius(&self, radius: &DVector<f64>) -> DVector<f64> {
         DVector::from_fn(self.contacts(), |row, _| {
             let (radius, scale) = (radius[row], self.row_scale[row]);
@@ -183,7 +183,7 @@ impl ScaledProblem {
         multipliers.iter().zip(&self.row_scale).map(|(multiplier, scale)| multiplier * scale).collect()
     }
 
-    /// The factor by which a column in the given state and the row of the same number enlarge the
+    /// The factor by which a column in the given state, and the row of the same number, enlarge the
     /// determinant of the unscaled matrix.
     pub(crate) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {
         let column_unit = if state == ContactState::Gap { self.load_unit } else { 1.0 };
@@ -191,7 +191,7 @@ impl ScaledProblem {
     }
 }
 
-/// How far `load scale / unit` may be off, with powers of two: nothing, but for underflow and overflow.
+/// The maximum error of `load scale / unit` with powers of two: zero, apart from underflow and overflow.
 fn lost_by_scaling(load: f64, scale: f64, unit: f64) -> f64 {
     let (once, twice) = (load * scale, load * scale / unit);
     if !twice.is_finite() {
@@ -203,14 +203,13 @@ fn lost_by_scaling(load: f64, scale: f64, unit: f64) -> f64 {
     }
 }
 
-/// The number of patterns, gap states included, or the largest `u64` if that is less.
+/// The number of patterns, gap states included, or the largest `u64` if that is smaller.
 pub(crate) fn patterns_of(problem: ProblemView<'_>) -> u64 {
     let states = (0..problem.contacts()).map(|contact| if problem.has_jump(contact) { 3 } else { 2 });
     states.fold(1, u64::saturating_mul)
 }
 
-/// The smallest power of two above `size`, kept within the range where its reciprocal is finite;
-/// 1 for zero.
+/// The smallest power of two above `size`, kept within the range where its reciprocal is finite; 1 for zero.
 pub(crate) fn power_of_two_above(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { (size.log2().floor() + 1.0).clamp(-1000.0, 1000.0).exp2() }
 }

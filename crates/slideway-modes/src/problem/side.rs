@@ -1,4 +1,5 @@
-//! The sides of contacts, quantities that have one value for each, and the names of the parts of a problem.
+//! The sides of contacts, quantities that have one value for each side, and the names of the parts of a
+//! problem.
 
 use std::fmt;
 
@@ -60,7 +61,7 @@ impl<T: Clone> BySide<T> {
     }
 }
 
-/// Which part of the data an error speaks of.
+/// The part of the data to which an error refers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProblemPart {
     /// Columns `c_k` of one side, or `eta`, `M`, `A`: one column per contact.

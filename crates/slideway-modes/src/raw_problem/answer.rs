@@ -1,4 +1,4 @@
-//! From a problem to its report: the search, and what is told of it.
+//! From a problem to its report: the search, and what is reported.
 
 use super::listing::{Counts, Listing, Sort, list};
 use super::range::in_range;
@@ -18,16 +18,16 @@ use crate::status::{Proof, Status};
 
 /// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
 const ENCLOSURE_WORK: f64 = 3e7;
-/// ... and of the first solution for up to so many unknowns.
+/// ... and for the first solution with up to this many unknowns.
 const ENCLOSED_UNKNOWNS: usize = 500;
-/// Solutions on a boundary are decided in rational numbers: only for so many unknowns.
+/// Solutions on a boundary are decided in rational numbers only for up to this many unknowns.
 const EXACT_UNKNOWNS: usize = 24;
 
 /// All solutions of a raw problem.
 ///
-/// Searches with `options` and lists up to `listed` solutions, gap states and continua each; the counts are
-/// those of all. What is part of a continuum is not listed beside it. `progress` is called at every node, and
-/// in the midst of long work, and ends the search when it breaks.
+/// Searches with `options` and lists up to `listed` solutions, gap states and continua each; the counts
+/// include all of them. Parts of a continuum are not listed separately. `progress` is called at every node
+/// and during long steps, and ends the search by breaking.
 ///
 /// # Errors
 /// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
@@ -40,7 +40,7 @@ pub fn solve(
     solve_with(raw, options, Listing { most: listed, all_faces: false }, progress)
 }
 
-/// [`solve`], with more to say about what is listed.
+/// [`solve`], with more options for what is listed.
 ///
 /// # Errors
 /// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
@@ -80,7 +80,7 @@ pub fn solve_with(
         solutions: Vec::new(),
         gap_states: Vec::new(),
         continua: Vec::new(),
-        // Whoever has matrices has unknowns, no contacts.
+        // Users who supply matrices have unknowns, not contacts.
         strategy: result.strategy().replace("contacts", "unknowns"),
         nodes: result.nodes(),
         groups: result.groups.iter().map(group).collect(),
@@ -111,7 +111,7 @@ fn status(result: &SearchResult, counts: &Counts) -> Status {
     }
 }
 
-/// What keeps the list from being proven complete.
+/// What prevents the list from being proven complete.
 fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
     match result.completeness {
         Completeness::Proven => Vec::new(),
@@ -178,7 +178,7 @@ fn group(report: &GroupReport) -> RawGroup {
     }
 }
 
-/// Tells states of the search in the words of the problem.
+/// Describes states of the search in the terms of the problem.
 struct Teller<'a> {
     raw: &'a RawProblem,
     problem: &'a ModeProblem,
@@ -243,8 +243,8 @@ impl Teller<'_> {
     }
 }
 
-/// How far values of a pattern may be from those of its exact solution; none if that is not known. Values
-/// that have no floating-point number are left out.
+/// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Values
+/// without a floating-point number are ignored.
 fn radius(problem: &ModeProblem, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
     let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
         decide(problem, pattern).decision

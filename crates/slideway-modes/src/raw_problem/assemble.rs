@@ -1,4 +1,4 @@
-//! From named arrays to a problem: the type, the names that belong to it, shapes and values.
+//! From named arrays to a problem: its type, the names that belong to it, shapes and values.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,32 +9,32 @@ use super::{GREATEST_SIZE, RawProblem};
 use crate::names::nearest;
 use crate::problem::ModeProblem;
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Default)]
 pub(super) struct Given {
     pub(super) kind: GivenType,
-    /// Names and arrays; none for one that is faulty, of which its fault has been told.
+    /// Names and arrays; `None` for a faulty one whose fault has been recorded.
     pub(super) arrays: Vec<(String, Option<Array>)>,
 }
 
-/// What a file says about its type.
+/// What a file states about its type.
 #[derive(Default)]
 pub(super) enum GivenType {
     #[default]
     Nothing,
     Text(String),
-    /// Something else than a text, in words.
+    /// Something other than a text, in words.
     Other(String),
 }
 
 impl Given {
-    /// Whether the name is taken.
+    /// Whether the name is already used.
     pub(super) fn has(&self, key: &str) -> bool {
         let typed = key == "type" && !matches!(self.kind, GivenType::Nothing);
         typed || self.arrays.iter().any(|(name, _)| name == key)
     }
 
-    /// Notes the name of an array that cannot be read.
+    /// Records the name of an array that cannot be read.
     pub(super) fn set_faulty(&mut self, key: String, fault: RawFault, faults: &mut Vec<RawFault>) {
         faults.push(fault);
         self.arrays.push((key, None));
@@ -44,7 +44,7 @@ impl Given {
         self.arrays.iter().find(|(name, _)| name == key)?.1.as_ref()
     }
 
-    /// The type that is given, or else the only one that has these names.
+    /// The given type, otherwise the only one with these names.
     fn kind(&self) -> Result<RawKind, RawFault> {
         match &self.kind {
             GivenType::Other(found) => Err(RawFault::TypeNotText { found: found.clone() }),
@@ -72,7 +72,7 @@ impl Given {
     /// The problem.
     ///
     /// # Errors
-    /// `faults`, and all that are found here.
+    /// `faults`, together with all those found here.
     pub(super) fn assemble(self, mut faults: Vec<RawFault>) -> Result<RawProblem, RawFaults> {
         if self.arrays.is_empty() && matches!(self.kind, GivenType::Nothing) {
             faults.push(RawFault::Empty);
@@ -115,7 +115,7 @@ impl Given {
         faults.extend(missing.map(|key| RawFault::MissingKey { key, kind }));
     }
 
-    /// The number of unknowns, which the vector tells.
+    /// The number of unknowns, determined by the vector.
     fn size(&self, key: &'static str) -> Result<usize, RawFault> {
         let found = self.array(key).map_or(Shape::Vector(0), Array::shape);
         let (Shape::Vector(size) | Shape::Matrix(size, 1)) = found else {
@@ -148,7 +148,7 @@ impl Given {
         }
     }
 
-    /// Notes the first entry that is not finite.
+    /// Records the first entry that is not finite.
     fn check_finite(&self, key: &str, faults: &mut Vec<RawFault>) {
         let Some(array) = self.array(key) else { return };
         if let Some((at, &value)) = array.values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
@@ -160,7 +160,7 @@ impl Given {
         }
     }
 
-    /// The problem of checked arrays.
+    /// The problem from checked arrays.
     fn problem(&self, kind: RawKind, size: usize) -> Result<RawProblem, RawFaults> {
         let matrix = |key: &str| match self.array(key) {
             Some(array) => DMatrix::from_row_slice(size, size, &array.values),

@@ -7,7 +7,8 @@ use super::report::{ContinuumPart, RawContinuum, Unknowns};
 use crate::problem::ContactState;
 use crate::search::{CombinedState, GroupState};
 
-/// A combination of which some part is a continuum, with at most `most` vertices and directions of each part.
+/// A combination with at least one part that is a continuum, with at most `most` vertices and directions of
+/// each part.
 pub(super) fn told(state: &CombinedState<'_>, kind: RawKind, size: usize, most: usize) -> RawContinuum {
     let mut fixed: Vec<(usize, f64)> = Vec::new();
     let mut parts = Vec::new();

@@ -1,4 +1,4 @@
-//! What can be wrong with a raw problem: every kind of fault with its values.
+//! What can be wrong with a raw problem: every kind of fault, with its values.
 
 use std::fmt;
 
@@ -6,19 +6,19 @@ use super::kind::RawKind;
 use super::shape::Shape;
 use crate::printable;
 
-/// Everything that is wrong with a raw problem; never empty where it is returned as an error.
+/// Everything that is wrong with a raw problem; never empty when returned as an error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawFaults {
     list: Vec<RawFault>,
 }
 
 impl RawFaults {
-    /// None if there is no fault.
+    /// `None` if there is no fault.
     pub(super) fn some(list: Vec<RawFault>) -> Option<Self> {
         (!list.is_empty()).then_some(Self { list })
     }
 
-    /// The faults, in the order in which they were met.
+    /// The faults, in the order in which they were found.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &RawFault> {
         self.list.iter()
     }
@@ -45,26 +45,26 @@ impl std::error::Error for RawFaults {}
 /// One thing that is wrong. Rows and columns are counted from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RawFault {
-    /// There is nothing at all.
+    /// The input is empty.
     #[error("the problem is empty")]
     Empty,
-    /// More bytes than a problem may have.
+    /// More bytes than permitted for a problem.
     #[error("the problem is larger than {} MiB", limit >> 20)]
     TooLarge {
-        /// The most bytes.
+        /// The maximum number of bytes.
         limit: u64,
     },
-    /// More unknowns than a problem may have.
+    /// More unknowns than permitted for a problem.
     #[error("`{key}` has {found} entries; a problem may have up to {limit} unknowns")]
     TooManyUnknowns {
-        /// The vector that tells the size of the problem.
+        /// The vector that determines the size of the problem.
         key: String,
-        /// Its entries.
+        /// The number of its entries.
         found: usize,
-        /// The most.
+        /// The maximum number.
         limit: usize,
     },
-    /// The text is no JSON.
+    /// The text is not JSON.
     #[error("line {line}, column {column}: {message}")]
     Json {
         /// Line of the fault, from 1.
@@ -74,7 +74,7 @@ pub enum RawFault {
         /// What is wrong there.
         message: String,
     },
-    /// A number that JSON cannot write.
+    /// A number that JSON cannot represent.
     #[error("line {line}: `{word}` is not a valid number")]
     NotFiniteWord {
         /// Line of the word, from 1.
@@ -82,10 +82,10 @@ pub enum RawFault {
         /// `NaN`, `Infinity` or the like.
         word: &'static str,
     },
-    /// The text is JSON, but no object.
+    /// The text is JSON, but not an object.
     #[error("the problem is {found}, not an object with the matrices under their names")]
     NotAnObject {
-        /// What it is.
+        /// What it is instead.
         found: &'static str,
     },
     /// A name is given twice.
@@ -101,7 +101,7 @@ pub enum RawFault {
         key: String,
         /// The type of the problem.
         kind: RawKind,
-        /// The known name that it is most like, if it is like one and that one is not given.
+        /// The most similar known name, if one is similar and not already given.
         nearest: Option<String>,
     },
     /// A name that a problem of this type must have.
@@ -112,44 +112,44 @@ pub enum RawFault {
         /// The type of the problem.
         kind: RawKind,
     },
-    /// No type is given, and the names are not those of one type.
+    /// No type is given, and the names do not match exactly one type.
     #[error("the type of the problem is missing, and cannot be inferred from the names {}", listed(present))]
     MissingType {
         /// The names that are given.
         present: Vec<String>,
     },
-    /// A type that is none.
+    /// An unknown type.
     #[error("unknown type `{found}` of problem")]
     UnknownType {
-        /// What was given.
+        /// The given type.
         found: String,
-        /// The known type that it is most like, if it is like one.
+        /// The most similar known type, if one is similar.
         nearest: Option<String>,
     },
-    /// The type is no text.
+    /// The type is not a text.
     #[error("`type` is {found}, not a text")]
     TypeNotText {
-        /// What it is.
+        /// What it is instead.
         found: String,
     },
-    /// What should be an array of numbers is something else.
+    /// Something other than an array of numbers.
     #[error("`{key}` is {found}, not an array of numbers")]
     NotAnArray {
         /// The name.
         key: String,
-        /// What it is.
+        /// What it is instead.
         found: String,
     },
-    /// An entry that is no number.
+    /// An entry that is not a number.
     #[error("`{key}`: {} is {found}, not a number", place(*row, *column))]
     NotANumber {
         /// The name.
         key: String,
-        /// Row of the entry, or its place in a vector.
+        /// Row of the entry, or its index in a vector.
         row: usize,
-        /// Column of the entry; none in a vector.
+        /// Column of the entry; `None` in a vector.
         column: Option<usize>,
-        /// What it is.
+        /// What it is instead.
         found: &'static str,
     },
     /// Rows of different lengths.
@@ -159,9 +159,9 @@ pub enum RawFault {
         key: String,
         /// The first row that differs.
         row: usize,
-        /// Entries of row 0.
+        /// Number of entries in row 0.
         expected: usize,
-        /// Entries of the row.
+        /// Number of entries in the row.
         found: usize,
     },
     /// A matrix or vector of the wrong shape.
@@ -169,21 +169,21 @@ pub enum RawFault {
     Shape {
         /// The name.
         key: String,
-        /// What it must be.
+        /// The required shape.
         expected: Shape,
-        /// What it is.
+        /// The shape found.
         found: Shape,
-        /// The vector that tells the size of the problem, and its entries.
+        /// The vector that determines the size of the problem, and the number of its entries.
         reference: Option<(&'static str, usize)>,
     },
-    /// An entry that is infinite or not a number.
+    /// An entry that is infinite or NaN.
     #[error("`{key}`: {} is {value}", place(*row, *column))]
     NotFinite {
         /// The name.
         key: String,
-        /// Row of the entry, or its place in a vector.
+        /// Row of the entry, or its index in a vector.
         row: usize,
-        /// Column of the entry; none in a vector.
+        /// Column of the entry; `None` in a vector.
         column: Option<usize>,
         /// The entry.
         value: f64,
@@ -196,13 +196,13 @@ pub enum RawFault {
         /// Column of the entry.
         column: usize,
     },
-    /// The file is no archive of arrays.
+    /// The file is not an archive of arrays.
     #[error("the .npz archive cannot be read: {reason}")]
     Archive {
-        /// What its reader says.
+        /// The reader's message.
         reason: String,
     },
-    /// A file in the archive is no array.
+    /// A file in the archive is not an array.
     #[error("`{key}` in the .npz archive is not a NumPy array: {reason}")]
     Npy {
         /// The name.
@@ -210,18 +210,18 @@ pub enum RawFault {
         /// What is wrong with it.
         reason: &'static str,
     },
-    /// An array of something else than real numbers.
+    /// An array with entries other than real numbers.
     #[error("`{key}` holds entries of the NumPy type '{found}', not real numbers")]
     EntryType {
         /// The name.
         key: String,
-        /// The type as NumPy writes it.
+        /// The type in NumPy's notation.
         found: String,
     },
 }
 
 impl RawFault {
-    /// What to do about it, where there is something better to say than the message itself.
+    /// What to do about it, if there is more to say than the message itself.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Empty | Self::NotAnObject { .. } => {

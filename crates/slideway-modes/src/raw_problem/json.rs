@@ -9,7 +9,7 @@ use super::assemble::{Given, GivenType};
 use super::fault::RawFault;
 use super::shape::Array;
 
-/// The names and arrays of a JSON text; what is wrong with single arrays goes to `faults`.
+/// The names and arrays of a JSON text; faults of single arrays are added to `faults`.
 pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, RawFault> {
     let object = match serde_json::from_slice(bytes) {
         Ok(Top::Object(entries)) => entries,
@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, Ra
     Ok(given)
 }
 
-/// The top of the text: the entries of an object in their order, repeated names included.
+/// The top level of the text: the entries of an object in their order, including repeated names.
 enum Top {
     Object(Vec<(String, Value)>),
     Other(Value),
@@ -149,8 +149,8 @@ fn word(value: &Value) -> &'static str {
     }
 }
 
-/// What a parser's error says; the words that Python writes for numbers JSON does not have get a
-/// message of their own.
+/// Translates a parser's error; words that Python writes for numbers that JSON does not have get a separate
+/// message.
 fn syntax(bytes: &[u8], error: &serde_json::Error) -> RawFault {
     let (line, column) = (error.line(), error.column());
     let text = bytes.split(|&byte| byte == b'\n').nth(line.saturating_sub(1)).unwrap_or_default();

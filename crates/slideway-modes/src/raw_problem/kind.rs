@@ -22,7 +22,7 @@ impl RawKind {
     /// All types.
     pub const ALL: [Self; 4] = [Self::Lcp, Self::Ave, Self::Hlcp, Self::Modes];
 
-    /// The word for it in a file.
+    /// The word for it in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Lcp => "lcp",
@@ -52,7 +52,7 @@ impl RawKind {
         }
     }
 
-    /// The arrays that it must have; the last one is the vector that tells its size.
+    /// The arrays that are required; the last one is the vector that determines the size.
     pub fn required(self) -> &'static [&'static str] {
         match self {
             Self::Lcp => &["M", "q"],
@@ -62,7 +62,7 @@ impl RawKind {
         }
     }
 
-    /// The arrays that it may have, all of them or none.
+    /// The optional arrays: all of them or none.
     pub fn optional(self) -> &'static [&'static str] {
         match self {
             Self::Modes => &["jumps_positive", "jumps_negative"],

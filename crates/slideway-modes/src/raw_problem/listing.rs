@@ -1,4 +1,4 @@
-//! Which combinations of groups' states are listed, and how many there are of each sort.
+//! Selects which combinations of the groups' states are listed, and counts those of each sort.
 
 use crate::problem::ContactState;
 use crate::search::{BigCount, CombinedState, GroupState, SolutionProduct};
@@ -6,14 +6,14 @@ use crate::search::{BigCount, CombinedState, GroupState, SolutionProduct};
 /// How much of the answer is listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Listing {
-    /// The most entries of each list: solutions, gap states, continua, and the vertices and the directions of
-    /// each part of a continuum.
+    /// The maximum number of entries in each list: solutions, gap states, continua, and the vertices and the
+    /// directions of each part of a continuum.
     pub most: usize,
-    /// Whether what is part of a larger continuum is listed, too: its ends, and its faces.
+    /// Whether parts of a larger continuum, its ends and faces, are listed, too.
     pub all_faces: bool,
 }
 
-/// What a combination of groups' states is.
+/// The sort of a combination of the groups' states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sort {
     Point,
@@ -25,7 +25,7 @@ impl Sort {
     fn of_part(state: &GroupState) -> Self {
         match state {
             GroupState::Singular(mode) if mode.set.is_continuum() => Self::Continuum,
-            // Raw problems are exact: every pattern is decided.
+            // Raw problems are exact, so every pattern is decided.
             GroupState::Undecided(_) => Self::Continuum,
             GroupState::Gap(_) => Self::Gap,
             GroupState::Singular(mode) if mode.pattern.contains(&ContactState::Gap) => Self::Gap,
@@ -33,7 +33,7 @@ impl Sort {
         }
     }
 
-    /// Of a combination: that of the part of which most has to be said.
+    /// The sort of a combination: the greatest sort of its parts.
     pub(super) fn of(state: &CombinedState<'_>) -> Self {
         state.parts.iter().map(|(_, part)| Self::of_part(part)).max().unwrap_or(Self::Point)
     }
@@ -47,7 +47,7 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// Of a product, with or without what is part of a larger continuum.
+    /// Counts for a product, with or without parts of a larger continuum.
     pub(super) fn of(product: &SolutionProduct, all_faces: bool) -> Self {
         let [points, with_gaps, all] = cumulated(product, all_faces);
         Self { gaps: with_gaps.minus(&points), continua: all.minus(&with_gaps), points }
@@ -61,7 +61,7 @@ impl Counts {
         }
     }
 
-    /// How many of a sort to list.
+    /// How many combinations of a sort to list.
     fn wanted(&self, sort: Sort, most: usize) -> usize {
         let count = match sort {
             Sort::Point => &self.points,
@@ -72,7 +72,7 @@ impl Counts {
     }
 }
 
-/// Numbers of combinations: of points; with gap states; with continua.
+/// Cumulative numbers of combinations: points; with gap states; with continua.
 fn cumulated(product: &SolutionProduct, all_faces: bool) -> [BigCount; 3] {
     let mut total = [1, 1, 1].map(BigCount::from);
     for factor in &product.factors {
@@ -88,7 +88,7 @@ fn cumulated(product: &SolutionProduct, all_faces: bool) -> [BigCount; 3] {
     total
 }
 
-/// Calls `take` with each combination of a sort that is to be listed, given how many there are.
+/// Calls `take` with each combination of a sort to be listed, given how many there are.
 pub(super) fn list(
     product: &SolutionProduct,
     (counts, sort): (&Counts, Sort),
@@ -97,7 +97,7 @@ pub(super) fn list(
 ) {
     let wanted = counts.wanted(sort, listing.most);
     if wanted > 0 {
-        // Those of this sort come first, so that none has to be sought among many of the others.
+        // Those of this sort come first, so that none has to be found among many others.
         let mut product = product.clone();
         restrict(&mut product, sort, listing.all_faces);
         let states = product.states().filter(|state| Sort::of(state) == sort);
@@ -105,8 +105,8 @@ pub(super) fn list(
     }
 }
 
-/// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the
-/// combinations that are left; none if there are no combinations.
+/// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the remaining
+/// combinations; `None` if there are no combinations.
 fn restrict(product: &mut SolutionProduct, most: Sort, all_faces: bool) -> Option<Sort> {
     let mut greatest = Some(Sort::Point);
     for factor in &mut product.factors {

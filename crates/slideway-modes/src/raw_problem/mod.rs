@@ -1,8 +1,8 @@
-//! Problems given as matrices, by themselves: no mechanism needed.
+//! Problems given directly as matrices, without a mechanism.
 //!
-//! Many questions lead to a system of linear equations in which each unknown switches between two
-//! versions of its coefficients, according to its sign. Slideway finds *all* solutions of such a
-//! system, and says whether it is proven that there are no others. Four forms are read:
+//! Many questions lead to a system of linear equations in which each unknown switches between two versions of
+//! its coefficients, depending on its sign. Slideway finds *all* solutions of such a system, and says whether
+//! it is proven that there are no others. Four forms are read:
 //!
 //! | type | arrays | problem | source |
 //! |---|---|---|---|
@@ -11,7 +11,7 @@
 //! | `hlcp` | `A`, `B`, `q` | `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | horizontal linear complementarity problem (Sznajder and Gowda, 1995); with `A = I` an LCP with `M = B` |
 //! | `modes` | `columns_positive`, `columns_negative`, `right_hand_side`, and perhaps `jumps_positive`, `jumps_negative` | [`ModeProblem`] | Klepp (2002), eqs. (6), (8) |
 //!
-//! The way of the data: bytes -> [`RawProblem`] -> [`solve`] -> [`RawReport`] -> text, JSON or `.npz`.
+//! The data flow: bytes -> [`RawProblem`] -> [`solve`] -> [`RawReport`] -> text, JSON or `.npz`.
 //!
 //! ```
 //! use std::ops::ControlFlow;
@@ -26,9 +26,10 @@
 //! ```
 //!
 //! # Numbers
-//! Every number is a 64-bit floating-point number; decimal fractions and large integers are rounded
-//! to the nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
-//! unknown whose value is beyond the range of such numbers has none, and is told as text: [`BeyondRange`].
+//! Every number is a 64-bit floating-point number; decimal fractions and large integers are rounded to the
+//! nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
+//! unknown whose value is beyond the range of such numbers has none, and is reported as text:
+//! [`BeyondRange`].
 
 mod answer;
 #[cfg(any(feature = "json", feature = "npz"))]
@@ -74,14 +75,14 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::problem::{ModeProblem, ModeProblemError};
 
-/// The most bytes of a problem.
+/// The maximum number of bytes of a problem.
 #[cfg(any(feature = "json", feature = "npz"))]
 pub const SIZE_LIMIT: u64 = 64 << 20;
-/// The most unknowns of a problem.
+/// The maximum number of unknowns of a problem.
 #[cfg(any(feature = "json", feature = "npz"))]
 pub const GREATEST_SIZE: usize = 2000;
 
-/// A problem as it was given. Matrices are n x n, vectors have n entries.
+/// A problem as given. Matrices are n x n, vectors have n entries.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RawProblem {
     /// `w = M z + q`, `w >= 0`, `z >= 0`, `w_k z_k = 0`.
@@ -114,20 +115,20 @@ pub enum RawProblem {
 }
 
 impl RawProblem {
-    /// The problem in a file: a NumPy archive if it begins as one, else JSON.
+    /// The problem in a file: a NumPy archive if it starts like one, otherwise JSON.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as far as reading could go on.
+    /// Everything that is wrong with it, as far as reading could continue.
     #[cfg(all(feature = "json", feature = "npz"))]
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, RawFaults> {
         if bytes.starts_with(b"PK") { Self::from_npz(bytes) } else { Self::from_json(bytes) }
     }
 
-    /// The problem in a JSON text: an object with `type` and the arrays of that type, a matrix being a
-    /// list of rows. `type` may be absent where the names of the arrays tell it.
+    /// The problem in a JSON text: an object with `type` and the arrays of that type, where a matrix is a
+    /// list of rows. `type` may be absent if the names of the arrays determine it.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as far as reading could go on.
+    /// Everything that is wrong with it, as far as reading could continue.
     ///
     /// ```
     /// use slideway_modes::raw_problem::{RawFault, RawProblem, Shape};
@@ -141,18 +142,18 @@ impl RawProblem {
         if bytes.iter().all(u8::is_ascii_whitespace) {
             return Err(RawFault::Empty.into());
         }
-        // Some editors begin a file with a byte order mark.
+        // Some editors start a file with a byte order mark.
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let mut faults = Vec::new();
         json::read(bytes, &mut faults)?.assemble(faults)
     }
 
-    /// The problem in a NumPy archive (`.npz`): arrays under the same names as in JSON. Entries may be
-    /// floating-point numbers of 32 or 64 bits or integers, in either order of rows and columns.
-    /// `type`, a text, may be absent where the names of the arrays tell it.
+    /// The problem in a NumPy archive (`.npz`): arrays with the same names as in JSON. Entries may be 32-bit
+    /// or 64-bit floating-point numbers or integers, stored by rows or by columns. `type`, a text, may be
+    /// absent if the names of the arrays determine it.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as far as reading could go on.
+    /// Everything that is wrong with it, as far as reading could continue.
     #[cfg(feature = "npz")]
     pub fn from_npz(bytes: &[u8]) -> Result<Self, RawFaults> {
         check_length(bytes)?;
@@ -173,7 +174,7 @@ impl RawProblem {
     /// The mode problem with the same solutions. Its signed `N` is `z - w`, or `x`.
     ///
     /// # Errors
-    /// If shapes do not fit, an entry is not finite, or `A + B` overflows.
+    /// If shapes do not match, an entry is not finite, or `A + B` overflows.
     pub fn mode_problem(&self) -> Result<ModeProblem, ModeProblemError> {
         match self {
             Self::LinearComplementarity { m, q } => ModeProblem::from_linear_complementarity(m, q.clone()),

@@ -1,10 +1,11 @@
-//! Whether a problem without solution has one within rounding of its numbers.
+//! Whether a problem without a solution has one within rounding of its numbers.
 //!
-//! Numbers that were computed or converted are rounded, and where a matrix ought to be singular, as that of a
-//! frictionless pile, this alone may take away every solution. `y >= 0` solves the equations of a pattern for
-//! some numbers within bounds exactly if `|C y - b| <= R y + s`, row by row, where `R` and `s` are the radii
-//! of the bounds (Oettli and Prager, 1964). The search within the bounds excludes what has no solution for
-//! any of these numbers, and finds candidates for this criterion, which is evaluated in exact numbers.
+//! Numbers that were computed or converted are rounded, and if a matrix ought to be singular, like that of a
+//! frictionless pile, rounding alone may remove every solution. `y >= 0` solves the equations of a pattern
+//! for some numbers within bounds exactly if `|C y - b| <= R y + s`, row by row, where `R` and `s` are the
+//! radii of the bounds (Oettli and Prager, 1964). The search within the bounds excludes patterns without a
+//! solution for any of these numbers, and finds candidates for this criterion, which is evaluated in exact
+//! arithmetic.
 
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
@@ -17,20 +18,20 @@ use crate::progress::{Callback, Progress};
 use crate::search::{Arguments, CombinedState, Completeness, GroupState, SearchOptions, search};
 use crate::solutions::Limits;
 
-/// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the
-/// rounding of `A + B` and `B - A`.
+/// Every number may be off by this fraction of its size, `2^-50`: `TOLD` is reported, which leaves room for
+/// the rounding of `A + B` and `B - A`.
 const RELATIVE: f64 = 4.0 * f64::EPSILON;
 const TOLD: f64 = 1e-15;
-/// The search within bounds ends at so many states, ...
+/// The search within bounds ends after this many states, ...
 const STATES: usize = 64;
-/// ... and has so many nodes more than the one for the numbers as given.
+/// ... and may visit this many more nodes than the search for the numbers as given.
 const MORE_NODES: u64 = 1000;
-/// Of a state that is a continuum so many vertices are tried.
+/// At most this many vertices of a continuum are tried.
 const VERTICES: usize = 16;
-/// Candidates are tried in exact numbers only for so many unknowns.
+/// Candidates are tried in exact arithmetic only for up to this many unknowns.
 const LARGEST: usize = 200;
 
-/// What is to be told; none if the right-hand side jumps, or numbers are too large.
+/// What is to be reported; `None` if the right-hand side jumps, or if numbers are too large.
 pub(super) fn within_rounding(
     raw: &RawProblem,
     problem: &ModeProblem,
@@ -40,7 +41,7 @@ pub(super) fn within_rounding(
     let bounds = Nearby::new(raw, problem)?;
     let limits = Limits { solutions: STATES, ..options.limits };
     let nodes = options.nodes.min(nodes.saturating_add(MORE_NODES));
-    // Relaxations exclude singular patterns for all numbers within bounds, decisions one by one do not.
+    // Relaxations exclude singular patterns for all numbers within bounds; individual decisions do not.
     let arguments = Arguments { every_pattern: false, ..options.arguments };
     let options = SearchOptions { nodes, limits, arguments, keep_exclusions: false, ..*options };
     let result = search(&bounds.problem()?, &options, progress);
@@ -60,10 +61,10 @@ pub(super) fn within_rounding(
     Some(WithinRounding { relative: TOLD, answer, unknowns })
 }
 
-/// The numbers of a problem without jumps, and what they may be off by.
+/// The numbers of a problem without jumps, and their maximum errors.
 struct Nearby<'a> {
     problem: &'a ModeProblem,
-    /// Sizes of the numbers given, of which `RELATIVE` is the radius.
+    /// Sizes of the given numbers; their radius is `RELATIVE` times these.
     sizes: BySide<DMatrix<f64>>,
 }
 
@@ -71,7 +72,7 @@ impl<'a> Nearby<'a> {
     fn new(raw: &RawProblem, problem: &'a ModeProblem) -> Option<Self> {
         let size = problem.contacts();
         let (positive, negative) = match raw {
-            // w = M z + q: there is nothing to round in the columns of w.
+            // w = M z + q: the columns of w are not rounded.
             RawProblem::LinearComplementarity { m, .. } => (m.abs(), DMatrix::zeros(size, size)),
             RawProblem::AbsoluteValue { a, b, .. } => (a.abs() + b.abs(), a.abs() + b.abs()),
             RawProblem::HorizontalComplementarity { a, b, .. } => (b.abs(), a.abs()),
@@ -95,8 +96,8 @@ impl<'a> Nearby<'a> {
         IntervalModeProblem::new(&columns, &BySide::same(none), &around(load, &load_size)?).ok()
     }
 
-    /// The matrix of the unknowns with these signed values that do not vanish, which ones they are, and the
-    /// sizes of its numbers.
+    /// The matrix of the nonzero unknowns with these signed values, which unknowns these are, and the sizes
+    /// of the matrix's numbers.
     fn columns(&self, signed: &DVector<f64>) -> (DMatrix<f64>, Vec<usize>, DMatrix<f64>) {
         let present: Vec<usize> = (0..signed.len()).filter(|&at| signed[at] != 0.0).collect();
         let side = |at: usize| if signed[at] > 0.0 { Side::Positive } else { Side::Negative };
@@ -110,7 +111,7 @@ impl<'a> Nearby<'a> {
         (matrix, present, sizes)
     }
 
-    /// The least-squares solution of least size with the same signs; none if there is no such.
+    /// The least-squares solution of minimum size with the same signs; `None` if there is none.
     fn refined(&self, signed: &DVector<f64>) -> Option<DVector<f64>> {
         let (matrix, present, _) = self.columns(signed);
         if present.is_empty() {
@@ -128,8 +129,8 @@ impl<'a> Nearby<'a> {
         y.iter().all(|&value| value >= 0.0).then_some(refined)
     }
 
-    /// Whether some numbers within the bounds have this solution, of which rounding does not carry the load:
-    /// what it does to the terms of an equation must be less than half of the largest load.
+    /// Whether some numbers within the bounds have this solution, without rounding carrying the load: the
+    /// effect of rounding on the terms of an equation must be less than half of the largest load.
     fn admits(&self, signed: &DVector<f64>) -> bool {
         let (matrix, present, sizes) = self.columns(signed);
         let y: Option<Vec<RBig>> = present.iter().map(|&at| exact(signed[at].abs())).collect();

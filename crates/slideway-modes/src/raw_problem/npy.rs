@@ -1,18 +1,18 @@
-//! The NumPy array format: a header in Python's notation, then the entries.
+//! The NumPy array format: a header in Python notation, followed by the entries.
 //!
-//! Only what problems and answers need: versions 1 to 3 of the format, real numbers and texts.
-//! (NumPy documentation, "numpy.lib.format".)
+//! Supports only what problems and answers need: versions 1 to 3 of the format, real numbers and texts (NumPy
+//! documentation, "numpy.lib.format").
 
 use super::fault::RawFault;
 use super::shape::Array;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
-/// The header is padded so that the entries begin at a multiple of this.
+/// The header is padded so that the entries start at a multiple of this.
 const ALIGNMENT: usize = 64;
 
-/// A header and the bytes behind it.
+/// A header and the bytes that follow it.
 struct Npy<'b> {
-    /// The type of the entries, for instance `<f8`.
+    /// The type of the entries, for example `<f8`.
     entry_type: String,
     column_major: bool,
     sizes: Vec<usize>,
@@ -38,7 +38,7 @@ pub(super) fn numbers(key: &str, bytes: &[u8], most: usize) -> Result<Array, Raw
     Ok(Array { sizes: npy.sizes, values })
 }
 
-/// The text of an array with a single text.
+/// The text of an array that contains a single text.
 pub(super) fn text(key: &str, bytes: &[u8]) -> Result<Option<String>, RawFault> {
     let npy = Npy::parse(bytes).map_err(|reason| RawFault::Npy { key: key.to_owned(), reason })?;
     if npy.sizes.iter().any(|&size| size != 1) {
@@ -69,9 +69,9 @@ pub(super) fn text(key: &str, bytes: &[u8]) -> Result<Option<String>, RawFault> 
 #[derive(Clone, Copy)]
 struct EntryType {
     kind: Kind,
-    /// Bytes of an entry.
+    /// Number of bytes per entry.
     width: usize,
-    /// Whether the byte that counts most comes first.
+    /// Whether the most significant byte comes first.
     big_endian: bool,
 }
 
@@ -83,7 +83,7 @@ enum Kind {
 }
 
 impl EntryType {
-    /// From NumPy's word for it, such as `<f8`; none for what is not a real number.
+    /// From NumPy's notation, such as `<f8`; `None` if it is not a real number.
     fn of(word: &str) -> Option<Self> {
         let (kind, width) = match word.get(1..)? {
             "f8" => (Kind::Float, 8),
@@ -145,7 +145,7 @@ impl<'b> Npy<'b> {
         Self::with_header(header, data).ok_or("its header cannot be read")
     }
 
-    /// For instance `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), }`.
+    /// For example `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), }`.
     fn with_header(header: &str, data: &'b [u8]) -> Option<Self> {
         let mut rest = header.trim().strip_prefix('{')?.strip_suffix('}')?.trim_start();
         let (mut entry_type, mut column_major, mut sizes) = (None, None, None);

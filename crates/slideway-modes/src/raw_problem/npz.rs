@@ -10,12 +10,12 @@ use super::fault::RawFault;
 use super::kind::RawKind;
 use super::{GREATEST_SIZE, npy};
 
-/// A matrix has at most so many entries.
+/// The maximum number of entries of a matrix.
 const MOST_ENTRIES: usize = GREATEST_SIZE * GREATEST_SIZE;
-/// Its bytes and those of its header.
+/// The number of bytes of such a matrix and its header.
 const MOST_BYTES: u64 = MOST_ENTRIES as u64 * 8 + 65536;
 
-/// The names and arrays of an archive; what is wrong with single arrays goes to `faults`.
+/// The names and arrays of an archive; faults of single arrays are added to `faults`.
 pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, RawFault> {
     let broken = |error: &dyn ToString| RawFault::Archive { reason: error.to_string() };
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| broken(&error))?;
@@ -30,7 +30,7 @@ pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, Ra
         }
         let known = RawKind::ALL.iter().any(|kind| kind.names().contains(&key.as_str()));
         if !known && key != "type" {
-            // A name of no problem: told later, without a look inside.
+            // A name that belongs to no problem: reported later, without reading the array.
             given.arrays.push((key, None));
             continue;
         }
@@ -55,7 +55,7 @@ pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, Ra
     Ok(given)
 }
 
-/// An archive of arrays that are written already.
+/// An archive of arrays that are already encoded.
 pub(super) fn write(arrays: &[(&str, Vec<u8>)]) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()

@@ -1,4 +1,4 @@
-//! Values that no floating-point number is near: too large, or so small that digits are lost.
+//! Values to which no floating-point number is close: too large, or so small that digits are lost.
 
 use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
@@ -8,19 +8,19 @@ use crate::certificate::{ExactOutcome, solve_part_exactly};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem};
 
-/// The most unknowns that are solved together for an exact value.
+/// The maximum number of unknowns that are solved together for an exact value.
 const TOGETHER: usize = 48;
-/// Digits of a value that is told as text: as many as tell floating-point numbers apart.
+/// Number of digits of a value reported as text: enough to distinguish floating-point numbers.
 const DIGITS: u8 = 17;
 
-/// Whether a rounded value has the precision of floating-point numbers: zero, or neither infinite nor
-/// subnormal.
+/// Whether a rounded value has the full precision of floating-point numbers: it is zero, or neither infinite
+/// nor subnormal.
 pub(super) fn in_range(value: f64) -> bool {
     value == 0.0 || value.is_normal()
 }
 
-/// The exact unknown of a contact (`y_k`, or `lambda_k` in a gap); none if that takes too much work, or if it
-/// is not the only one.
+/// The exact unknown of a contact (`y_k`, or `lambda_k` in a gap); `None` if that takes too much work, or if
+/// it is not unique.
 pub(super) fn exact_unknown(problem: &ModeProblem, pattern: &[ContactState], contact: usize) -> Option<RBig> {
     let (contacts, outcome) = solve_part_exactly(problem, pattern, &[contact], TOGETHER)?;
     let ExactOutcome::Regular { unknowns, .. } = outcome else { return None };
@@ -33,8 +33,8 @@ pub(super) fn nearest(value: &RBig) -> f64 {
     Interval::around_ratio(value).middle()
 }
 
-/// A value as text, given its sign, its size as it was rounded (to infinity, or below the least normal
-/// number) and, if it is known, exactly.
+/// A value as text, given its sign, its rounded size (infinity, or below the least normal number) and, if
+/// known, its exact value.
 pub(super) fn told(sign: f64, rounded: f64, exact: Option<&RBig>) -> String {
     let minus = if sign < 0.0 { "-" } else { "" };
     match exact {

@@ -1,4 +1,4 @@
-//! What is told of a raw problem: plain data, which are the JSON output.
+//! The report of a raw problem: plain data, which are the JSON output.
 
 use serde::{Serialize, Serializer};
 
@@ -7,7 +7,7 @@ use super::range::in_range;
 use super::right_hand_sides::EveryRightHandSide;
 use crate::status::{Proof, Status};
 
-/// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
+/// Version of the layout of a [`RawReport`]; it changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/modes/2";
 
 /// All solutions of a raw problem.
@@ -21,69 +21,68 @@ pub struct RawReport {
     pub kind: RawKind,
     /// Number n of unknowns (of pairs of them in a complementarity problem).
     pub size: usize,
-    /// How many solutions there are; of those that were found if the search ended early.
+    /// How many solutions there are; if the search ended early, how many were found.
     pub status: Status,
-    /// Whether these are certainly all solutions.
+    /// Whether the list of solutions is proven complete.
     pub complete: Proof,
-    /// Whether the search ended before every possibility was dealt with.
+    /// Whether the search ended before all possibilities were examined.
     pub partial: bool,
     /// What remains open, in words; empty if `complete` is [`Proof::Proven`].
     pub open: Vec<String>,
-    /// Number of solutions found that are part of no continuum, as decimal text: it may be beyond any
-    /// integer type. Gap states are not among them.
+    /// Number of solutions found that are not part of a continuum, as decimal text, because it may exceed any
+    /// integer type. Gap states are not included.
     pub count: String,
-    /// Number of states with an unknown in its preload gap, likewise.
+    /// Number of states with an unknown in its preload gap, as decimal text.
     pub gap_state_count: String,
-    /// Number of continua that are not part of larger ones, likewise.
+    /// Number of continua that are not part of larger ones, as decimal text.
     pub continuum_count: String,
-    /// What is part of a larger continuum.
+    /// Parts of larger continua.
     pub faces: Faces,
-    /// How many solutions, gap states and continua there are to list, likewise.
+    /// How many solutions, gap states and continua there are to list, as decimal text.
     #[serde(skip)]
     pub totals: [String; 3],
-    /// Whether there is a solution within rounding of the numbers; only if there is none for the numbers
-    /// themselves.
+    /// Whether there is a solution within rounding of the numbers; present only if there is none for the
+    /// numbers themselves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub within_rounding: Option<WithinRounding>,
-    /// Whether there is exactly one solution for every right-hand side, where that was asked:
+    /// Whether every right-hand side has exactly one solution, if requested:
     /// [`RawProblem::every_right_hand_side`](super::RawProblem::every_right_hand_side).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub every_right_hand_side: Option<EveryRightHandSide>,
-    /// The solutions, not more than was asked for.
+    /// The solutions, up to the requested number.
     pub solutions: Vec<RawSolution>,
-    /// States with an unknown in its preload gap, likewise (theory, section 3).
+    /// States with an unknown in its preload gap, up to the requested number (theory, section 3).
     pub gap_states: Vec<RawSolution>,
-    /// Infinite sets of solutions, likewise.
+    /// Infinite sets of solutions, up to the requested number.
     pub continua: Vec<RawContinuum>,
     /// How they were found: groups of unknowns and methods, in words.
     pub strategy: String,
-    /// Nodes of the search that were visited.
+    /// Number of nodes visited by the search.
     pub nodes: u64,
-    /// The groups of unknowns that were searched one by one.
+    /// The groups of unknowns that were searched separately.
     pub groups: Vec<RawGroup>,
 }
 
-/// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of
-/// other patterns.
+/// Parts of larger continua: their ends and faces, which the search finds as solutions of other patterns.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Faces {
     /// Number of solutions, as decimal text.
     pub solutions: String,
-    /// Number of states in preload gaps, likewise.
+    /// Number of states in preload gaps, as decimal text.
     pub gap_states: String,
-    /// Number of continua, likewise.
+    /// Number of continua, as decimal text.
     pub continua: String,
-    /// Whether they are listed with the others.
+    /// Whether they are listed together with the others.
     pub listed: bool,
 }
 
-/// The unknowns by the names that the problem's type has for them. NaN (in JSON `null`) is no value: see
-/// [`BeyondRange`].
+/// The unknowns, with the names that the problem's type has for them. NaN (`null` in JSON) means no value:
+/// see [`BeyondRange`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Unknowns {
-    /// Of a linear or horizontal complementarity problem.
+    /// For a linear or horizontal complementarity problem.
     Complementary {
         /// `z`.
         #[serde(serialize_with = "known_values")]
@@ -92,13 +91,13 @@ pub enum Unknowns {
         #[serde(serialize_with = "known_values")]
         w: Vec<f64>,
     },
-    /// Of an absolute value equation.
+    /// For an absolute value equation.
     AbsoluteValue {
         /// `x`.
         #[serde(serialize_with = "known_values")]
         x: Vec<f64>,
     },
-    /// Of a mode problem.
+    /// For a mode problem.
     Modes {
         /// Signed normal forces `N_k = sigma_k y_k`.
         #[serde(serialize_with = "known_values")]
@@ -109,21 +108,21 @@ pub enum Unknowns {
     },
 }
 
-/// Numbers; nothing in place of those beyond the range of floating-point numbers, which are NaN here.
+/// Numbers, with `null` for those beyond the range of floating-point numbers, which are NaN here.
 fn known_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(values.iter().map(|value| (!value.is_nan()).then_some(*value)))
 }
 
-/// The same of one number.
+/// The same for one number.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     (!value.is_nan()).then_some(*value).serialize(serializer)
 }
 
 impl Unknowns {
-    /// The unknowns that have these signed values `N`, which are `z - w`, or `x`.
+    /// The unknowns with these signed values `N`, which are `z - w`, or `x`.
     pub(super) fn new(kind: RawKind, signed: &[f64]) -> Self {
-        // Without the sign of a zero.
+        // Removes the sign of a zero.
         let number = |value: f64| if in_range(value) { value + 0.0 } else { f64::NAN };
         let all = |of: fn(f64) -> f64| signed.iter().map(|&value| number(of(value))).collect();
         match kind {
@@ -135,8 +134,7 @@ impl Unknowns {
         }
     }
 
-    /// The names of the unknown that a signed value other than zero belongs to, with its sign under that
-    /// name.
+    /// The names of the unknowns to which a nonzero signed value belongs, each with the sign under that name.
     pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(RawUnknown, f64)] {
         match kind {
             RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[(RawUnknown::Z, 1.0)],
@@ -158,28 +156,28 @@ impl Unknowns {
     }
 }
 
-/// What numbers that differ from those given by rounding alone have for solutions.
+/// Solutions for numbers that differ from the given ones only by rounding.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WithinRounding {
-    /// Every number may differ by this part of its size.
+    /// Every number may differ by this fraction of its size.
     pub relative: f64,
-    /// Whether they have a solution.
+    /// Whether such numbers have a solution.
     pub answer: WithinRoundingAnswer,
     /// The solution.
     #[serde(flatten)]
     pub unknowns: Option<Unknowns>,
 }
 
-/// Whether numbers that differ from those given by rounding alone have a solution.
+/// Whether numbers that differ from the given ones only by rounding have a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WithinRoundingAnswer {
-    /// Some such numbers have the solution that is told.
+    /// Some such numbers have the reported solution.
     Solution,
-    /// None have any, which is proven.
+    /// No such numbers have a solution, which is proven.
     None,
-    /// Neither was found.
+    /// Neither was established.
     Unknown,
 }
 
@@ -203,42 +201,42 @@ pub struct RawSolution {
     pub unknowns: Unknowns,
     /// Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes.
     pub signs: Vec<i8>,
-    /// Whether some sign is 0 outside of a gap: the solution is on the boundary between patterns.
+    /// Whether some sign outside a gap is 0: the solution is on the boundary between patterns.
     pub on_boundary: bool,
-    /// Whether it is part of no continuum.
+    /// Whether it is not part of a continuum.
     pub maximal: bool,
-    /// No unknown that has a number is farther than this from the exact solution of the numbers given; absent
-    /// if that was not established.
+    /// Maximum distance of the unknowns that have a number from the exact solution for the given numbers;
+    /// absent if it was not determined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enclosure_radius: Option<f64>,
-    /// What is left over in the problem's equations, relative to the largest sum of sizes of terms
-    /// in an equation; absent where an unknown has no value at all.
+    /// The residual of the problem's equations, relative to the largest sum of sizes of terms in an equation;
+    /// absent if an unknown has no value at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residual: Option<f64>,
-    /// Unknowns that exist and have no floating-point number: theirs is `null`.
+    /// Unknowns that exist but have no floating-point number; their value is `null`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beyond_range: Vec<BeyondRange>,
-    /// The first continuum of the list `continua`, from 0, of which this is an end; absent if there is none.
+    /// The first continuum in the list `continua`, from 0, of which this is an end; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_of_continuum: Option<usize>,
     /// Unknowns in their gap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<GapShare>,
-    /// Whether the shares in `gaps` are those of one state of many, which have the same values otherwise.
+    /// Whether the shares in `gaps` are those of one of many states whose values are otherwise equal.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub shares_vary: bool,
 }
 
-/// An unknown that is not zero and beyond the range of floating-point numbers of full precision: larger than
-/// 1.8e308, or smaller than 2.2e-308 in size.
+/// A nonzero unknown beyond the range of floating-point numbers of full precision: larger than 1.8e308, or
+/// smaller than 2.2e-308, in size.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct BeyondRange {
     /// The name of the unknown.
     pub name: RawUnknown,
-    /// Which unknown, from 0.
+    /// The index of the unknown, from 0.
     pub index: usize,
-    /// The exact value rounded to 17 digits ("1.5e310"); in words where it was not computed.
+    /// The exact value rounded to 17 digits ("1.5e310"), or words if it was not computed.
     pub value: String,
 }
 
@@ -278,15 +276,15 @@ impl RawUnknown {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct GapShare {
-    /// Which unknown, from 0.
+    /// The index of the unknown, from 0.
     pub index: usize,
-    /// The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if that is beyond the range.
+    /// The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if it is beyond the range.
     #[serde(serialize_with = "known_value")]
     pub lambda: f64,
 }
 
-/// Infinitely many solutions: the unknowns of each part are in its set, whatever those of the other parts.
-/// NaN (in JSON `null`) is a value that is not zero and beyond the range of floating-point numbers, as of a
+/// Infinitely many solutions: the unknowns of each part are in its set, independently of the other parts. NaN
+/// (`null` in JSON) is a nonzero value beyond the range of floating-point numbers, like that of a
 /// [`BeyondRange`]; its sign is that of the pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -295,28 +293,28 @@ pub struct RawContinuum {
     pub pattern: String,
     /// Whether it is not part of a larger continuum.
     pub maximal: bool,
-    /// Its parts: unknowns that vary together, and last those that are fixed, if any.
+    /// Its parts: unknowns that vary together and, last, those that are fixed, if any.
     pub parts: Vec<ContinuumPart>,
 }
 
-/// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of
-/// the directions.
+/// Unknowns that vary together: all convex combinations of the vertices plus all nonnegative multiples of the
+/// directions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContinuumPart {
     /// The unknowns, from 0; vertices and directions have one entry for each.
     pub indices: Vec<usize>,
-    /// The vertices, not more than was asked for: the ends of a segment, the end of a ray.
+    /// The vertices, up to the requested number: the ends of a segment, or the end of a ray.
     pub vertices: Vec<Unknowns>,
-    /// Directions in which the set is unbounded, likewise.
+    /// Directions in which the set is unbounded, up to the requested number.
     pub directions: Vec<Unknowns>,
-    /// Number of all vertices.
+    /// Total number of vertices.
     pub vertex_count: usize,
-    /// Number of all directions.
+    /// Total number of directions.
     pub direction_count: usize,
 }
 
-/// A group of unknowns that was searched by itself.
+/// A group of unknowns that was searched separately.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawGroup {
@@ -326,7 +324,7 @@ pub struct RawGroup {
     pub method: String,
     /// Nodes visited.
     pub nodes: u64,
-    /// The fractions of its patterns that each argument dealt with; they add up to 1.
+    /// The fractions of its patterns that were settled by each argument; they add up to 1.
     pub patterns: RawShares,
     /// Whether every exclusion and every outcome is proven.
     pub proven: bool,
@@ -338,7 +336,7 @@ pub struct RawGroup {
 pub struct RawShares {
     /// Excluded by a proof that there is exactly one solution.
     pub uniqueness: f64,
-    /// Excluded because they are no cell of an arrangement of hyperplanes.
+    /// Excluded because they are not cells of a hyperplane arrangement.
     pub cells: f64,
     /// Excluded by interval propagation.
     pub propagation: f64,
@@ -346,6 +344,6 @@ pub struct RawShares {
     pub relaxation: f64,
     /// Solved one by one.
     pub examined: f64,
-    /// Not dealt with.
+    /// Not settled.
     pub unexplored: f64,
 }

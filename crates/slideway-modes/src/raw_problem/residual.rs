@@ -1,4 +1,4 @@
-//! What a solution leaves over in the equations as they were given.
+//! The residual of a solution in the equations as given.
 
 use std::borrow::Cow;
 
@@ -9,8 +9,7 @@ use super::RawProblem;
 use super::range::nearest;
 use crate::problem::Side;
 
-/// What a matrix of the equations is multiplied with, of each unknown `N` with its share `lambda` of the
-/// positive jump.
+/// The factor of a matrix in the equations, for an unknown `N` with share `lambda` of the positive jump.
 #[derive(Clone, Copy)]
 enum Multiplier {
     Signed,
@@ -24,7 +23,7 @@ enum Multiplier {
     OtherShare,
 }
 
-/// `sum of matrices times factors = load`, without use of the mode problem for types that are not one.
+/// `sum of matrices times factors = load`, without using the mode problem for types that are not one.
 pub(super) struct Equations<'a> {
     terms: Vec<(Cow<'a, DMatrix<f64>>, Multiplier)>,
     load: &'a DVector<f64>,
@@ -65,8 +64,8 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// What is left over for these `N` and shares, relative to the largest sum of sizes of terms in an
-    /// equation; none if numbers overflow or underflow.
+    /// The residual for these `N` and shares, relative to the largest sum of sizes of terms in an equation;
+    /// `None` if numbers overflow or underflow.
     pub(super) fn residual(&self, signed: &[f64], shares: &[f64]) -> Option<f64> {
         let factor = |factor, at: usize| match factor {
             Multiplier::Signed => signed[at],

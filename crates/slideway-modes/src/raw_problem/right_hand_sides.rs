@@ -7,18 +7,19 @@ use crate::problem::{ModeProblemError, Side};
 use crate::progress::Callback;
 use crate::uniqueness::{Unfinished, Uniqueness, UniquenessLimits, uniqueness_with};
 
-/// Exact determinants are computed for so many unknowns only: one of 60 takes a fifth of a second.
+/// Exact determinants are computed only for up to this many unknowns: one with 60 takes a fifth of a second.
 const EXACT_UNKNOWNS: usize = 60;
 
-/// Whether there is exactly one solution for every right-hand side (`q`, `b`, `right_hand_side`), the matrices
-/// being as given: theory, section 5.
+/// Whether there is exactly one solution for every right-hand side (`q`, `b`, `right_hand_side`), with the
+/// matrices as given: theory, section 5.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct EveryRightHandSide {
     /// The answer.
     pub answer: EveryAnswer,
-    /// Sign patterns that show it: of `not_one` two whose oriented determinants have opposite signs, of
-    /// `singular` one whose determinant is zero, of `in_doubt` one whose sign was not decided; otherwise none.
+    /// Sign patterns that show it: for `not_one`, two whose oriented determinants have opposite signs; for
+    /// `singular`, one whose determinant is zero; for `in_doubt`, one whose sign was not decided; otherwise
+    /// none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub patterns: Vec<String>,
     /// Why it was not decided, in words; empty if it was.
@@ -29,17 +30,17 @@ pub struct EveryRightHandSide {
 /// See [`EveryRightHandSide`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EveryAnswer {
-    /// Exactly one solution, whatever the right-hand side: proven.
+    /// Exactly one solution for every right-hand side: proven.
     One,
     /// Several solutions or none for some right-hand sides: proven.
     NotOne,
     /// No solution or infinitely many for some right-hand sides: proven.
     Singular,
-    /// Determinants too close to zero leave it open.
+    /// Undecided because determinants are too close to zero.
     InDoubt,
     /// Not decided within the limits.
     NotComputed,
-    /// Not decided: preloads that jump with the sign.
+    /// Not decided: preloads jump with the sign.
     Jumps,
 }
 
@@ -65,13 +66,13 @@ impl Serialize for EveryAnswer {
 
 impl RawProblem {
     /// Decides whether the problem has exactly one solution for every right-hand side. For a linear
-    /// complementarity problem this is whether `M` is a P-matrix, for an absolute value equation whether
+    /// complementarity problem, this is whether `M` is a P-matrix; for an absolute value equation, whether
     /// `A + B diag(d)` is regular for all `d` between -1 and 1.
     ///
-    /// `progress` is called at every node, and ends the work when it breaks.
+    /// `progress` is called at every node, and ends the work by breaking.
     ///
     /// # Errors
-    /// If shapes do not fit, an entry is not finite, or `A + B` overflows.
+    /// If shapes do not match, an entry is not finite, or `A + B` overflows.
     ///
     /// ```
     /// use slideway_modes::raw_problem::{EveryAnswer, RawProblem};
@@ -80,7 +81,7 @@ impl RawProblem {
     /// let m = nalgebra::dmatrix![1.0, 2.0; 2.0, 1.0];
     /// let problem = RawProblem::LinearComplementarity { m, q: nalgebra::dvector![1.0, 1.0] };
     /// let every = problem.every_right_hand_side(&mut |_| ControlFlow::Continue(()))?;
-    /// // The minor of both is 1 - 4.
+    /// The minor of both is 1 - 4.
     /// assert_eq!(every.answer, EveryAnswer::NotOne);
     /// # Ok::<(), slideway_modes::ModeProblemError>(())
     /// ```

@@ -1,4 +1,4 @@
-//! Arrays of numbers before they are matrices and vectors.
+//! Arrays of numbers before they become matrices and vectors.
 
 use std::fmt;
 
@@ -7,11 +7,11 @@ use std::fmt;
 pub enum Shape {
     /// A single number.
     Number,
-    /// A vector with so many entries.
+    /// A vector with this number of entries.
     Vector(usize),
-    /// A matrix with so many rows and columns.
+    /// A matrix with this number of rows and columns.
     Matrix(usize, usize),
-    /// An array with so many dimensions, three or more.
+    /// An array with this number of dimensions, three or more.
     Deeper(usize),
 }
 
@@ -37,7 +37,7 @@ impl fmt::Display for Shape {
     }
 }
 
-/// Numbers row by row, and how they are arranged.
+/// Numbers row by row, with their arrangement.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Array {
     pub(super) sizes: Vec<usize>,

@@ -6,18 +6,18 @@ use super::{npy, npz};
 /// The report as a NumPy archive (`.npz`).
 ///
 /// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and `y`;
-/// likewise `signs`, `on_boundary`, `maximal`, `residual` and `enclosure_radius` (NaN where they were not
-/// established). States in preload gaps are in arrays with the prefix `gap_`, `gap_shares` being NaN outside
-/// of a gap. The rows of `vertex_...` and `direction_...` belong to the continua and their parts whose
-/// numbers are in `vertex_continuum`, `vertex_part`, `direction_continuum` and `direction_part`; they are
-/// zero outside of their part, so that a continuum is the sum of its parts. Unknowns beyond the range of
-/// floating-point numbers are NaN; if there are some, `beyond_range_row` (of the solution),
-/// `beyond_range_index`, `beyond_range_name` and `beyond_range_value` tell of them one by one, of gap states
-/// likewise with the prefix. `status`, `complete`, `partial`, `open`, `type`, `count`, `gap_state_count`,
-/// `continuum_count` and `schema` are those of [`RawReport`]; `face_solution_count`, `face_gap_state_count`
-/// and `face_continuum_count` those of its `faces`. If there is no solution, `within_rounding` tells whether
-/// there is one within rounding of the numbers, and `within_rounding_z`, ... have it as their row. Where it
-/// was asked, `every_right_hand_side` is the answer of [`RawReport::every_right_hand_side`].
+/// the same applies to `signs`, `on_boundary`, `maximal`, `residual` and `enclosure_radius` (NaN if not
+/// determined). States in preload gaps are in arrays with the prefix `gap_`; `gap_shares` is NaN outside a
+/// gap. The rows of `vertex_...` and `direction_...` belong to the continua and parts whose numbers are in
+/// `vertex_continuum`, `vertex_part`, `direction_continuum` and `direction_part`; they are zero outside their
+/// part, so that a continuum is the sum of its parts. Unknowns beyond the range of floating-point numbers are
+/// NaN; if there are any, `beyond_range_row` (of the solution), `beyond_range_index`, `beyond_range_name` and
+/// `beyond_range_value` describe each of them, with the prefix for those of gap states. `status`, `complete`,
+/// `partial`, `open`, `type`, `count`, `gap_state_count`, `continuum_count` and `schema` are those of
+/// [`RawReport`]; `face_solution_count`, `face_gap_state_count` and `face_continuum_count` are those of its
+/// `faces`. If there is no solution, `within_rounding` says whether there is one within rounding of the
+/// numbers, which is then the row of `within_rounding_z`, ... If requested, `every_right_hand_side` is the
+/// answer of [`RawReport::every_right_hand_side`].
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let mut archive = Archive { size: report.size, arrays: Vec::new() };
     let status = serde_json::to_value(report.status).ok();
@@ -65,7 +65,7 @@ impl Archive {
         self.arrays.push((name.to_owned(), bytes));
     }
 
-    /// One row for each list of unknowns, in an array for each name.
+    /// One row for each list of unknowns, in one array for each name.
     fn unknowns<'r>(
         &mut self,
         report: &RawReport,
@@ -99,7 +99,7 @@ impl Archive {
         self.beyond_range("", solutions);
     }
 
-    /// One entry for each unknown that has no floating-point number.
+    /// One entry for each unknown without a floating-point number.
     fn beyond_range(&mut self, prefix: &str, solutions: &[RawSolution]) {
         let rows = (0_i64..).zip(solutions);
         let all: Vec<(i64, &BeyondRange)> = rows
@@ -163,8 +163,8 @@ impl Archive {
         self.push("continuum_pattern", npy::write_texts(&[patterns.len()], &patterns));
     }
 
-    /// Rows for the vertices or the directions of all parts, zero outside of the part, and what they belong
-    /// to.
+    /// Rows for the vertices or the directions of all parts, zero outside their part, with the indices of the
+    /// continuum and part.
     fn corners(&mut self, report: &RawReport, name: &str, of: fn(&ContinuumPart) -> &[Unknowns]) {
         let mut rows: Vec<(i64, i64, &ContinuumPart, &Unknowns)> = Vec::new();
         for (number, continuum) in (0_i64..).zip(&report.continua) {
@@ -216,7 +216,7 @@ mod tests {
         for (name, text) in [("count", "4"), ("complete", "proven"), ("type", "lcp"), ("status", "several")] {
             assert_eq!(npy::text(name, &content(&format!("{name}.npy"))), Ok(Some(text.to_owned())));
         }
-        // What is written has no time in it.
+        // The output contains no time.
         assert_eq!(bytes, to_npz(&report));
     }
 }

@@ -1,4 +1,4 @@
-//! The values of one solution: floating-point numbers, and exact ones where these do not reach.
+//! The values of one solution: floating-point numbers, and exact values beyond their range.
 
 use dashu_ratio::RBig;
 
@@ -9,12 +9,12 @@ use super::residual::{Equations, exact};
 use crate::problem::{ContactState, ModeProblem};
 use crate::search::CombinedState;
 
-/// Signed values `N` and shares of a state. One beyond the range of floating-point numbers is infinite or
+/// Signed values `N` and shares of a state. A value beyond the range of floating-point numbers is infinite or
 /// subnormal, with its sign.
 pub(super) struct Values {
     pub(super) signed: Vec<f64>,
     pub(super) gaps: Vec<GapShare>,
-    /// The exact sizes, or shares, of unknowns beyond the range; none where they are not known.
+    /// The exact sizes, or shares, of unknowns beyond the range; `None` if they are not known.
     beyond: Vec<(usize, Option<RBig>)>,
 }
 
@@ -27,8 +27,8 @@ impl Values {
         Self { signed, gaps: gaps.collect(), beyond: Vec::new() }
     }
 
-    /// Puts the numbers nearest to the exact values where the search had none of full precision, and tells of
-    /// the unknowns that have none.
+    /// Replaces values that the search did not find with full precision by the numbers nearest to the exact
+    /// values, and reports the unknowns that have no such number.
     pub(super) fn settle(
         &mut self,
         kind: RawKind,
@@ -62,7 +62,7 @@ impl Values {
         told_of
     }
 
-    /// What these values leave over in the equations; none if one of them is not known.
+    /// The residual of these values in the equations; `None` if one of them is not known.
     pub(super) fn residual(&self, equations: &Equations<'_>, pattern: &[ContactState]) -> Option<f64> {
         let share = |(at, state): (usize, &ContactState)| match state {
             ContactState::Positive => Some(1.0),

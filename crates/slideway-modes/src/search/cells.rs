@@ -1,35 +1,35 @@
-//! The patterns that can occur where the coupling is of low rank, by subdivision.
+//! The patterns that can occur if the coupling has low rank, by subdivision.
 //!
 //! # What is covered
-//! With the decomposition of [`low_rank`](super::low_rank) every solution is a point
-//! `x = (t, t z)`, `t = 1 / max(1, |z|)`, on the surface of the cube of the `q + 1` homogeneous
-//! coordinates, so that no bound of `z` is needed. There, with `a_i = (b_i, -u_i)`,
+//! With the decomposition of [`low_rank`](super::low_rank), every solution is a point `x = (t, t z)`,
+//! `t = 1 / max(1, |z|)`, on the surface of the cube of the `q + 1` homogeneous coordinates, so that no bound
+//! of `z` is needed. On it, with `a_i = (b_i, -u_i)`,
 //!
 //! ```text
 //! delta_i^{sigma_i} t y_i = s_i - e_i,   s_i = a_i . x,   |e_i| <= error_i
 //! t z = sum_k v_k^{sigma_k} t y_k = sum_k phi_k(s_k - e_k),   phi_k(s) = g_k^+ s where s >= 0, else g_k^- s
 //! ```
 //!
-//! where `g_k^+` and `g_k^-` are `v_k / delta_k` of the side that goes with the sign. These are `q`
-//! equations on a surface of `q` dimensions, all of whose solutions lie in boxes that are left when the
-//! following is done with the faces of the cube and their parts.
+//! where `g_k^+` and `g_k^-` are `v_k / delta_k` of the side that corresponds to the sign. These are `q`
+//! equations on a surface of `q` dimensions. All their solutions lie in the boxes that remain when the
+//! following is applied to the faces of the cube and their parts.
 //!
 //! # One box
-//! Contacts whose `s_i`, less `error_i`, has one sign all over the box are decided. For the others
-//! `phi_k(s) = (g^+ + g^-) / 2 s + (g^+ - g^-) / 2 |s|`, and `|s|` lies between `m s` and the chord
-//! `m s + c` on the range of `s`. So the equations are linear up to a noise that shrinks faster than
-//! the box: `G x + h` is within `noise` of zero. The box is dropped if that cannot be, is narrowed by a
-//! Krawczyk step, and is halved otherwise. Where all contacts are decided, or the box is so small that
-//! its noise cannot be told from the errors, every pattern that is left becomes a candidate.
+//! Contacts for which `s_i`, reduced by `error_i`, has one sign all over the box are decided. For the others,
+//! `phi_k(s) = (g^+ + g^-) / 2 s + (g^+ - g^-) / 2 |s|`, and `|s|` lies between `m s` and the chord `m s + c`
+//! on the range of `s`. The equations are therefore linear up to a noise that shrinks faster than the box:
+//! `G x + h` is within `noise` of zero. The box is dropped if that is impossible, is narrowed by a Krawczyk
+//! step, and is otherwise halved. If all contacts are decided, or the box is so small that its noise cannot
+//! be distinguished from the errors, every remaining pattern becomes a candidate.
 //!
 //! # One candidate
-//! A pattern's own `q x q` equations are solved with bounds; it is dropped if some `s_i` certainly has
-//! the wrong sign. What remains is decided with the full equations.
+//! The `q x q` equations of the pattern are solved with bounds; it is dropped if some `s_i` certainly has the
+//! wrong sign. The rest is decided with the full equations.
 //!
 //! # Rounding
-//! All sums have at most `r` products of numbers that are bounded on the cube. Their rounding is at
-//! most a multiple of `r eps` of the sum of all terms, which is added to the error of each `s_i` and to
-//! the noise once and for all; the multiple is chosen far too large.
+//! All sums have at most `r` products of numbers that are bounded on the cube. Their rounding error is at
+//! most a multiple of `r eps` of the sum of all terms, which is added to the error of each `s_i` and to the
+//! noise at the start; the multiple is chosen far too large.
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -37,7 +37,7 @@ use super::inverse::{Inverse, ROUNDING, Vector};
 use super::low_rank::{LARGEST_RANK, LowRank};
 use super::monitor::Monitor;
 
-/// Homogeneous coordinates.
+/// Number of homogeneous coordinates.
 const SPACE: usize = LARGEST_RANK + 1;
 /// Boxes with few undecided contacts and a radius below this are left to the test of candidates.
 const SMALL: f64 = 1.0 / 1024.0;
@@ -47,11 +47,11 @@ const FEW: usize = 4;
 const MOST_UNDECIDED: usize = 12;
 /// Boxes are not divided below this radius.
 const SMALLEST: f64 = 1e-13;
-/// A box is narrowed again if that has made it smaller by this factor.
+/// A box is narrowed again if this has shrunk it by this factor.
 const WORTHWHILE: f64 = 0.7;
 /// The most boxes.
 const MOST_BOXES: u64 = 4_000_000;
-/// The most candidates: more means that singular patterns abound.
+/// The most candidates: if there are more, there are many singular patterns.
 const MOST_CANDIDATES: usize = 20_000;
 
 /// The most patterns that are tested one by one.
@@ -66,11 +66,11 @@ type Point = [f64; SPACE];
 pub(super) struct Covered {
     pub(super) candidates: Candidates,
     pub(super) boxes: u64,
-    /// The part of the cube's surface that was covered before the monitor said stop.
+    /// The part of the cube's surface that was covered before the monitor stopped the work.
     pub(super) fraction: f64,
 }
 
-/// A contact's hyperplane and what it adds to the equations on either side.
+/// A contact's hyperplane and its contribution to the equations on either side.
 struct Hyperplane {
     /// `a_i`.
     normal: Point,
@@ -87,7 +87,7 @@ struct Patch {
     radius: Point,
     /// The coordinate that is 1 or -1.
     pinned: usize,
-    /// Contacts not decided in the part that this one was cut from.
+    /// Contacts that were not decided in the part from which this one was cut.
     undecided: Vec<usize>,
     /// The equations of all others.
     decided: [Point; LARGEST_RANK],
@@ -107,17 +107,17 @@ pub(super) struct Cover<'a> {
     problem: &'a LowRank,
     rank: usize,
     hyperplanes: Vec<Hyperplane>,
-    /// What errors and rounding amount to in each equation.
+    /// The combined errors and rounding in each equation.
     noise: Vector,
     open: Vec<Patch>,
     tested: HashSet<Vec<u8>>,
     covered: Covered,
 }
 
-/// Candidates for all solutions; none if there are too many of them, or too many boxes.
+/// Candidates for all solutions; `None` if there are too many of them, or too many boxes.
 pub(super) fn cover(problem: &LowRank, monitor: &mut Monitor<'_>) -> Option<Covered> {
     let mut cover = Cover::new(problem);
-    // Numbers that overflow decide nothing.
+    // If numbers overflow, nothing can be decided.
     if !cover.noise.iter().all(|noise| noise.is_finite()) {
         return None;
     }
@@ -159,7 +159,7 @@ impl<'a> Cover<'a> {
         Self { problem, rank, hyperplanes, noise, open, tested: HashSet::new(), covered }
     }
 
-    /// Drops a part, files its candidates, or leaves smaller ones; none if that is not possible.
+    /// Drops a part, records its candidates, or leaves smaller parts; `None` if that is not possible.
     fn visit(&mut self, mut part: Patch) -> Option<()> {
         let ranges = self.decide_contacts(&mut part);
         let equations = self.linearised(&part, &ranges);
@@ -184,7 +184,7 @@ impl<'a> Cover<'a> {
         Some(())
     }
 
-    /// Moves contacts that are decided all over a part into its equations; middle and radius of the
+    /// Moves contacts that are decided all over a part into its equations; returns midpoint and radius of the
     /// `s` of the others.
     fn decide_contacts(&self, part: &mut Patch) -> Vec<(f64, f64)> {
         let mut ranges = Vec::with_capacity(part.undecided.len());
@@ -224,7 +224,7 @@ impl<'a> Cover<'a> {
         equations
     }
 
-    /// Whether the equations change less over a part than what is not known of them.
+    /// Whether the equations change less over a part than their uncertainty.
     fn is_lost_in_noise(&self, part: &Patch, equations: &ImageBounds) -> bool {
         (0..self.rank).all(|row| reach(&equations.gradient[row], &part.radius) <= 2.0 * self.noise[row])
     }
@@ -246,7 +246,7 @@ impl<'a> Cover<'a> {
         free.max_by(|one, other| effect(one).total_cmp(&effect(other))).unwrap_or(0)
     }
 
-    /// Tests every pattern that a part may have.
+    /// Tests every pattern that can occur in a part.
     fn file(&mut self, part: &Patch) {
         let sides_at_centre = self.hyperplanes.iter().enumerate().map(|(contact, plane)| {
             u8::from(self.problem.side(contact, inner(&plane.normal, &part.centre) > 0.0) == 1)
@@ -263,7 +263,7 @@ impl<'a> Cover<'a> {
         }
     }
 
-    /// False if the equations of a pattern certainly have no solution on the right side of every
+    /// `false` if the equations of a pattern certainly have no solution on the right side of every
     /// hyperplane.
     fn may_be_solved(&self, sides: &[u8]) -> bool {
         let mut gradient = unit_equations(self.rank);
@@ -285,7 +285,7 @@ impl<'a> Cover<'a> {
         })
     }
 
-    /// `(1, z)` of a pattern and how far it may be off; none if that cannot be bounded.
+    /// `(1, z)` of a pattern and its maximum error; `None` if that cannot be bounded.
     fn enclosed_coordinates(&self, gradient: &[Point; LARGEST_RANK]) -> Option<(Point, Point)> {
         let mut matrix = [[0.0; LARGEST_RANK]; LARGEST_RANK];
         for row in 0..LARGEST_RANK {
@@ -333,7 +333,7 @@ impl Hyperplane {
         Self { normal, error, slopes }
     }
 
-    /// Middle and radius of the values of `s - e` on a part.
+    /// Midpoint and radius of the values of `s - e` on a part.
     fn range(&self, centre: &Point, radius: &Point) -> (f64, f64) {
         (inner(&self.normal, centre), reach(&self.normal, radius) + self.error)
     }
@@ -366,7 +366,7 @@ impl ImageBounds {
         })
     }
 
-    /// Cuts off what a Krawczyk step excludes; false if nothing is left.
+    /// Cuts off what a Krawczyk step excludes; `false` if nothing is left.
     ///
     /// From `A d = theta - f`, `d = x - centre` in the free coordinates, `f = G centre + h`,
     /// `|theta| <= noise`, and an approximate inverse `R` of `A`:

@@ -1,4 +1,4 @@
-//! Solves groups of contacts one after the other and puts their solutions together.
+//! Solves groups of contacts one after the other and combines their solutions.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,13 +13,14 @@ use crate::interval::Interval;
 use crate::problem::{ContactState, ProblemView, Side, SolutionSet, patterns_of};
 use crate::solutions::{Certificate, SingularMode, Solutions, UndecidedPattern};
 
-/// A problem of so few patterns is not split into groups, so that the outcome of each is known.
+/// A problem with at most this many patterns is not split into groups, so that the outcome of each pattern is
+/// known.
 const WHOLE_UP_TO: u64 = 64;
 
-/// Answers of groups that are kept for the same right-hand side, at most.
+/// Maximum number of group answers that are kept for reuse with the same right-hand side.
 const MOST_KEPT: usize = 10_000;
 
-/// A piece of the work: the part of all that is done before it, and the part that it is.
+/// A piece of the work: the fraction done before it, and the fraction that it makes up.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     done: f64,
@@ -35,7 +36,7 @@ pub(super) struct Composer<'p, 'm, 'c> {
     groups: Groups,
     monitor: &'m mut Monitor<'c>,
     solved: HashMap<GroupKey, Arc<SolvedGroup>>,
-    /// Reports of all groups, those of one group with several right-hand sides added up.
+    /// Reports of all groups; those of one group with several right-hand sides are added up.
     pub(super) reports: Vec<GroupReport>,
     /// Whether every solution that other groups depend on is enclosed by proof.
     pub(super) chain_proven: bool,
@@ -69,8 +70,8 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         self.solve_groups(&all, &Load::of(self.problem), Piece { done: 0.0, share: 1.0 })
     }
 
-    /// The solutions of some groups, given in increasing order, where `load` is the right-hand side
-    /// with everything that acts on them.
+    /// The solutions of some groups, given in increasing order, where `load` is the right-hand side including
+    /// everything that acts on them.
     fn solve_groups(&mut self, groups: &[usize], load: &Load, work: Piece) -> SolutionProduct {
         let contacts = |part: &[usize]| -> usize { part.iter().map(|&g| self.groups.members[g].len()).sum() };
         let total = contacts(groups).max(1) as f64;
@@ -92,8 +93,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         product
     }
 
-    /// The solutions of groups that hang together: those of the first, and for each of them those of
-    /// the others.
+    /// The solutions of connected groups: those of the first, and for each of them those of the others.
     fn solve_part(&mut self, part: &[usize], load: &Load, work: Piece) -> Factor {
         let rest = &part[1..];
         let first = self.groups.members[part[0]].clone();
@@ -115,11 +115,12 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         for state in &answer.states {
             let acting = self.load_with(&first, state, load);
             if !acting.is_finite() {
-                // No floating-point number tells the others what acts on them.
+                // No floating-point number can represent what acts on the others.
                 return self.solve_together(part, load, left);
             }
             let dependents = self.solve_groups(rest, &acting, Piece { done, share });
-            // What has no solution of the others is none, and there may be very many of such.
+            // A state for which the others have no solution is not a solution, and there may be very many of
+            // them.
             if !dependents.is_empty() {
                 alternatives.push(Alternative { state: Arc::clone(state), dependents });
             }
@@ -131,7 +132,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         Factor { contacts: first, alternatives }
     }
 
-    /// The solutions of groups that hang together, searched as one.
+    /// The solutions of connected groups, searched as one.
     fn solve_together(&mut self, part: &[usize], load: &Load, work: Piece) -> Factor {
         let mut contacts: Vec<usize> =
             part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
@@ -141,7 +142,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         Factor { alternatives: answer.alternatives(), contacts }
     }
 
-    /// The solutions of one group's equations, each right-hand side solved once.
+    /// The solutions of one group's equations; each right-hand side is solved once.
     fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Arc<SolvedGroup> {
         let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
         let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
@@ -156,7 +157,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         self.all_examined &= solutions.is_complete();
         self.file_report(&report);
         let answer = Arc::new(SolvedGroup::of(solutions));
-        // What was decided together with other contacts holds for their states only.
+        // Results that were decided together with other contacts hold only for the states of these contacts.
         if !depends_on_ancestors && self.solved.len() < MOST_KEPT {
             self.solved.insert(key, Arc::clone(&answer));
         }
@@ -191,8 +192,8 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         load
     }
 
-    /// What contacts add that may just have changed their side, in patterns that were merged with the state's
-    /// own.
+    /// Adds the effect of contacts that may just have changed sides, in patterns that were merged with that
+    /// of the state.
     fn add_doubts(&self, contacts: &[usize], state: &GroupState, load: &mut Load) {
         let Some(Certificate::OnBoundaryWithinBounds { unknowns: Some(unknowns), in_doubt }) =
             state.certificate()
@@ -211,22 +212,22 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 }
 
-/// The part of an interval from 0 on; zero if there is none.
+/// The nonnegative part of an interval; zero if there is none.
 fn non_negative(interval: Interval) -> Interval {
     let all = Interval::new(0.0, f64::INFINITY).unwrap_or(Interval::REAL_LINE);
     interval.intersection(all).unwrap_or(Interval::ZERO)
 }
 
-/// How far a number within bounds may be from `y`, rounded up.
+/// The maximum distance of a number within bounds from `y`, rounded up.
 fn distance(bounds: Interval, y: f64) -> f64 {
     let largest = (bounds.upper() - y).max(y - bounds.lower());
     if largest > 0.0 { largest.next_up() } else { 0.0 }
 }
 
-/// What a group admits.
+/// The solutions of a group.
 struct SolvedGroup {
     states: Vec<Arc<GroupState>>,
-    /// Whether there is something besides states whose unknowns are known, up to errors.
+    /// Whether there is anything besides states whose unknowns are known up to errors.
     admits_sets: bool,
 }
 
@@ -249,7 +250,7 @@ impl SolvedGroup {
     }
 }
 
-/// What a singular pattern admits, unless that is nothing or a solution of its own already.
+/// What a singular pattern admits, unless that is empty or already a solution.
 fn singular_state(mode: &SingularMode) -> Option<GroupState> {
     match mode.set {
         SolutionSet::Empty | SolutionSet::NotComputed => None,
@@ -263,7 +264,7 @@ fn singular_state(mode: &SingularMode) -> Option<GroupState> {
     }
 }
 
-/// Whether there is something besides states whose unknowns are known, up to errors.
+/// Whether there is anything besides states whose unknowns are known up to errors.
 fn admits_sets(solutions: &Solutions) -> bool {
     solutions.singular.iter().any(|mode| mode.set != SolutionSet::Empty)
         || solutions.undecided.iter().any(|undecided| undecided.unknowns.is_none())

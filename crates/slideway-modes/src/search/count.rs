@@ -1,8 +1,8 @@
-//! Numbers of solutions, however many.
+//! Numbers of solutions of any size.
 
 use std::fmt;
 
-/// Nine decimal digits to a limb.
+/// Nine decimal digits per limb.
 const BASE: u64 = 1_000_000_000;
 
 /// A number of any size.
@@ -62,7 +62,7 @@ impl BigCount {
         product
     }
 
-    /// The difference to a number that is not larger; zero if it is.
+    /// The difference from a number that is not larger; zero if it is larger.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         let mut difference = Self { limbs: Vec::with_capacity(self.limbs.len()) };

@@ -8,7 +8,7 @@ use super::sieve::Sieve;
 use super::tree::TreeReport;
 use crate::problem::{ContactState, ScaledProblem};
 
-/// Decides all patterns in the order of enumeration. Without `certify` each is solved within tolerances.
+/// Decides all patterns in the order of enumeration. Without `certify`, each is solved within tolerances.
 pub(super) fn try_all(
     loaded: &LoadedProblem<'_>,
     scaled: &ScaledProblem,
@@ -39,7 +39,7 @@ pub(super) fn try_all(
     report
 }
 
-/// Offers all patterns without gaps as those closest to locking.
+/// Offers all patterns without gaps as candidates for those closest to locking.
 fn offer_closest(scaled: &ScaledProblem, leaves: &mut Leaves<'_>) {
     let mut pattern = vec![ContactState::Positive; scaled.contacts()];
     leaves.offer_closest(&pattern);
@@ -48,7 +48,7 @@ fn offer_closest(scaled: &ScaledProblem, leaves: &mut Leaves<'_>) {
     }
 }
 
-/// The next pattern, the last contact changing fastest; false after the last one.
+/// The next pattern, with the last contact changing fastest; `false` after the last one.
 fn advance<'s>(pattern: &mut [ContactState], states: impl Fn(usize) -> &'s [ContactState]) -> bool {
     for contact in (0..pattern.len()).rev() {
         match states(contact).get(pattern[contact] as usize + 1) {

@@ -16,18 +16,18 @@ use crate::findings::Findings;
 use crate::problem::{ContactState, ScaledProblem};
 use crate::solutions::Solutions;
 
-/// All patterns of a group are tried if they are so few. For 8 contacts without jumps that takes about 0.4
-/// ms, several times as long as branch and bound, which does not tell the outcome of each.
+/// All patterns of a group are tried if there are at most this many. For 8 contacts without jumps this takes
+/// about 0.4 ms, several times as long as branch and bound, which does not give the outcome of each pattern.
 const EVERY_PATTERN_UP_TO: u64 = 256;
-/// The fewest contacts for which the cells of an arrangement are worth a look.
+/// The minimum number of contacts for which cells of an arrangement are worth trying.
 const CELLS_FROM: usize = 13;
 
-/// What a group's own problem has for solutions, and how they were found.
+/// The solutions of a group's own problem, and how they were found.
 #[derive(Debug, Clone)]
 pub(super) struct GroupAnswer {
     pub(super) solutions: Solutions,
     pub(super) report: GroupReport,
-    /// Whether it may differ for other states of the contacts that the right-hand side comes from.
+    /// Whether the answer may differ for other states of the contacts that determine the right-hand side.
     pub(super) depends_on_ancestors: bool,
 }
 
@@ -67,7 +67,7 @@ pub(super) fn search_group(
     GroupAnswer { solutions, report, depends_on_ancestors }
 }
 
-/// Searches a group of which not every pattern is tried.
+/// Searches a group without trying every pattern.
 fn search_large_group(
     loaded: &LoadedProblem<'_>,
     scaled: &ScaledProblem,
@@ -108,7 +108,7 @@ fn search_large_group(
     })
 }
 
-/// The only solution, if a proof says that there is exactly one.
+/// The only solution, if a proof shows that there is exactly one.
 fn by_uniqueness(
     problem: &ScaledProblem,
     solved: &SolvedForm,
@@ -131,7 +131,7 @@ fn by_uniqueness(
     Some((method, TreeReport { nodes: 1, shares, ..TreeReport::default() }))
 }
 
-/// The solutions among the cells of an arrangement, if the coupling is of low rank.
+/// The solutions among the cells of an arrangement, if the coupling has low rank.
 fn by_cells(
     problem: &ScaledProblem,
     load_radius: &DVector<f64>,

@@ -1,19 +1,19 @@
 //! Groups of contacts that depend on one another.
 //!
-//! Contact `k` acts on equation `i` where `c_k^+`, `c_k^-`, `d_k^+` or `d_k^-` has an entry in row `i` that
-//! is not zero, or need not be within the bounds of the data. The strongly connected components of that graph
+//! Contact `k` acts on equation `i` if `c_k^+`, `c_k^-`, `d_k^+` or `d_k^-` has an entry in row `i` that is
+//! nonzero, or may be nonzero within the bounds of the data. The strongly connected components of that graph
 //! are the diagonal blocks of a block-triangular problem: a group needs the solution of the groups that act
-//! on it, and no other (theory, section 4 (d)). A contact whose right-hand side jumps stays together with all
-//! equations that the jump reaches, because its gap states depend on all of them.
+//! on it, and of no others (theory, section 4 (d)). A contact whose right-hand side jumps stays together with
+//! all equations that the jump reaches, because its gap states depend on all of them.
 
 use crate::problem::ProblemView;
 
-/// Groups in an order in which each acts on later ones only.
+/// Groups in an order in which each acts only on later ones.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Groups {
     /// The contacts of each group in increasing order.
     pub(super) members: Vec<Vec<usize>>,
-    /// For each group the later groups that it acts on, in increasing order.
+    /// For each group, the later groups on which it acts, in increasing order.
     acts_on: Vec<Vec<usize>>,
 }
 
@@ -21,7 +21,7 @@ impl Groups {
     pub(super) fn new(problem: ProblemView<'_>) -> Self {
         let graph = coupling_graph(problem);
         let mut members = strong_components(&graph);
-        // Tarjan's algorithm finishes what is acted on before what acts.
+        // Tarjan's algorithm finishes components before those that act on them.
         members.reverse();
         for group in &mut members {
             group.sort_unstable();
@@ -49,8 +49,8 @@ impl Groups {
         Self { members: vec![(0..problem.contacts()).collect()], acts_on: vec![Vec::new()] }
     }
 
-    /// Splits some of the groups, given in increasing order, into parts that do not act on one
-    /// another, each in increasing order.
+    /// Splits some of the groups, given in increasing order, into parts that do not act on one another, each
+    /// in increasing order.
     pub(super) fn independent_parts(&self, groups: &[usize]) -> Vec<Vec<usize>> {
         let mut part_of: Vec<usize> = (0..groups.len()).collect();
         for (at, &group) in groups.iter().enumerate() {
@@ -82,7 +82,7 @@ fn join(part_of: &mut [usize], one: usize, other: usize) {
     part_of[one.max(other)] = one.min(other);
 }
 
-/// For each contact the equations that it acts on, and the contacts that must stay with it.
+/// For each contact, the equations on which it acts, and the contacts that must stay with it.
 fn coupling_graph(problem: ProblemView<'_>) -> Vec<Vec<usize>> {
     let contacts = problem.contacts();
     let mut graph: Vec<Vec<usize>> = vec![Vec::new(); contacts];
@@ -99,8 +99,7 @@ fn coupling_graph(problem: ProblemView<'_>) -> Vec<Vec<usize>> {
     graph
 }
 
-/// Tarjan's strongly connected components, without recursion: what a component reaches comes
-/// before it.
+/// Tarjan's strongly connected components, without recursion: a component comes after those that it reaches.
 fn strong_components(graph: &[Vec<usize>]) -> Vec<Vec<usize>> {
     const NEW: usize = usize::MAX;
     let mut number = vec![NEW; graph.len()];
@@ -111,7 +110,7 @@ fn strong_components(graph: &[Vec<usize>]) -> Vec<Vec<usize>> {
         if number[start] != NEW {
             continue;
         }
-        // Vertices on the way, with how many of their edges have been followed.
+        // Vertices on the path, with the number of their edges that have been followed.
         let mut way = vec![(start, 0)];
         while let Some(&mut (vertex, ref mut followed)) = way.last_mut() {
             if *followed == 0 {
@@ -166,7 +165,7 @@ mod tests {
 
     #[test]
     fn blocks_come_in_the_order_of_their_action() {
-        // 2 acts on 0, 0 and 1 on each other, 3 on nothing.
+        // 2 acts on 0; 0 and 1 act on each other; 3 acts on nothing.
         let coupling = dmatrix![
             1.0, 1.0, 1.0, 0.0;
             1.0, 1.0, 0.0, 0.0;

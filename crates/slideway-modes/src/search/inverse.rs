@@ -1,16 +1,16 @@
-//! Approximate inverses of very small matrices, with bounds of their errors.
+//! Approximate inverses of very small matrices, with bounds on their errors.
 
 use super::low_rank::LARGEST_RANK;
 
-/// Rounding in sums with a fixed small number of terms, with much to spare.
+/// Rounding error of sums with a small fixed number of terms, with a wide margin.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// A vector of which the first entries are used.
+/// A vector of which only the first entries are used.
 pub(super) type Vector = [f64; LARGEST_RANK];
-/// A matrix of which the first rows and columns are used.
+/// A matrix of which only the first rows and columns are used.
 pub(super) type Square = [Vector; LARGEST_RANK];
 
-/// An approximate inverse `R` of a matrix `A`, and bounds of `|I - R A|`.
+/// An approximate inverse `R` of a matrix `A`, and bounds on `|I - R A|`.
 pub(super) struct Inverse {
     approximate: Square,
     defect: Square,
@@ -18,7 +18,7 @@ pub(super) struct Inverse {
 }
 
 impl Inverse {
-    /// None if elimination breaks down.
+    /// `None` if elimination breaks down.
     pub(super) fn new(matrix: &Square, rank: usize) -> Option<Self> {
         let approximate = eliminated(*matrix, rank)?;
         let mut defect = [[0.0; LARGEST_RANK]; LARGEST_RANK];
@@ -45,7 +45,7 @@ impl Inverse {
         std::array::from_fn(|row| (0..self.rank).map(|at| self.approximate[row][at].abs() * vector[at]).sum())
     }
 
-    /// A bound of `|I - R A| vector` for a vector without negative entries.
+    /// A bound on `|I - R A| vector` for a vector without negative entries.
     pub(super) fn defect_times(&self, vector: &Vector) -> Vector {
         let sum = |row: usize| (0..self.rank).map(|at| self.defect[row][at] * vector[at]).sum::<f64>();
         std::array::from_fn(|row| sum(row) * (1.0 + ROUNDING))

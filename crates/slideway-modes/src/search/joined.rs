@@ -1,4 +1,4 @@
-//! States of all contacts, put together from those of their groups.
+//! States of all contacts, combined from those of their groups.
 
 use nalgebra::DVector;
 
@@ -7,14 +7,14 @@ use crate::interval::Interval;
 use crate::problem::{ContactState, Side, SolutionSet};
 use crate::solutions::{Certificate, GapState, ModeSolution, ModeState, SingularMode, UndecidedPattern};
 
-/// The most vertices and directions of a set that is a product of several.
+/// The maximum number of vertices and directions of a set that is a product of several.
 const CORNERS: usize = 4096;
 
 impl CombinedState<'_> {
-    /// The combination as one state of all contacts, given their number, with at most `listed` patterns.
+    /// The combination as one state of this number of contacts, with at most `listed` patterns.
     ///
-    /// `D` is the product of those of the groups, as it is for the whole matrix. Sets of singular
-    /// patterns multiply; with more than 4096 vertices or directions they are not described.
+    /// `D` is the product of those of the groups, as for the whole matrix. Sets of singular patterns are
+    /// multiplied; with more than 4096 vertices or directions, they are not described.
     pub fn joined(&self, contacts: usize, listed: usize) -> GroupState {
         let joint = Joint { state: self, contacts, listed };
         match self.parts.iter().map(|(_, state)| state.kind()).max() {
@@ -25,7 +25,7 @@ impl CombinedState<'_> {
         }
     }
 
-    /// What is proven of the combination.
+    /// What is proven about the combination.
     pub fn certificate(&self, contacts: usize) -> Certificate {
         Joint { state: self, contacts, listed: 1 }.certificate()
     }
@@ -95,7 +95,7 @@ impl Joint<'_> {
         UndecidedPattern { pattern: self.state.pattern(self.contacts), patterns, unknowns, in_doubt }
     }
 
-    /// One value per contact from each part's values.
+    /// Values for all contacts from those of each part.
     fn gathered<T: Clone>(&self, fill: T, of: impl Fn(&GroupState) -> Option<Vec<T>>) -> Option<Vec<T>> {
         let mut all = vec![fill; self.contacts];
         for (members, state) in &self.state.parts {
@@ -156,8 +156,8 @@ impl Joint<'_> {
         all
     }
 
-    /// Some of the patterns that give the state, in the order of enumeration within each group, and how many
-    /// there are.
+    /// Some of the patterns that give the state, in the order of enumeration within each group, and the
+    /// number of all such patterns.
     fn patterns(&self) -> (Vec<Vec<ContactState>>, u64) {
         let mut patterns = vec![self.state.pattern(self.contacts)];
         let mut count: u64 = 1;

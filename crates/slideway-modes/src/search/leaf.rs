@@ -20,14 +20,14 @@ pub(super) struct Leaves<'a> {
 }
 
 impl<'a> Leaves<'a> {
-    /// Patterns of `problem`, of which `findings` has the scaled form.
+    /// Patterns of `problem`, whose scaled form is in `findings`.
     pub(super) fn new(problem: &'a LoadedProblem<'a>, findings: Findings<'a>, certify: bool) -> Self {
         let exact = certify && problem.is_part_of_exact_problem();
         let findings = if exact { findings.exact() } else { findings };
         Self { problem, findings, certify, unproven: 0, decided_jointly: false }
     }
 
-    /// Files what a pattern admits.
+    /// Records what a pattern admits.
     pub(super) fn examine(
         &mut self,
         pattern: &[ContactState],
@@ -36,7 +36,7 @@ impl<'a> Leaves<'a> {
         if !self.certify {
             return self.examine_within_tolerances(pattern, monitor);
         }
-        // Rational arithmetic on very many patterns takes too long.
+        // Rational arithmetic would take too long for very many patterns.
         if self.findings.has_examined_enough() && self.findings.is_suspect(pattern, &mut || monitor.goes_on())
         {
             self.findings.leave_unexamined(pattern, pattern.len());
@@ -52,12 +52,13 @@ impl<'a> Leaves<'a> {
         self.file(pattern, decision, monitor)
     }
 
-    /// Whether the linear program of a pattern has no solution for any value within bounds, proven by a
+    /// Whether the linear program of a pattern has no solution for any values within bounds, proven by a
     /// Farkas vector.
     ///
-    /// This decides patterns whose determinant is zero by theory, as of a block with both ends in their
-    /// preload gaps: both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel but for rounding. Shares
-    /// are from 0 to 1, so that such columns reach nothing across their direction. False once `proceed` is.
+    /// This decides patterns whose determinant is zero in theory, such as that of a block with both ends in
+    /// their preload gaps: both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel except for
+    /// rounding. Shares are from 0 to 1, so such columns reach nothing across their common direction. `false`
+    /// once `proceed` is `false`.
     fn is_infeasible(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
         let problem = self.findings.problem;
         let load_radius = problem.scaled_load_radius(&self.problem.right_hand_side_radius());
@@ -69,8 +70,8 @@ impl<'a> Leaves<'a> {
         proves_empty_while(self.problem.view(), &decided, &weights, proceed)
     }
 
-    /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is
-    /// decided together with the contacts that the right-hand side comes from.
+    /// Where errors of the right-hand side leave a pattern open although all given numbers are exact, it is
+    /// decided together with the contacts that determine the right-hand side.
     fn decide(
         &mut self,
         pattern: &[ContactState],
@@ -90,7 +91,7 @@ impl<'a> Leaves<'a> {
         }
     }
 
-    /// Files a pattern by its decision.
+    /// Records a pattern according to its decision.
     fn file(
         &mut self,
         pattern: &[ContactState],
@@ -117,8 +118,8 @@ impl<'a> Leaves<'a> {
         examined.map_err(|_| StopReason::SolutionLimit)
     }
 
-    /// Files the only pattern that can have a solution. False, with nothing filed, if it is not certain to
-    /// have it for all values within bounds.
+    /// Records the only pattern that can have a solution. Returns `false`, and records nothing, if it is not
+    /// certain that the pattern has a solution for all values within bounds.
     pub(super) fn examine_only(
         &mut self,
         pattern: &[ContactState],
@@ -147,12 +148,12 @@ impl<'a> Leaves<'a> {
         self.findings.offer_if_regular(pattern);
     }
 
-    /// How many solutions, gap states, singular sets and undecided patterns have been found so far.
+    /// Number of solutions, gap states, singular sets and undecided patterns found so far.
     pub(super) fn found(&self) -> usize {
         self.findings.found()
     }
 
-    /// Whether some pattern was decided together with the contacts that the right-hand side comes from.
+    /// Whether some pattern was decided together with the contacts that determine the right-hand side.
     pub(super) fn depends_on_ancestors(&self) -> bool {
         self.decided_jointly
     }

@@ -1,5 +1,5 @@
 //! Problems of groups of contacts: right-hand sides that follow from the solutions of other groups, with
-//! bounds of their errors.
+//! bounds on their errors.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,15 +7,15 @@ use crate::certificate::{Decision, ExactOutcome, decide_while, solve_exactly};
 use crate::interval::{Interval, Sign};
 use crate::problem::{BySide, Column, ContactState, ModeProblem, ProblemView, Radii, Side};
 
-/// The most contacts that are decided together in rational numbers.
+/// The maximum number of contacts that are decided together in rational numbers.
 const JOINT_CONTACTS: usize = 48;
 
-/// A right-hand side that is known within `radius`, row by row.
+/// A right-hand side known within `radius`, row by row.
 #[derive(Debug, Clone)]
 pub(super) struct Load {
     pub(super) middle: DVector<f64>,
     pub(super) radius: DVector<f64>,
-    /// The contacts whose forces are in it, and their states.
+    /// The contacts whose forces it includes, and their states.
     ancestors: Vec<(usize, ContactState)>,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct LoadedProblem<'p> {
     contacts: &'p [usize],
     ancestors: &'p [(usize, ContactState)],
     problem: ModeProblem,
-    /// None if no number may be off.
+    /// `None` if all numbers are exact.
     radii: Option<Radii>,
     exact: bool,
 }
@@ -48,7 +48,7 @@ impl Load {
         state: ContactState,
         y: (f64, f64),
     ) {
-        // What a jump reaches is in the contact's own group: elsewhere both sides are equal.
+        // The contacts that a jump reaches are in the contact's own group: elsewhere both sides are equal.
         let side = state.side().unwrap_or(Side::Negative);
         self.add(problem.jump(contact, side), (1.0, 0.0));
         if state != ContactState::Gap {
@@ -62,13 +62,13 @@ impl Load {
         self.middle.iter().chain(&self.radius).all(|value| value.is_finite())
     }
 
-    /// Widens the bounds by what a contact that may have changed to `side` adds with `y_k` up to `most`.
+    /// Widens the bounds by what a contact that may have changed to `side` adds, with `y_k` up to `most`.
     pub(super) fn add_doubt(&mut self, problem: ProblemView<'_>, contact: usize, side: Side, most: f64) {
         self.add(problem.column(contact, side), (0.0, most));
     }
 
-    /// Adds a multiple of a column, and what errors of the factor, of the column and of rounding may
-    /// amount to.
+    /// Adds a multiple of a column, and bounds on the effect of errors of the factor and the column and of
+    /// rounding.
     fn add(&mut self, column: Column<'_>, (factor, factor_radius): (f64, f64)) {
         for (row, &entry) in column.centre.iter().enumerate() {
             let spread = column.radius.map_or(0.0, |radius| radius[row]);
@@ -78,7 +78,7 @@ impl Load {
             let term = factor * entry;
             let before = self.middle[row].abs();
             self.middle[row] += term;
-            // Twice the unit roundoff of each operation, which covers the rounding of this bound.
+            // Twice the unit roundoff of each operation, which also covers the rounding of this bound.
             let rounding = 4.0 * f64::EPSILON * (before + term.abs() + f64::MIN_POSITIVE);
             let off = factor_radius * entry.abs() + spread * (factor.abs() + factor_radius);
             self.radius[row] += off * (1.0 + 8.0 * f64::EPSILON) + rounding;
@@ -88,7 +88,7 @@ impl Load {
 }
 
 impl<'p> LoadedProblem<'p> {
-    /// The equations and columns of some contacts alone, with a load that is finite.
+    /// The equations and columns of only some contacts, with a finite load.
     pub(super) fn restricted(whole: ProblemView<'p>, contacts: &'p [usize], load: &'p Load) -> Self {
         let problem = whole.centre.restricted(contacts, &load.middle);
         let radii = Self::radii(whole, contacts, load);
@@ -116,13 +116,13 @@ impl<'p> LoadedProblem<'p> {
         ProblemView { centre: &self.problem, radii: self.radii.as_ref(), exact: self.exact }
     }
 
-    /// Whether the problem that this is a part of has exact numbers, so that every pattern can be
-    /// decided.
+    /// Whether this is part of a problem with exact numbers, so that every pattern can be decided.
     pub(super) fn is_part_of_exact_problem(&self) -> bool {
         self.whole.exact
     }
 
-    /// How far each entry of the right-hand side of any pattern may be off from `N(0) + sum_k d_k`.
+    /// The maximum error of each entry of the right-hand side of any pattern, compared with
+    /// `N(0) + sum_k d_k`.
     pub(super) fn right_hand_side_radius(&self) -> DVector<f64> {
         let view = self.view();
         let load = view.load();
@@ -136,8 +136,8 @@ impl<'p> LoadedProblem<'p> {
         })
     }
 
-    /// Decides a pattern in exact numbers, together with the contacts that the right-hand side comes from.
-    /// None if there are too many contacts, or once `proceed` is false.
+    /// Decides a pattern in exact numbers, together with the contacts that determine the right-hand side.
+    /// `None` if there are too many contacts, or once `proceed` is `false`.
     pub(super) fn decide_jointly(
         &self,
         pattern: &[ContactState],
@@ -172,7 +172,7 @@ fn submatrix(matrix: &DMatrix<f64>, contacts: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
 }
 
-/// What a decision says of all contacts but the first ones, which have a solution of their own.
+/// The decision for all contacts but the first ones, which have a solution of their own.
 fn without_first(decision: Decision, first: usize) -> Decision {
     let later = |contacts: Vec<usize>| -> Vec<usize> {
         contacts.into_iter().filter_map(|contact| contact.checked_sub(first)).collect()

@@ -5,41 +5,40 @@
 //! delta_i^{sigma_i} y_i = s_i(z) - epsilon_i,   s_i(z) = b_i - u_i . z,   z = sum_k v_k^{sigma_k} y_k
 //! ```
 //!
-//! with `u_i` the rows of `U` and `epsilon_i` what the remainder and the bounds of the right-hand side
-//! make up. `U`, `v` and `delta` are the very numbers held here, so that `z` is defined without
-//! rounding; `E` is what they leave, and bounded entry by entry. Where `delta_i^+` and `delta_i^-` have
-//! opposite signs the side of every contact follows from the sign of `s_i(z) - epsilon_i` (theory,
-//! section 4 (e)).
+//! with `u_i` the rows of `U`, and `epsilon_i` the combined effect of the remainder and the bounds of the
+//! right-hand side. `U`, `v` and `delta` are exactly the numbers stored here, so `z` is defined without
+//! rounding; `E` is the remainder, bounded entry by entry. If `delta_i^+` and `delta_i^-` have opposite
+//! signs, the side of every contact follows from the sign of `s_i(z) - epsilon_i` (theory, section 4 (e)).
 //!
 //! # Bounds of the errors
-//! With `t = 1 / max(1, |z|)` and everything multiplied by `t`, `w = t z` has no entry above 1, and
+//! With `t = 1 / max(1, |z|)` and everything multiplied by `t`, no entry of `w = t z` exceeds 1, and
 //!
 //! ```text
 //! t y_i <= (|b_i| + sum_j |u_ij| + t |epsilon_i|) / min |delta_i|
 //! t |epsilon_i| <= radius(b_i) + sum_k |E_ik| t y_k
 //! ```
 //!
-//! Where the largest row sum of `|E_ik| / min |delta_i|` is at most 2/5, the largest `t y` is at most
-//! 5/3 of what it would be without `E`; this bounds all `t |epsilon_i|`. Columns that are known within
-//! bounds add these to `|E|`.
+//! If the largest row sum of `|E_ik| / min |delta_i|` is at most 2/5, the largest `t y` is at most 5/3 of its
+//! value without `E`; this bounds all `t |epsilon_i|`. For columns that are known within bounds, these are
+//! added to `|E|`.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::problem::{ContactState, ScaledProblem, power_of_two_above};
 
-/// The highest rank that is looked for.
+/// The highest rank that is considered.
 pub(super) const LARGEST_RANK: usize = 6;
-/// Entries below this fraction of the largest entry are zero.
+/// Entries below this fraction of the largest entry count as zero.
 const ZERO: f64 = 1e-11;
-/// The decomposition holds to this fraction of the largest entry.
+/// The decomposition must hold to this fraction of the largest entry.
 const ACCURACY: f64 = 1e-10;
-/// Rounding of a sum of `LARGEST_RANK + 2` products, with much to spare, relative to its terms.
+/// Rounding error of a sum of `LARGEST_RANK + 2` products, relative to its terms, with a wide margin.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The decomposition of both versions of the columns; `[positive, negative]`.
 #[derive(Debug, Clone)]
 pub(super) struct LowRank {
-    /// `U` (r x q), scaled such that `u_i . z` and `b_i` are of one size where `|z|` is about 1.
+    /// `U` (r x q), scaled so that `u_i . z` and `b_i` have the same size where `|z|` is about 1.
     pub(super) left: DMatrix<f64>,
     /// `v_k` as columns (q x r).
     pub(super) right: [DMatrix<f64>; 2],
@@ -47,13 +46,13 @@ pub(super) struct LowRank {
     pub(super) diagonal: [DVector<f64>; 2],
     /// `b` (r).
     pub(super) load: DVector<f64>,
-    /// Bounds of `|epsilon_i| / max(1, |z|)` (r).
+    /// Bounds on `|epsilon_i| / max(1, |z|)` (r).
     pub(super) error: DVector<f64>,
 }
 
 impl LowRank {
-    /// The decomposition of a problem without jumps, for all right-hand sides within `load_error`, if
-    /// its coupling has a rank from 1 to 6 and the sides follow from the signs of `s_i`.
+    /// The decomposition of a problem without jumps, for all right-hand sides within `load_error`, if its
+    /// coupling has a rank from 1 to 6 and the sides follow from the signs of `s_i`.
     pub(super) fn of(problem: &ScaledProblem, load_error: &DVector<f64>) -> Option<Self> {
         if problem.has_jump.iter().any(|&jump| jump) {
             return None;
@@ -91,13 +90,12 @@ impl LowRank {
         self.left.ncols()
     }
 
-    /// The index of the side (0 positive, 1 negative) on which a contact is where `s` is positive
-    /// or not.
+    /// The index of the side (0 positive, 1 negative) of a contact for which `s` is positive or not.
     pub(super) fn side(&self, contact: usize, positive: bool) -> usize {
         usize::from((self.diagonal[0][contact] > 0.0) != positive)
     }
 
-    /// Bounds of all `|epsilon_i| / max(1, |z|)`; none if the remainder is too large.
+    /// Bounds on all `|epsilon_i| / max(1, |z|)`; `None` if the remainder is too large.
     fn bound_errors(&self, remainder: &DMatrix<f64>, load_error: &DVector<f64>) -> Option<DVector<f64>> {
         let contacts = self.load.len();
         let least = self.diagonal[0].abs().inf(&self.diagonal[1].abs());
@@ -105,13 +103,13 @@ impl LowRank {
             (self.load[i].abs() + self.left.row(i).abs().sum() + load_error[i]) / least[i]
         });
         let gain = remainder.column_sum().component_div(&least).amax();
-        // The factor 2.5 instead of 5/3 covers the rounding here.
+        // The factor 2.5 instead of 5/3 covers the rounding errors here.
         let largest = 2.5 * without.amax();
         let error = (load_error + remainder.column_sum() * largest) * (1.0 + contacts as f64 * ROUNDING);
         (gain <= 0.4 && error.iter().all(|value| value.is_finite())).then_some(error)
     }
 
-    /// Bounds of `|E|` for both sides, where columns may be off by a radius.
+    /// Bounds on `|E|` for both sides, where columns have an error up to a radius.
     fn remainder(&self, columns: &[DMatrix<f64>; 2], radii: Option<&[DMatrix<f64>; 2]>) -> DMatrix<f64> {
         let [positive, negative] = [0, 1].map(|side| {
             let diagonal = DMatrix::from_diagonal(&self.diagonal[side]);
@@ -141,9 +139,9 @@ fn off_diagonal_size(matrix: &DMatrix<f64>) -> f64 {
     size
 }
 
-/// Columns (contact and side) that span the coupling, by elimination with complete pivoting in a
-/// block without diagonal entries: the rows of the first half of the contacts, the columns of the
-/// second. None if the rank is 0 or too high.
+/// Columns (contact and side) that span the coupling, by elimination with complete pivoting in a block
+/// without diagonal entries: the rows of the first half of the contacts and the columns of the second half.
+/// `None` if the rank is 0 or too high.
 fn pivot_columns(columns: &[DMatrix<f64>; 2], zero: f64) -> Option<Vec<(usize, usize)>> {
     let contacts = columns[0].nrows();
     let half = contacts / 2;
@@ -167,8 +165,8 @@ fn pivot_columns(columns: &[DMatrix<f64>; 2], zero: f64) -> Option<Vec<(usize, u
     if pivots.is_empty() { None } else { Some(pivots) }
 }
 
-/// `U`: the pivot columns, made orthonormal. Rows in which a pivot column has its diagonal entry
-/// are found from the other columns.
+/// `U`: the pivot columns, orthonormalized. Rows in which a pivot column has its diagonal entry are computed
+/// from the other columns.
 fn left_factor(columns: &[DMatrix<f64>; 2], pivots: &[(usize, usize)]) -> Option<DMatrix<f64>> {
     let contacts = columns[0].nrows();
     let missing: Vec<usize> = pivots.iter().map(|&(contact, _)| contact).collect();
@@ -176,7 +174,7 @@ fn left_factor(columns: &[DMatrix<f64>; 2], pivots: &[(usize, usize)]) -> Option
         if missing.contains(&row) { 0.0 } else { columns[pivots[at].1][(row, pivots[at].0)] }
     });
     let mut left = known.qr().q();
-    // The v of all columns whose own row is known, and the missing rows by least squares from them.
+    // The v of all columns whose own row is known, and from them the missing rows by least squares.
     let others: Vec<usize> = (0..contacts).filter(|contact| !missing.contains(contact)).collect();
     let mut right = Vec::new();
     for matrix in columns {
@@ -201,7 +199,7 @@ fn right_factor(matrix: &DMatrix<f64>, left: &DMatrix<f64>) -> Option<DMatrix<f6
     fitted(matrix, left, &[])
 }
 
-/// `v_k` of every column by least squares over all rows but its own and those left out.
+/// `v_k` of every column by least squares over all rows except its own and those left out.
 fn fitted(matrix: &DMatrix<f64>, left: &DMatrix<f64>, left_out: &[usize]) -> Option<DMatrix<f64>> {
     let mut kept = left.clone();
     for &row in left_out {

@@ -1,51 +1,51 @@
 //! Pruned search: every solution without trying every pattern.
 //!
 //! # Method
-//! 1. Contacts are split into groups that act on one another in one direction only (theory, section
-//!    4 (d)). Groups are solved in that order; independent groups multiply, and their solutions are
-//!    kept as a product, [`SolutionProduct`].
-//! 2. A group with few patterns has each of them decided, so that all outcomes are known, locked modes
-//!    included ([`GroupReport::outcomes`]).
-//! 3. A larger group has exactly one solution if one of two cheap proofs says so (section 4 (a), (c)).
-//! 4. Where a large group is coupled through one to six quantities only, all patterns that can
-//!    occur are the cells of a hyperplane arrangement in so many dimensions (section 4 (e)): the space
-//!    of these quantities is subdivided until each part is excluded or has few patterns.
-//! 5. Otherwise branch and bound over the states of the contacts. A node is excluded by interval
-//!    propagation or by an infeasible linear relaxation (section 4 (a), (b)); a node with all
-//!    contacts decided is a pattern to decide. The next contact to branch on is the one for which, as far
-//!    as one dual step tells, forbidding either side costs most.
+//! 1. Contacts are split into groups that act on one another in one direction only (theory, section 4 (d)).
+//!    Groups are solved in that order; the solutions of independent groups multiply and are kept as a
+//!    product, [`SolutionProduct`].
+//! 2. In a group with few patterns, each pattern is decided, so that all outcomes are known, including locked
+//!    modes ([`GroupReport::outcomes`]).
+//! 3. A larger group has exactly one solution if one of two cheap proofs succeeds (section 4 (a), (c)).
+//! 4. If a large group is coupled only through one to six quantities, all patterns that can occur are the
+//!    cells of a hyperplane arrangement in as many dimensions (section 4 (e)): the space of these quantities
+//!    is subdivided until each part is excluded or has few patterns.
+//! 5. Otherwise, branch and bound over the states of the contacts. A node is excluded by interval propagation
+//!    or by an infeasible linear relaxation (section 4 (a), (b)); a node with all contacts decided is a
+//!    pattern to decide. The next contact to branch on is the one for which forbidding either side costs
+//!    most, as estimated from one dual step.
 //!
 //! # What is proven
-//! The problem is exact ([`ModeProblem`](super::ModeProblem)), or given within bounds
-//! ([`IntervalModeProblem`](super::certificate::IntervalModeProblem)); then everything is proven for
-//! all values within the bounds. Exclusions are made with rounding errors and bounds accounted for: a node
-//! that is excluded by the relaxation has a Farkas vector that was verified in that sense, and a node whose
-//! exclusion cannot be verified is split further. Patterns that are left are decided by
-//! [`certificate::decide`](super::certificate::decide), and each state carries what is proven of it, its
-//! [`Certificate`](super::Certificate).
+//! The problem is either exact ([`ModeProblem`](super::ModeProblem)) or given within bounds
+//! ([`IntervalModeProblem`](super::certificate::IntervalModeProblem)); in the latter case everything is
+//! proven for all values within the bounds. Exclusions account for rounding errors and bounds: a node that is
+//! excluded by the relaxation has a Farkas vector that was verified in that sense, and a node whose exclusion
+//! cannot be verified is split further. The remaining patterns are decided by
+//! [`certificate::decide`](super::certificate::decide), and each state carries its
+//! [`Certificate`](super::Certificate), which says what is proven about it.
 //!
 //! - Exact numbers (sums of two matrices are not rounded): every pattern is decided, in rational numbers if
-//!   need be. A group's right-hand side that follows from other groups has a rounding error; where that
-//!   leaves a pattern open, it is decided together with their contacts (up to 48 of them).
-//! - Numbers within bounds: a pattern whose outcome differs between values, or of which that could not be
-//!   ruled out, is labelled. If it is a solution in the middle of the bounds it is listed as such, on the
-//!   boundary within the bounds; else as an [`UndecidedPattern`](super::UndecidedPattern). Such patterns do
-//!   not make a list less proven: it holds everything that is a solution for some value. A contact may rest
-//!   in its gap if `d_k^+` and `d_k^-` may differ within the bounds; where both are one number that is known
-//!   within bounds, let it be part of the right-hand side.
+//!   necessary. A group's right-hand side that follows from other groups has a rounding error; if that leaves
+//!   a pattern open, the pattern is decided together with their contacts (up to 48 of them).
+//! - Numbers within bounds: a pattern whose outcome differs between values, or for which that could not be
+//!   ruled out, is labelled. If it is a solution at the midpoint of the bounds, it is listed as a solution on
+//!   the boundary within the bounds, otherwise as an [`UndecidedPattern`](super::UndecidedPattern). Such
+//!   patterns do not make a list less proven: it contains everything that is a solution for some value. A
+//!   contact may rest in its gap if `d_k^+` and `d_k^-` may differ within the bounds; if both are one number
+//!   known within bounds, make it part of the right-hand side.
 //!
-//! [`SearchResult::completeness`] tells whether all of this worked. Not proven are singular sets that take
-//! too much work to describe exactly. Without [`SearchOptions::certify`] patterns are solved with the
+//! [`SearchResult::completeness`] says whether all of this succeeded. Singular sets that take too much work
+//! to describe exactly are not proven. Without [`SearchOptions::certify`], patterns are solved with the
 //! tolerances of [`modes`](super), and nothing is proven.
 //!
 //! # Cost
 //! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
-//! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low rank beyond
-//! that of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary
-//! is met in up to `2^m` patterns, each of which is decided.
+//! problems, but weak if columns of many contacts are nearly dependent, as in low-rank coupling beyond the
+//! scope of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary
+//! occurs in up to `2^m` patterns, each of which is decided.
 //!
-//! Outside of groups whose every pattern is tried, singular patterns that admit nothing (locking of the mode)
-//! are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
+//! Except in groups for which every pattern is tried, singular patterns that admit nothing (locking of the
+//! mode) are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
 
 mod cells;
 mod composition;
@@ -86,20 +86,20 @@ use crate::progress::Callback;
 use composition::Composer;
 use monitor::Monitor;
 
-/// What underflow may take from bounds and sums of products, far above the least number and far below any
-/// that is let in; loads are of size 1.
+/// Bound on the loss by underflow in bounds and sums of products, far above the least number and far below
+/// any admitted number; loads have size 1.
 const UNDERFLOW: f64 = 1e-290;
 
 /// All solutions of a mode problem of any size, and how they were found.
 ///
 /// Finds every solution of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` (Klepp (2002), eqs.
-/// (6) and (8)), states in preload gaps and what singular patterns admit, as [`enumerate`](super::enumerate)
-/// does, but without trying every pattern, and proves it. `problem` is a reference to a
+/// (6) and (8)), states in preload gaps, and what singular patterns admit, as [`enumerate`](super::enumerate)
+/// does, but without trying every pattern, and proves the result. `problem` is a reference to a
 /// [`ModeProblem`](super::ModeProblem), or to an
 /// [`IntervalModeProblem`](super::certificate::IntervalModeProblem) whose numbers lie within bounds. The work
-/// depends on the problem and can grow like `2^r`: `progress` is called at every node, and in the midst of
-/// long work, and ends the search when it breaks (the library has no clock; compare times there). The answer
-/// is then labelled as partial.
+/// depends on the problem and can grow like `2^r`: `progress` is called at every node and during long steps,
+/// and ends the search by breaking (the library has no clock; check the time there). The answer is then
+/// labelled as partial.
 ///
 /// ```
 /// use std::ops::ControlFlow;

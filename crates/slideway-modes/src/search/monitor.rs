@@ -3,16 +3,16 @@
 use super::report::StopReason;
 use crate::progress::{Callback, Progress};
 
-/// Counts nodes, tells the caller, and notes why the search ends early.
+/// Counts nodes, reports to the caller, and records why the search ends early.
 pub(super) struct Monitor<'a> {
     progress: &'a mut Callback<'a>,
     node_limit: u64,
     nodes: u64,
     states_found: u64,
-    /// The part of the work that is done, and the part that the group at hand makes up.
+    /// The fraction of the work that is done, and the fraction that the current group makes up.
     done: f64,
     share: f64,
-    /// What was told last.
+    /// The latest report.
     told: Progress,
     stopped: Option<StopReason>,
 }
@@ -31,7 +31,7 @@ impl<'a> Monitor<'a> {
         self.stopped.get_or_insert(reason);
     }
 
-    /// The group that follows makes up this share of the work.
+    /// The next group makes up this share of the work.
     pub(super) fn start_group(&mut self, done: f64, share: f64) {
         self.done = done;
         self.share = share;
@@ -41,8 +41,8 @@ impl<'a> Monitor<'a> {
         self.states_found += states as u64;
     }
 
-    /// Counts a node; false if the search must end before it. `fraction` is the part of the group's
-    /// patterns that is dealt with.
+    /// Counts a node; `false` if the search must end before it. `fraction` is the completed part of the
+    /// group's patterns.
     pub(super) fn visit(&mut self, fraction: f64, found_in_group: usize) -> bool {
         if self.stopped.is_some() {
             return false;
@@ -62,7 +62,7 @@ impl<'a> Monitor<'a> {
         self.goes_on()
     }
 
-    /// False if the search must end. Asked in the midst of long work, too.
+    /// `false` if the search must end. Also called during long steps.
     pub(super) fn goes_on(&mut self) -> bool {
         if self.stopped.is_none() && (self.progress)(&self.told).is_break() {
             self.stop(StopReason::Cancelled);

@@ -1,4 +1,4 @@
-//! Solutions in product form: what independent groups of contacts find multiplies.
+//! Solutions in product form: the solutions of independent groups of contacts multiply.
 
 use std::sync::Arc;
 
@@ -14,11 +14,11 @@ use crate::solutions::{
 /// All solutions of a set of contacts: one alternative of every factor, in any combination.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SolutionProduct {
-    /// Independent factors; without any there is exactly one (empty) solution.
+    /// Independent factors; without factors, there is exactly one (empty) solution.
     pub factors: Vec<Factor>,
 }
 
-/// A group of contacts and its alternatives. None means that there is no solution.
+/// A group of contacts and its alternatives; no alternatives mean that there is no solution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factor {
     /// The contacts of the group, from 0, in increasing order.
@@ -30,13 +30,13 @@ pub struct Factor {
 /// One solution of a group, with the solutions of the groups that depend on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alternative {
-    /// The state of the group's own contacts; shared where the group has it beside several states of others.
+    /// The state of the group's own contacts; shared if it occurs beside several states of other groups.
     pub state: Arc<GroupState>,
-    /// The solutions of the contacts that this group acts on.
+    /// The solutions of the contacts on which this group acts.
     pub dependents: SolutionProduct,
 }
 
-/// A solution of one group; numbered as the contacts of its factor are.
+/// A solution of one group, in the numbering of its factor's contacts.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GroupState {
     /// Every contact is pressed on a side, or about to change it.
@@ -45,11 +45,11 @@ pub enum GroupState {
     Gap(GapState),
     /// What a singular pattern admits; not empty.
     Singular(SingularMode),
-    /// Data within bounds only: no solution in the middle of the bounds, but perhaps for other values.
+    /// For data within bounds only: no solution at the midpoint of the bounds, but perhaps for other values.
     Undecided(UndecidedPattern),
 }
 
-/// How many solutions there are of each kind.
+/// The number of solutions of each kind.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct StateCounts {
     /// Solutions with every contact pressed on a side or on a boundary.
@@ -58,14 +58,14 @@ pub struct StateCounts {
     pub gap_states: BigCount,
     /// Combinations with the set of a singular pattern.
     pub singular: BigCount,
-    /// Combinations that may be solutions for some of the values within bounds only.
+    /// Combinations that may be solutions only for some values within bounds.
     pub undecided: BigCount,
 }
 
 /// A combination of solutions of all groups.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CombinedState<'a> {
-    /// Each group's contacts and what they do.
+    /// The contacts of each group, with their state.
     pub parts: Vec<(&'a [usize], &'a GroupState)>,
 }
 
@@ -90,7 +90,7 @@ impl GroupState {
         }
     }
 
-    /// What is proven of it; none for an undecided pattern.
+    /// What is proven about it; `None` for an undecided pattern.
     pub fn certificate(&self) -> Option<&Certificate> {
         match self {
             Self::Solution(solution) => Some(&solution.certificate),
@@ -127,7 +127,7 @@ impl GroupState {
         }
     }
 
-    /// The signed normal forces of the group; none for a continuum and an undecided pattern.
+    /// The signed normal forces of the group; `None` for a continuum and for an undecided pattern.
     pub fn normal_force(&self) -> Option<&DVector<f64>> {
         match self {
             Self::Solution(solution) => Some(&solution.normal_force),
@@ -138,7 +138,7 @@ impl GroupState {
     }
 }
 
-/// The kind of a state, in increasing order of what has to be said about it.
+/// The kind of a state, ordered by how much must be said about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum StateKind {
     /// Every contact is pressed on a side, or about to change it.
@@ -166,12 +166,12 @@ impl SolutionProduct {
         }
     }
 
-    /// All combinations one after the other. There may be very many: take what is needed.
+    /// All combinations one after the other. There may be very many: take only as many as needed.
     pub fn states(&self) -> impl Iterator<Item = CombinedState<'_>> {
         Combinations { product: self, choices: Vec::new(), state: Walk::Start }
     }
 
-    /// The combinations that are at most of a kind; those of that kind come early.
+    /// The combinations that are at most of this kind; those of exactly this kind come early.
     #[must_use]
     pub fn up_to(&self, kind: StateKind) -> Self {
         let mut product = self.clone();
@@ -179,8 +179,8 @@ impl SolutionProduct {
         product
     }
 
-    /// Drops what is beyond a kind, and returns the last kind of the combinations that are left; none if
-    /// there are no combinations.
+    /// Drops what is beyond a kind, and returns the last kind of the remaining combinations; `None` if there
+    /// are no combinations.
     fn restrict(&mut self, most: StateKind) -> Option<StateKind> {
         let mut last = Some(StateKind::Solution);
         for factor in &mut self.factors {
@@ -193,7 +193,7 @@ impl SolutionProduct {
                     sorted.push((own.max(dependents), alternative));
                 }
             }
-            // The order among those of one kind stays.
+            // The order within one kind is kept.
             sorted.sort_by_key(|(kind, _)| std::cmp::Reverse(*kind));
             let first = sorted.first().map(|(kind, _)| *kind);
             last = last.zip(first).map(|(one, other)| one.max(other));
@@ -224,7 +224,7 @@ impl SolutionProduct {
 }
 
 impl CombinedState<'_> {
-    /// The shares of contacts in their gaps, of one state where they vary.
+    /// The shares of contacts in their gaps; those of one state if they vary.
     pub fn shares(&self) -> Vec<GapShare> {
         let mut all: Vec<GapShare> = Vec::new();
         for (members, state) in &self.parts {
@@ -239,12 +239,12 @@ impl CombinedState<'_> {
         all
     }
 
-    /// Whether there are several states with the same normal forces, which differ in their shares.
+    /// Whether there are several states with the same normal forces but different shares.
     pub fn shares_vary(&self) -> bool {
         self.parts.iter().any(|(_, state)| matches!(state, GroupState::Singular(mode) if mode.shares_vary))
     }
 
-    /// The kind of the combination: that of the part of which most has to be said.
+    /// The kind of the combination: the greatest kind of its parts.
     pub fn kind(&self) -> StateKind {
         self.parts.iter().map(|(_, state)| state.kind()).max().unwrap_or(StateKind::Solution)
     }
@@ -254,7 +254,7 @@ impl CombinedState<'_> {
         self.parts.iter().all(|(_, state)| state.is_maximal())
     }
 
-    /// The unknowns of all contacts, given their number, that are positive; of undecided patterns none.
+    /// The positive unknowns of all contacts, given their number; none for undecided patterns.
     pub(crate) fn support(&self, contacts: usize) -> Support {
         let mut support = Support::none_of(contacts);
         for (members, state) in &self.parts {
@@ -276,8 +276,8 @@ impl CombinedState<'_> {
         pattern
     }
 
-    /// The signed normal forces of all contacts, given their number; none if a group has a
-    /// continuum of them.
+    /// The signed normal forces of all contacts, given their number; `None` if a group has a continuum of
+    /// them.
     pub fn normal_force(&self, contacts: usize) -> Option<DVector<f64>> {
         let mut force = DVector::zeros(contacts);
         for (members, state) in &self.parts {
@@ -295,17 +295,17 @@ enum Walk {
     End,
 }
 
-/// Combinations in the order of the alternatives, the last group changing fastest.
+/// Combinations in the order of the alternatives, with the last group changing fastest.
 struct Combinations<'a> {
     product: &'a SolutionProduct,
-    /// The factors in the order in which they are met, with the alternative taken.
+    /// The factors in the order in which they are encountered, with the alternative taken.
     choices: Vec<(&'a Factor, usize)>,
     state: Walk,
 }
 
 impl<'a> Combinations<'a> {
-    /// Extends the choices by the first alternative of every factor that is left; false if some
-    /// factor has none.
+    /// Extends the choices by the first alternative of every remaining factor; `false` if some factor has
+    /// none.
     fn complete(&mut self) -> bool {
         let mut pending: Vec<&'a Factor> = self.product.factors.iter().rev().collect();
         let mut known = 0;
@@ -321,7 +321,7 @@ impl<'a> Combinations<'a> {
         true
     }
 
-    /// Takes the next alternative of the last factor that has one; false if none has.
+    /// Takes the next alternative of the last factor that has one; `false` if none has.
     fn advance(&mut self) -> bool {
         while let Some((factor, taken)) = self.choices.pop() {
             if taken + 1 < factor.alternatives.len() {

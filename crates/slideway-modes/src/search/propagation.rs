@@ -1,16 +1,16 @@
-//! Interval propagation: bounds on all normal forces, and the sides that they leave.
+//! Interval propagation: bounds on all normal forces, and the sides that they permit.
 //!
-//! With `A = (c^+ - c^-) / 2`, `B = (c^+ + c^-) / 2` both versions of every column are
-//! `c_k^{sigma} = sigma A_k + B_k`, exactly, and the mode problem reads
+//! With `A = (c^+ - c^-) / 2` and `B = (c^+ + c^-) / 2`, both versions of every column are
+//! `c_k^{sigma} = sigma A_k + B_k`, exactly, and the mode problem is
 //!
 //! ```text
 //! A N + B |N| = N(0) + sum_k d_k^- + sum_k lambda_k (d_k^+ - d_k^-),
 //! N = e + J lambda - G |N|,    e = A^-1 (N(0) + sum d^-),   J = A^-1 (d^+ - d^-),   G = A^-1 B
 //! ```
 //!
-//! (theory, section 4 (a): where `c_k^{sigma} = sigma e_k - mu_k s_k eta_k` is the same on both
-//! sides, `G` is the matrix `B` there). `A^-1` is known up to rounding only; how far it misses is
-//! bounded by `slip`, which enters every bound.
+//! (theory, section 4 (a): if `c_k^{sigma} = sigma e_k - mu_k s_k eta_k` is the same on both sides, `G` is
+//! the matrix `B` there). `A^-1` is known only up to rounding; its error is bounded by `slip`, which enters
+//! every bound.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -21,9 +21,9 @@ use crate::problem::{ContactState, ScaledProblem};
 
 /// Bounds are widened by this fraction of the sum of their terms' sizes, far above rounding.
 const MARGIN: f64 = 1e-10;
-/// What was computed with positive terms only is verified up to this fraction.
+/// Results computed from positive terms only are verified up to this fraction.
 const VERIFIED: f64 = 1e-11;
-/// Sweeps go on while some bound shrinks by this fraction.
+/// Sweeps continue while some bound shrinks by this fraction.
 const WORTHWHILE: f64 = 0.05;
 /// The most sweeps at one node.
 const SWEEPS: usize = 20;
@@ -37,17 +37,18 @@ pub(super) struct SolvedForm {
     pub(super) coupling: DMatrix<f64>,
     /// `J`.
     jumps: DMatrix<f64>,
-    /// Bound of the error of `N - e - J lambda + G |N|` per unit of each `|N_k|`.
+    /// Bound on the error of `N - e - J lambda + G |N|` per unit of each `|N_k|`.
     pub(super) slip: DMatrix<f64>,
-    /// Bound of the error of `e + J lambda`.
+    /// Bound on the error of `e + J lambda`.
     offset_error: DVector<f64>,
-    /// Bounds of all `|N_k|`, infinite where none is known.
+    /// Bounds on all `|N_k|`, infinite where none is known.
     pub(super) largest: Vec<f64>,
     has_jump: Vec<bool>,
 }
 
 impl SolvedForm {
-    /// For all right-hand sides within `load_radius`; none if `A` is singular, or once `proceed` is false.
+    /// The form for all right-hand sides within `load_radius`; `None` if `A` is singular, or once `proceed`
+    /// is `false`.
     pub(super) fn new(
         problem: &ScaledProblem,
         load_radius: &DVector<f64>,
@@ -93,8 +94,8 @@ impl SolvedForm {
         Some(propagation)
     }
 
-    /// `|N| <= u` for a positive `u` with `|e| + sum |J| + |G| u <= u`, which exists if the spectral
-    /// radius of `|G|` is below 1 and proves that it is.
+    /// `|N| <= u` for a positive `u` with `|e| + sum |J| + |G| u <= u`, which exists if the spectral radius
+    /// of `|G|` is below 1, and proves that it is.
     fn contraction_bound(&self, proceed: &mut dyn FnMut() -> bool) -> Option<Vec<f64>> {
         let contacts = self.frictionless.len();
         let gain = self.coupling.abs() + &self.slip;
@@ -104,7 +105,7 @@ impl SolvedForm {
         let matrix = DMatrix::identity(contacts, contacts) - &gain * (1.0 + MARGIN);
         let bound = Lu::new(matrix, proceed)?.solve(&widened)?;
         let needed = &gain * &bound + &load;
-        // Far more than rounding can have changed in `needed`, whose terms are all positive.
+        // Far more than the rounding error of `needed`, whose terms are all positive.
         let holds = bound
             .iter()
             .zip(&needed)
@@ -117,8 +118,9 @@ impl SolvedForm {
         self.largest.iter().all(|largest| largest.is_finite())
     }
 
-    /// Removes states that no normal force within its bounds can take, to a fixed point. False if a
-    /// contact is left without a state. Once `proceed` is false some may be left that could be removed.
+    /// Removes states that no normal force within its bounds can take, until nothing changes. Returns `false`
+    /// if a contact is left without a state. Once `proceed` is `false`, some states may remain that could be
+    /// removed.
     pub(super) fn fix_sides(&self, states: &mut [StateSet], proceed: &mut dyn FnMut() -> bool) -> bool {
         let mut pace = Pace::new(proceed);
         let mut bounds: Vec<(f64, f64)> = self.largest.iter().map(|&largest| (0.0, largest)).collect();
@@ -145,7 +147,7 @@ impl SolvedForm {
         true
     }
 
-    /// Bounds of `N_i = e_i + sum_k J_ik lambda_k - sum_k G_ik y_k`, from the bounds of the `y_k`.
+    /// Bounds on `N_i = e_i + sum_k J_ik lambda_k - sum_k G_ik y_k`, from the bounds on the `y_k`.
     fn normal_force(&self, contact: usize, states: &[StateSet], bounds: &[(f64, f64)]) -> (f64, f64) {
         let center = self.frictionless[contact];
         let (mut least, mut most, mut size) = (center, center, center.abs());
@@ -174,7 +176,7 @@ impl SolvedForm {
     }
 }
 
-/// The states of a contact, and the bounds of its `y`, that a range of its normal force leaves.
+/// The states of a contact, and the bounds on its `y`, that a range of its normal force permits.
 fn narrowed(states: StateSet, y: (f64, f64), force: (f64, f64)) -> (StateSet, (f64, f64)) {
     let (least, most) = force;
     let mut left = states;
@@ -237,8 +239,8 @@ mod tests {
         let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
         let problem =
             ModeProblem::from_absolute_value_equation(&identity, &coupling, load).expect("shapes fit");
-        // The spectral radius is 0.9 in the middle, and 1 where all coefficients are as large as a tenth lets
-        // them.
+        // The spectral radius is 0.9 at the midpoint, and 1 where all coefficients are as large as a tenth
+        // permits.
         for (relative, expected) in [(1e-3, true), (0.1, false)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
             let scaled = ScaledProblem::within((&bounded).into());

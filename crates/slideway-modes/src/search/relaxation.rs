@@ -5,9 +5,9 @@
 //! y_k^+, y_k^- >= 0,   0 <= lambda_k <= 1
 //! ```
 //!
-//! (theory, section 4 (b)), where `y_k^-` is zero and `lambda_k = 1` once contact `k` is known to be
-//! on its positive side, and so on; in its gap both `y` are zero. What is dropped is that one of
-//! `y_k^+` and `y_k^-` is zero. If this has no solution the node has none.
+//! (theory, section 4 (b)), where `y_k^-` is zero and `lambda_k = 1` once contact `k` is known to be on its
+//! positive side, and so on; in its gap, both `y` are zero. The condition that one of `y_k^+` and `y_k^-` is
+//! zero is dropped. If this has no solution, the node has none.
 
 use nalgebra::DVector;
 
@@ -16,14 +16,15 @@ use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
 
-/// A Farkas vector must exclude by this fraction of the size of its terms, which is what solutions
-/// on a boundary are tolerated by.
+/// A Farkas vector must exclude by this fraction of the size of its terms, which is the tolerance for
+/// solutions on a boundary.
 const MARGIN: f64 = 1e-11;
-/// Entries of a Farkas vector below this are zero, so that products with coefficients do not underflow.
+/// Entries of a Farkas vector below this are set to zero, so that products with coefficients do not
+/// underflow.
 const SMALLEST_WEIGHT: f64 = f64::from_bits((1023 - 400) << 52);
-/// How often a Farkas vector is shifted to make its verification strict.
+/// Maximum number of shifts of a Farkas vector to make its verification strict.
 const SHIFTS: usize = 2;
-/// Relative difference that [`ModeProblem`](crate::ModeProblem) does not take for a jump.
+/// Relative difference that [`ModeProblem`](crate::ModeProblem) does not treat as a jump.
 const IGNORED_JUMP: f64 = 1e-12;
 
 pub(super) struct Relaxation {
@@ -36,28 +37,28 @@ pub(super) struct Relaxation {
     /// Size of the terms of the right-hand side, and how much of them rounding may have changed.
     load_size: Vec<f64>,
     load_error: Vec<f64>,
-    /// How far each column of the program may be off, row by row; empty where it is exact.
+    /// Maximum error of each column of the program, row by row; empty if it is exact.
     spread: Vec<Vec<f64>>,
-    /// Bounds of `y_k` that hold for every solution.
+    /// Bounds on `y_k` that hold for every solution.
     largest: Vec<f64>,
 }
 
-/// What the relaxation says of one contact.
+/// The relaxed solution for one contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RelaxedContact {
     pub(super) positive: f64,
     pub(super) negative: f64,
     pub(super) share: f64,
-    /// Where both sides press: by how much the least cost grows at least without the positive, or the
-    /// negative side; infinite if it cannot be without.
+    /// If both sides press: a lower bound on how much the least cost grows without the positive or the
+    /// negative side; infinite if that side is indispensable.
     pub(super) cost_without: [f64; 2],
 }
 
-/// What the relaxation says of a node.
+/// The outcome of the relaxation for a node.
 pub(super) enum Relaxed {
     Feasible(Vec<RelaxedContact>),
-    /// The node has no solution, as a vector `v` proves with `v . (left side) < v . (right side)`
-    /// for everything that its states allow.
+    /// The node has no solution, as proven by a vector `v` with `v . (left side) < v . (right side)` for
+    /// everything that its states allow.
     Excluded(Vec<f64>),
     Undecided,
 }
@@ -99,8 +100,8 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
-    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own. It is left
-    /// undecided once `proceed` is false.
+    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own basis. The
+    /// result is undecided once `proceed` is `false`.
     pub(super) fn solve(
         &self,
         states: &[StateSet],
@@ -120,8 +121,8 @@ impl Relaxation {
         (relaxed, basis)
     }
 
-    /// A vector that excludes a node but for rounding errors; none if the relaxation may have a solution, or
-    /// once `proceed` is false.
+    /// A vector that excludes a node, apart from rounding errors; `None` if the relaxation may have a
+    /// solution, or once `proceed` is `false`.
     pub(super) fn farkas(&self, states: &[StateSet], proceed: &mut dyn FnMut() -> bool) -> Option<Vec<f64>> {
         let bounds = self.bounds(states);
         let mut basis = self.first_basis().restricted(&bounds);
@@ -166,8 +167,8 @@ impl Relaxation {
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
 
-    /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of
-    /// basic variables, which the vector meets at exactly zero, are moved to the safe side.
+    /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of basic
+    /// variables, for which the vector gives exactly zero, are moved to the safe side.
     fn verified(&self, mut farkas: Vec<f64>, bounds: &Bounds, basis: &Basis) -> Option<Vec<f64>> {
         let mut combined = Vec::new();
         for _ in 0..=SHIFTS {
@@ -218,8 +219,8 @@ impl Relaxation {
     }
 }
 
-/// A multiple of a vector by a power of two, with entries up to about 1 and none too small for products; none
-/// if that is not possible.
+/// A vector times a power of two, with entries up to about 1 and none too small for products; `None` if that
+/// is not possible.
 fn of_size_one(mut vector: Vec<f64>) -> Option<Vec<f64>> {
     let size = vector.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
     if !vector.iter().all(|entry| entry.is_finite()) || size == 0.0 {
@@ -240,8 +241,8 @@ fn size_of_terms(values: &[f64], sizes: &[f64]) -> f64 {
     values.iter().zip(sizes).map(|(value, size)| value.abs() * size).sum()
 }
 
-/// How far the right-hand side may be off: `load_radius`, and what rounding and jumps too small to
-/// count can have changed in `N(0) + sum d^-`.
+/// The maximum error of the right-hand side: `load_radius`, and what rounding and negligible jumps can have
+/// changed in `N(0) + sum d^-`.
 pub(super) fn load_error(problem: &ScaledProblem, load_radius: &DVector<f64>) -> DVector<f64> {
     let terms = problem.base().zip_map(problem.load_size(), |base, size| base.abs() != size);
     let jumps_contribute = terms.iter().any(|&contributes| contributes);
@@ -250,9 +251,9 @@ pub(super) fn load_error(problem: &ScaledProblem, load_radius: &DVector<f64>) ->
     problem.load_size() * share + load_radius
 }
 
-/// Costs that differ from variable to variable, so that the dual program is not degenerate.
+/// Costs that differ between variables, so that the dual program is not degenerate.
 fn uneven_cost(variable: usize) -> f64 {
-    // The fractional parts of multiples of the golden ratio are spread evenly.
+    // The fractional parts of multiples of the golden ratio are evenly distributed.
     1.0 + 0.2 * (variable as f64 * 0.618_033_988_749_895).fract()
 }
 
@@ -347,7 +348,7 @@ mod tests {
 
     #[test]
     fn products_within_rounding_of_zero_exclude_nothing() {
-        // (1 + 2^-30)^2 - (1 + 2^-29) is 2^-60, and 0 when it is rounded.
+        // (1 + 2^-30)^2 - (1 + 2^-29) is 2^-60, but 0 if it is rounded.
         let entry = 1.0 + 2_f64.powi(-30);
         let columns = [entry, -1.0, 1.0, 1.0];
         assert!(!excludes(columns, [1.0, 0.0], [entry, -1.0 - 2_f64.powi(-29)]));

@@ -1,26 +1,26 @@
-//! How a search went: methods, counts of what excluded what, and how far the answer can be trusted.
+//! How a search proceeded: methods, counts of what each argument excluded, and how reliable the answer is.
 
 use std::fmt;
 
 use super::states::StateSet;
 use crate::solutions::{ClosestMode, Limits, PatternCounts, SingularMode, Solutions};
 
-/// What a search may use, and how much.
+/// What a search may use, and to what extent.
 ///
-/// Fields that are not in the documentation turn parts of the search off or keep what it did: tests,
-/// benchmarks and fuzz targets compare the rest with them.
+/// Undocumented fields turn off parts of the search or record what it did: tests, benchmarks and fuzz targets
+/// use them for comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SearchOptions {
     /// Largest number of nodes, over all groups of contacts.
     pub nodes: u64,
-    /// Limits on what is found and examined. [`Limits::contacts`] and [`Limits::patterns`] do not
-    /// apply to a search.
+    /// Limits on what is found and examined. [`Limits::contacts`] and [`Limits::patterns`] do not apply to a
+    /// search.
     pub limits: Limits,
     /// Which arguments the search may use; by default all of them.
     #[doc(hidden)]
     pub arguments: Arguments,
-    /// Whether the outcome of every pattern that is solved is also decided by proof, for the numbers
-    /// as given. Without it nothing is [`Completeness::Proven`].
+    /// Whether the outcome of every pattern that is solved is also decided by proof, for the numbers as
+    /// given. Otherwise nothing is [`Completeness::Proven`].
     #[doc(hidden)]
     pub certify: bool,
     /// Whether every excluded node is kept with its proof, in [`GroupReport::exclusions`].
@@ -64,14 +64,14 @@ impl Default for Arguments {
     }
 }
 
-/// Why a search ended before it was done.
+/// Why a search ended early.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StopReason {
     /// [`SearchOptions::nodes`].
     NodeLimit,
     /// [`Limits::solutions`].
     SolutionLimit,
-    /// The callback asked for it.
+    /// The callback requested it.
     Cancelled,
 }
 
@@ -99,7 +99,7 @@ pub enum Method {
     },
     /// Branch and bound with interval propagation and linear relaxation.
     BranchAndBound,
-    /// Every pattern decided by itself, because there are few.
+    /// Every pattern decided individually, because there are few.
     EveryPattern,
 }
 
@@ -115,13 +115,13 @@ impl fmt::Display for Method {
     }
 }
 
-/// The fraction of a group's patterns (with gap states) that each argument dealt with. They add up
-/// to 1. Times `2^`[`GroupReport::log2_patterns`] these are numbers of patterns.
+/// The fractions of a group's patterns (including gap states) that were settled by each argument. They add up
+/// to 1. Multiplied by `2^`[`GroupReport::log2_patterns`], they are numbers of patterns.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PatternShares {
     /// Excluded by a proof of uniqueness.
     pub uniqueness: f64,
-    /// Excluded because they are no cell of the arrangement.
+    /// Excluded because they are not cells of the arrangement.
     pub cells: f64,
     /// Excluded by interval propagation.
     pub propagation: f64,
@@ -129,12 +129,12 @@ pub struct PatternShares {
     pub relaxation: f64,
     /// Solved one by one.
     pub examined: f64,
-    /// Not dealt with, because the search ended early.
+    /// Not settled, because the search ended early.
     pub unexplored: f64,
 }
 
 impl PatternShares {
-    /// The fraction of patterns that is dealt with.
+    /// The fraction of settled patterns.
     pub fn done(&self) -> f64 {
         self.uniqueness + self.cells + self.propagation + self.relaxation + self.examined
     }
@@ -152,7 +152,7 @@ impl PatternShares {
     }
 }
 
-/// An excluded node and why it holds no solution.
+/// An excluded node and why it contains no solution.
 #[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exclusion {
@@ -162,13 +162,13 @@ pub struct Exclusion {
     pub argument: ExclusionArgument,
 }
 
-/// Why a node holds no solution.
+/// Why a node contains no solution.
 #[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum ExclusionArgument {
     /// Interval propagation leaves a contact without a state.
     Propagation,
-    /// A vector `v` with `v . (left side) < v . (right side)` for all that the states allow, for the
+    /// A vector `v` with `v . (left side) < v . (right side)` for everything that the states allow, for the
     /// equations in the problem's own units.
     Farkas(Vec<f64>),
 }
@@ -203,35 +203,36 @@ impl PatternOutcomes {
 pub struct GroupReport {
     /// The contacts, from 0, in increasing order.
     pub contacts: Vec<usize>,
-    /// The method that gave the answer.
+    /// The method that produced the answer.
     pub method: Method,
     /// Binary logarithm of the number of patterns, gap states included.
     pub log2_patterns: f64,
-    /// Nodes visited, or patterns tried with [`Method::EveryPattern`] and [`Method::Cells`] (a cell may be
-    /// met several times).
+    /// Nodes visited, or patterns tried with [`Method::EveryPattern`] and [`Method::Cells`] (which may
+    /// encounter a cell several times).
     pub nodes: u64,
     /// Pivots of the linear programs.
     pub pivots: u64,
-    /// What became of the patterns.
+    /// The outcome of the patterns.
     pub shares: PatternShares,
-    /// Right-hand sides that the group was searched with.
+    /// Number of right-hand sides with which the group was searched.
     pub loads: u64,
-    /// Right-hand sides with which the group admits nothing: no solution, no gap state, no singular set.
+    /// Number of right-hand sides for which the group admits nothing: no solution, no gap state, no singular
+    /// set.
     pub barren_loads: u64,
-    /// The outcome of every pattern; only where each was tried, with one right-hand side.
+    /// The outcome of every pattern; only if each was tried, with one right-hand side.
     pub outcomes: Option<PatternOutcomes>,
-    /// Patterns whose outcome is known within tolerances only.
+    /// Number of patterns whose outcome is known only within tolerances.
     pub unproven_patterns: u64,
     /// Whether every exclusion and every outcome is established with error bounds, for the
     /// right-hand sides as given.
     pub proven: bool,
-    /// Excluded nodes, if [`SearchOptions::keep_exclusions`] asks for them.
+    /// Excluded nodes, if [`SearchOptions::keep_exclusions`] is set.
     #[doc(hidden)]
     pub exclusions: Vec<Exclusion>,
 }
 
 impl GroupReport {
-    /// Adds the report on the same group with another right-hand side; shares become means.
+    /// Adds the report on the same group for another right-hand side; shares become means.
     pub(super) fn add(&mut self, other: &Self) {
         let weight = self.loads as f64 / (self.loads + other.loads) as f64;
         self.shares = self.shares.mean(&other.shares, weight);
@@ -249,16 +250,16 @@ impl GroupReport {
     }
 }
 
-/// Whether the list is all there is.
+/// Whether the list is complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Completeness {
     /// Every exclusion and every pattern's outcome is established with error bounds.
     Proven,
     /// The search is complete, but not every step of it is established with error bounds.
     NotProven,
-    /// Patterns are left that were not dealt with.
+    /// Some patterns were not settled.
     Partial(StopReason),
-    /// Singular patterns are left that were not examined within the limits.
+    /// Some singular patterns were not examined within the limits.
     Unexamined,
 }
 

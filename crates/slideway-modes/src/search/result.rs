@@ -1,4 +1,4 @@
-//! The answer of a search.
+//! The result of a search.
 
 use std::collections::BTreeMap;
 
@@ -7,15 +7,15 @@ use super::product::{GroupState, SolutionProduct, StateCounts, StateKind};
 use super::report::{Completeness, GroupReport, PatternOutcomes};
 use crate::solutions::{GapState, ModeSolution, SingularMode, UndecidedPattern};
 
-/// Everything that a search found, and how.
+/// Everything that a search found, and how it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchResult {
     /// All solutions, gap states, singular sets and undecided patterns, in product form.
     pub product: SolutionProduct,
-    /// Whether they are all there are.
+    /// Whether the list is complete.
     pub completeness: Completeness,
-    /// How each group of contacts was searched. A group that depends on others is searched once for
-    /// each of their solutions, and the reports are added up.
+    /// How each group of contacts was searched. A group that depends on others is searched once for each of
+    /// their solutions; the reports are added up.
     pub groups: Vec<GroupReport>,
     /// Number `r` of contacts.
     pub contacts: usize,
@@ -30,10 +30,10 @@ pub struct StateLists {
     pub gaps: Vec<GapState>,
     /// What singular patterns admit; not empty. A point that is a solution is listed only there.
     pub singular: Vec<SingularMode>,
-    /// Data within bounds only: patterns with no solution in the middle of the bounds, but perhaps for other
-    /// values.
+    /// For data within bounds only: patterns with no solution at the midpoint of the bounds, but perhaps for
+    /// other values.
     pub undecided: Vec<UndecidedPattern>,
-    /// Whether there is nothing else.
+    /// Whether the lists are complete.
     pub all_listed: bool,
 }
 
@@ -44,7 +44,7 @@ impl SearchResult {
     }
 
     /// All states of all contacts, one after the other: see [`CombinedState::joined`]. There may be very
-    /// many: take what is needed.
+    /// many: take only as many as needed.
     ///
     /// [`CombinedState::joined`]: super::CombinedState::joined
     pub fn states(&self, listed: usize) -> impl Iterator<Item = GroupState> {
@@ -81,7 +81,7 @@ impl SearchResult {
         for (kind, count) in kinds {
             let wanted = wanted(count);
             lists.all_listed &= count.to_u64() == Some(wanted as u64);
-            // Those of one kind first, so that none has to be sought among many of the others.
+            // Kind by kind, so that no state has to be found among many of other kinds.
             let product = self.product.up_to(kind);
             let states = product.states().filter(|state| state.kind() == kind);
             for state in states.take(wanted) {
@@ -96,8 +96,8 @@ impl SearchResult {
         lists
     }
 
-    /// The outcome of every pattern of all contacts; none if they were searched in several groups, or not
-    /// every pattern was tried. See [`GroupReport::outcomes`] for those of each group.
+    /// The outcome of every pattern of all contacts; `None` if they were searched in several groups, or if
+    /// not every pattern was tried. See [`GroupReport::outcomes`] for those of each group.
     pub fn outcomes(&self) -> Option<&PatternOutcomes> {
         match self.groups.as_slice() {
             [only] if only.contacts.len() == self.contacts => only.outcomes.as_ref(),
@@ -105,8 +105,8 @@ impl SearchResult {
         }
     }
 
-    /// Groups that admit nothing, whatever the solution of the groups that act on them: because of them there
-    /// is no solution.
+    /// Groups that admit nothing, whatever the solution of the groups that act on them; they are the reason
+    /// why there is no solution.
     pub fn barren_groups(&self) -> impl Iterator<Item = &GroupReport> {
         self.groups.iter().filter(|group| group.barren_loads == group.loads)
     }
@@ -116,7 +116,7 @@ impl SearchResult {
         self.groups.iter().map(|group| group.nodes).sum()
     }
 
-    /// The strategy in words: how many groups were solved with which method.
+    /// The strategy in words: how many groups were solved by which method.
     pub fn strategy(&self) -> String {
         let mut methods: BTreeMap<String, (usize, usize)> = BTreeMap::new();
         for group in &self.groups {

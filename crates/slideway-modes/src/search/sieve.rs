@@ -7,34 +7,34 @@
 //! ```
 //!
 //! so that `|A^-1 b - x| <= z + G max z / (1 - max G)` row by row, with `z = |R (b - A x)|` and `G` the row
-//! sums of `|I - R A|`. `A` is regular if `max G < 1`. Radii of the data and rounding are part of `z` and
-//! `G`.
+//! sums of `|I - R A|`. `A` is regular if `max G < 1`. `z` and `G` include radii of the data and rounding
+//! errors.
 //!
-//! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but has one bound for all entries,
-//! and so excludes less where the data have wide bounds, as over a stretch of a parameter.
+//! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but it has one bound for all
+//! entries and therefore excludes less if the data have wide bounds, as over a stretch of a parameter.
 
 use super::UNDERFLOW;
 use crate::problem::{Column, ContactState, ProblemView, Side};
 
-/// Numbers of the data other than zero have to be of a size between this and its reciprocal.
+/// Nonzero numbers of the data must be between this and its reciprocal in size.
 const SMALLEST: f64 = 1e-100;
-/// The largest row sum of `|I - R A|`.
+/// The largest permitted row sum of `|I - R A|`.
 const LARGEST_DEFECT: f64 = 0.5;
 
-/// Numbers and the bounds of their errors.
+/// Numbers and bounds on their errors.
 #[derive(Debug, Clone, Default)]
 struct Bounded {
     centre: Vec<f64>,
     radius: Vec<f64>,
 }
 
-/// The data of a problem, rows divided by powers of two, and room for one pattern.
+/// The data of a problem, with rows divided by powers of two, and memory for one pattern.
 pub(super) struct Sieve {
     contacts: usize,
     /// The columns of each contact in its three states.
     columns: Vec<[Bounded; 3]>,
     load: Bounded,
-    /// `d_k` of each contact on its two sides; none if there are no jump vectors at all.
+    /// `d_k` of each contact on its two sides; `None` if there are no jump vectors at all.
     jumps: Option<Vec<[Bounded; 2]>>,
     /// `A` with its radii, row after row.
     matrix: Bounded,
@@ -42,7 +42,7 @@ pub(super) struct Sieve {
     /// `[A | I]`, which becomes `[I | R]`.
     table: Vec<f64>,
     solution: Vec<f64>,
-    /// Per row: bounds of `|A| gamma + radii` summed up, residual, and its error.
+    /// For each row: the sum of bounds on `|A| gamma + radii`, the residual, and its error.
     row_error: Vec<f64>,
     residual: Bounded,
     defect: Vec<f64>,
@@ -50,7 +50,7 @@ pub(super) struct Sieve {
 }
 
 impl Sieve {
-    /// None if numbers are so large or small that products may overflow.
+    /// `None` if numbers are so large or so small that products may overflow.
     pub(super) fn new(problem: ProblemView<'_>) -> Option<Self> {
         let contacts = problem.contacts();
         let scale: Vec<f64> = (0..contacts).map(|row| row_scale(problem, row)).collect();
@@ -136,7 +136,7 @@ impl Sieve {
         }
     }
 
-    /// The approximate inverse by Gauss-Jordan elimination with row pivoting; false if a pivot is zero.
+    /// The approximate inverse by Gauss-Jordan elimination with row pivoting; `false` if a pivot is zero.
     fn invert(&mut self) -> bool {
         let contacts = self.contacts;
         let width = 2 * contacts;
@@ -180,8 +180,8 @@ impl Sieve {
         }
     }
 
-    /// Fills in `x`, `z` and `G`. The bound of `max |A^-1 b - x|`, or none if `A` is not proven to be
-    /// regular.
+    /// Fills in `x`, `z` and `G`. Returns the bound on `max |A^-1 b - x|`, or `None` if `A` is not proven to
+    /// be regular.
     fn bound(&mut self) -> Option<f64> {
         let contacts = self.contacts;
         let gamma = self.gamma();
@@ -218,7 +218,8 @@ impl Sieve {
         (most_defect <= LARGEST_DEFECT).then(|| most_correction / (1.0 - most_defect) * (1.0 + gamma))
     }
 
-    /// The residual of one equation and its error, and what rounding and radii of its coefficients can do.
+    /// The residual of one equation with its error, and the effect of rounding and of the radii of its
+    /// coefficients.
     fn add_row(&mut self, row: usize) {
         let (contacts, gamma) = (self.contacts, self.gamma());
         let coefficients = &self.matrix.centre[row * contacts..][..contacts];
@@ -241,7 +242,7 @@ impl Sieve {
 impl Bounded {
     fn scaled(column: Column<'_>, scale: &[f64]) -> Self {
         let exact = |(&value, scale): (&f64, &f64)| match value * scale {
-            // Lost to underflow: not a number that is let in.
+            // Lost to underflow: not an admitted number.
             0.0 if value != 0.0 => f64::NAN,
             product => product,
         };

@@ -4,28 +4,28 @@
 //! minimise cost . x   subject to   A x = b,   lower <= x <= upper
 //! ```
 //!
-//! with `A` of `rows x columns`. The tableau `B^-1 N` of the nonbasic columns is kept, row after row:
-//! a pivot row, an exact measure of each row's length and what any branching would cost at once are
-//! then there to be read. Every row has an artificial variable that is fixed to zero, so that the
-//! artificial basis starts from any data as long as `cost >= 0`; the tableau's columns of artificial
-//! variables are those of `B^-1`, which makes Farkas vectors free. Variables that are fixed to zero
-//! from some node on are dropped from the tableaus below it.
+//! with `A` of `rows x columns`. The tableau `B^-1 N` of the nonbasic columns is kept, row after row, so that
+//! a pivot row, an exact measure of each row's length and the immediate cost of any branching can be read
+//! directly. Every row has an artificial variable that is fixed to zero, so that the artificial basis is a
+//! valid start for any data as long as `cost >= 0`; the tableau's columns of artificial variables are those
+//! of `B^-1`, which provides Farkas vectors at no cost. Variables that are fixed to zero from some node on
+//! are dropped from the tableaus below it.
 //!
-//! Costs only steer the search; whether a program is infeasible is judged by its Farkas vector.
+//! Costs only steer the search; infeasibility of a program is judged by its Farkas vector.
 
 use nalgebra::DMatrix;
 
 use crate::dense::{Pace, inverse, product};
 
-/// Bounds may be missed by this fraction of the largest basic variable (or of 1).
+/// Bounds may be violated by this fraction of the largest basic variable (or of 1).
 const FEASIBLE: f64 = 1e-9;
-/// Entries of a pivot row below this are zero.
+/// Entries of a pivot row below this count as zero.
 const ZERO_PIVOT: f64 = 1e-9;
-/// Wrong signs of reduced costs up to this are traded for a larger pivot.
+/// Wrong signs of reduced costs up to this are accepted in exchange for a larger pivot.
 const DUAL_SLACK: f64 = 1e-9;
-/// Equations may be missed by this fraction of the largest variable (or of 1).
+/// Equations may be violated by this fraction of the largest variable (or of 1).
 const RESIDUAL: f64 = 1e-7;
-/// The tableau is computed afresh after so many updates.
+/// The tableau is recomputed after this many updates.
 const UPDATES: usize = 120;
 
 /// The data that all nodes of a search share.
@@ -55,7 +55,7 @@ struct Nonbasic {
     at_upper: bool,
 }
 
-/// A basis with its tableau: all that a child inherits from its parent.
+/// A basis with its tableau: everything that a child inherits from its parent.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
     /// The variable of each row; `columns + i` is the artificial one of row `i`.
@@ -64,23 +64,23 @@ pub(super) struct Basis {
     nonbasic: Vec<Nonbasic>,
     /// `B^-1 N`, row after row.
     tableau: Vec<f64>,
-    /// Of the nonbasic variables.
+    /// Reduced costs of the nonbasic variables.
     reduced_cost: Vec<f64>,
-    /// Where nonbasic variables may go: up (1), down (-1), or nowhere (0).
+    /// The direction in which each nonbasic variable may move: up (1), down (-1), or not at all (0).
     way: Vec<f64>,
     /// Values of the basic variables.
     value: Vec<f64>,
     updates: usize,
 }
 
-/// What became of a program.
+/// The outcome of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum LinearOutcome {
     /// The values of the variables.
     Feasible(Vec<f64>),
     /// A vector `v` with `v . A x < v . b` for every `x` within the bounds, up to rounding.
     Infeasible(Vec<f64>),
-    /// Numbers are too bad, or the limit of iterations is reached.
+    /// The numbers are too ill-conditioned, or the iteration limit is reached.
     Undecided,
 }
 
@@ -135,8 +135,8 @@ impl LinearProgram {
         }
     }
 
-    /// Solves the program from a basis that a program with wider bounds left behind; `iterations`
-    /// counts the pivots. It is left undecided once `proceed` is false.
+    /// Solves the program from a basis left by a program with wider bounds; `iterations` counts the pivots.
+    /// The result is undecided once `proceed` is `false`.
     pub(super) fn solve(
         &self,
         basis: &mut Basis,
@@ -178,7 +178,7 @@ impl LinearProgram {
         LinearOutcome::Undecided
     }
 
-    /// The solution of a feasible basis, provided that it solves the equations.
+    /// The solution of a feasible basis, provided that it satisfies the equations.
     fn accept(&self, basis: &Basis, bounds: &Bounds) -> LinearOutcome {
         let values = basis.all_values(self, bounds);
         let mut residual = self.right_hand_side.clone();
@@ -220,13 +220,13 @@ impl Basis {
         }
     }
 
-    /// The row of `B^-1` that belongs to a variable in the basis.
+    /// The row of `B^-1` that belongs to a basic variable.
     pub(super) fn row_of(&self, program: &LinearProgram, variable: usize) -> Option<Vec<f64>> {
         let row = self.basic.iter().position(|&basic| basic == variable)?;
         Some(self.inverse_row(program, row))
     }
 
-    /// By how much the least cost grows at least if a variable is fixed to zero: infinite if that is
+    /// A lower bound on how much the least cost grows if a variable is fixed to zero: infinite if that is
     /// impossible, zero for a variable that is not in the basis.
     pub(super) fn cost_of_zero(&self, variable: usize) -> f64 {
         let row = self.basic.iter().position(|&basic| basic == variable);
@@ -270,7 +270,7 @@ impl Basis {
     /// `x_B = B^-1 b - B^-1 N x_N`.
     fn compute_values(&mut self, program: &LinearProgram, bounds: &Bounds) {
         for nonbasic in &mut self.nonbasic {
-            // A bound that went to infinity cannot hold a variable.
+            // A bound that became infinite cannot hold a variable.
             if !nonbasic.value(program, bounds).is_finite() {
                 nonbasic.at_upper = false;
             }
@@ -285,8 +285,8 @@ impl Basis {
         }
     }
 
-    /// The row whose basic variable misses its bounds most, measured along the edge, and whether it
-    /// is above (1) or below (-1).
+    /// The row whose basic variable violates its bounds most, measured along the edge, and whether it is
+    /// above (1) or below (-1).
     fn worst_row(&self, program: &LinearProgram, bounds: &Bounds) -> Option<(usize, f64)> {
         let size = self.value.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
         let mut worst = None;
@@ -307,7 +307,8 @@ impl Basis {
         worst
     }
 
-    /// How far reduced costs of the wrong sign, up to a slack, let the dual variable of a row go.
+    /// How far the dual variable of a row can move before a reduced cost has the wrong sign by more than a
+    /// slack.
     fn longest_step(&self, row: usize, direction: f64, slack: f64) -> f64 {
         let mut step = f64::INFINITY;
         for ((&entry, &way), cost) in self.row(row).iter().zip(&self.way).zip(&self.reduced_cost) {
@@ -318,8 +319,8 @@ impl Basis {
         step
     }
 
-    /// Ratio test in two passes (Harris): of all variables whose reduced cost bounds the step, up to
-    /// a slack, the one with the largest pivot.
+    /// Ratio test in two passes (Harris): among all variables whose reduced cost bounds the step, up to a
+    /// slack, the one with the largest pivot.
     fn entering(&self, row: usize, direction: f64) -> Pivoting {
         let step = self.longest_step(row, direction, DUAL_SLACK);
         let (mut best, mut largest) = (None, ZERO_PIVOT);
@@ -332,7 +333,7 @@ impl Basis {
         best.map_or(Pivoting::Infeasible, Pivoting::Pivot)
     }
 
-    /// Exchanges the basic variable of a row for the nonbasic one of a column.
+    /// Exchanges the basic variable of a row with the nonbasic variable of a column.
     fn pivot(&mut self, program: &LinearProgram, bounds: &Bounds, row: usize, column: usize, direction: f64) {
         let width = self.nonbasic.len();
         let mut pivot_row = self.row(row).to_vec();
@@ -367,8 +368,8 @@ impl Basis {
         self.updates += 1;
     }
 
-    /// Computes tableau, values and reduced costs afresh; false if the basis is singular, or once `proceed`
-    /// is false.
+    /// Recomputes tableau, values and reduced costs; `false` if the basis is singular, or once `proceed` is
+    /// `false`.
     fn refactor(
         &mut self,
         program: &LinearProgram,
@@ -426,7 +427,7 @@ pub(super) fn add_multiple(target: &mut [f64], factor: f64, source: &[f64]) {
     }
 }
 
-/// The scalar product, in eight sums that are added last.
+/// The scalar product, in eight partial sums that are added at the end.
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (ones, others) = (one.chunks_exact(8), other.chunks_exact(8));

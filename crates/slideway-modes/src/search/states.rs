@@ -1,4 +1,4 @@
-//! The states that are still open to each contact of a node.
+//! The states that are still open for each contact of a node.
 
 use crate::problem::{ContactState, ScaledProblem};
 
@@ -10,7 +10,7 @@ impl StateSet {
     /// The states in the order of enumeration.
     const STATES: [ContactState; 3] = ContactState::ALL;
 
-    /// The set of one state.
+    /// The set with only this state.
     pub fn only(state: ContactState) -> Self {
         Self(Self::bit(state))
     }
@@ -20,12 +20,12 @@ impl StateSet {
         Self(if with_gap { 0b111 } else { 0b011 })
     }
 
-    /// Whether the set holds a state.
+    /// Whether the set contains a state.
     pub fn contains(self, state: ContactState) -> bool {
         self.0 & Self::bit(state) != 0
     }
 
-    /// The set without a state.
+    /// The set without the given state.
     #[must_use]
     pub fn without(self, state: ContactState) -> Self {
         Self(self.0 & !Self::bit(state))
@@ -75,7 +75,7 @@ pub(super) fn all_states(problem: &ScaledProblem) -> Vec<StateSet> {
     problem.has_jump.iter().map(|&jump| StateSet::undecided(jump)).collect()
 }
 
-/// The fraction of all patterns of a problem that a node holds.
+/// The fraction of all patterns of a problem that a node contains.
 pub(super) fn fraction_of_patterns(problem: &ScaledProblem, states: &[StateSet]) -> f64 {
     let fraction = |(set, &jump): (&StateSet, &bool)| set.len() as f64 / if jump { 3.0 } else { 2.0 };
     states.iter().zip(&problem.has_jump).map(fraction).product()

@@ -1,4 +1,4 @@
-//! Random problems and all that they admit, by proof, for tests of single arguments.
+//! Random problems with everything that they admit, by proof, for tests of individual arguments.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -30,7 +30,7 @@ impl Numbers {
         (0..count).rfind(|&at| f64::midpoint(self.number(), 1.0) < 1.0 / (at + 1) as f64).unwrap_or(0)
     }
 
-    /// Two different versions of the columns, and jumps of all contacts but the first, or of none.
+    /// Two different versions of the columns, and jumps of all contacts except the first, or of none.
     pub(super) fn problem(&mut self, contacts: usize, strength: f64, jumps: bool) -> ModeProblem {
         let mut part = |strength: f64| DMatrix::from_fn(contacts, contacts, |_, _| strength * self.number());
         let [positive, negative] =
@@ -44,7 +44,7 @@ impl Numbers {
         ModeProblem::new(positive, negative, up, down, load).expect("shapes fit")
     }
 
-    /// The problem with another load within a radius.
+    /// The problem with a load changed within a radius.
     pub(super) fn with_load_off_by(&mut self, problem: &ModeProblem, radius: f64) -> ModeProblem {
         let load = problem.right_hand_side().map(|value| value + radius * self.number().signum());
         let [positive, negative] = Side::BOTH.map(|side| problem.columns(side).clone());
@@ -53,7 +53,7 @@ impl Numbers {
     }
 }
 
-/// Every pattern that has a solution, with the middle of its bounds.
+/// Every pattern that has a solution, with the midpoints of its bounds.
 pub(super) fn admitted(problem: &ModeProblem) -> Vec<(Vec<ContactState>, Vec<f64>)> {
     let mut patterns: Vec<Vec<ContactState>> = vec![Vec::new()];
     for contact in 0..problem.contacts() {
@@ -77,7 +77,7 @@ pub(super) fn admitted(problem: &ModeProblem) -> Vec<(Vec<ContactState>, Vec<f64
     admitted
 }
 
-/// Whether a node holds a pattern.
+/// Whether a node contains a pattern.
 pub(super) fn holds(states: &[StateSet], pattern: &[ContactState]) -> bool {
     states.iter().zip(pattern).all(|(set, &state)| set.contains(state))
 }

@@ -13,17 +13,17 @@ use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
 use crate::problem::{ContactState, ScaledProblem};
 
-/// Costs of forbidding a side are compared within these limits.
+/// Costs of forbidding a side are limited to this range for comparison.
 const LEAST_COST: f64 = 1e-6;
 const MOST_COST: f64 = 1e9;
 
-/// A node that waits for its turn, with the basis of its parent.
+/// A waiting node, with the basis of its parent.
 struct Node {
     states: Vec<StateSet>,
     basis: Rc<Basis>,
 }
 
-/// What a tree did.
+/// What a tree search did.
 #[derive(Default)]
 pub(super) struct TreeReport {
     pub(super) shares: PatternShares,
@@ -51,7 +51,7 @@ impl<'a> Tree<'a> {
         let largest = propagation.map_or_else(unbounded, |propagation| propagation.largest.clone());
         Self {
             problem,
-            // Without bounds there is nothing to propagate.
+            // Without bounds, there is nothing to propagate.
             propagation: propagation.filter(|propagation| propagation.is_contraction()),
             relaxation: Relaxation::new(problem, load_radius, largest),
             keep_exclusions: options.keep_exclusions,
@@ -59,7 +59,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Visits nodes until none is left or the monitor says stop; `leaves` takes patterns that are left.
+    /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
+    /// patterns.
     pub(super) fn run(mut self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
         let root = Node { states: all_states(self.problem), basis: Rc::new(self.relaxation.first_basis()) };
         let mut open = vec![root];
@@ -78,7 +79,7 @@ impl<'a> Tree<'a> {
         self.report
     }
 
-    /// Excludes a node, examines its only pattern, or leaves its children in `open`.
+    /// Excludes a node, examines its only pattern, or adds its children to `open`.
     fn visit(
         &mut self,
         mut node: Node,
@@ -118,7 +119,7 @@ impl<'a> Tree<'a> {
         Ok(())
     }
 
-    /// False if propagation excludes the node.
+    /// `false` if propagation excludes the node.
     fn propagate(&mut self, states: &mut [StateSet], proceed: &mut dyn FnMut() -> bool) -> bool {
         let Some(propagation) = self.propagation else { return true };
         let before = states.to_vec();
@@ -158,9 +159,9 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// The contact to branch on and the state to look at first. Of the contacts that press on both sides
-/// the one for which forbidding either side costs most, as a product; if there are none, the one that
-/// presses most, whose other states are furthest from the solution at hand.
+/// The contact to branch on and the state to examine first. Among the contacts that press on both sides, it
+/// is the one for which forbidding either side costs most, as a product; if there are none, the one that
+/// presses most, because its other states are furthest from the present solution.
 fn branching(states: &[StateSet], relaxed: Option<&[RelaxedContact]>) -> (usize, ContactState) {
     let undecided = (0..states.len()).filter(|&contact| states[contact].decided().is_none());
     let Some(relaxed) = relaxed else {

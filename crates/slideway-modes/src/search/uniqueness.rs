@@ -1,8 +1,8 @@
 //! Cheap proofs that there is exactly one solution.
 //!
-//! Without jumps the problem is `N = e - G |N|` (see [`SolvedForm`]). The map on the right is a
-//! contraction if the spectral radius of `|G|` is below 1, or if the largest singular value of `G`
-//! is (theory, section 4 (a) and (c)): then there is exactly one solution for every load.
+//! Without jumps the problem is `N = e - G |N|` (see [`SolvedForm`]). The map on the right is a contraction
+//! if the spectral radius of `|G|` or the largest singular value of `G` is below 1 (theory, section 4 (a) and
+//! (c)): then every load has exactly one solution.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,14 +11,15 @@ use super::report::Method;
 use crate::dense::{Lu, Pace, has_cholesky_factor, product};
 use crate::problem::{ContactState, ScaledProblem};
 
-/// Singular values are compared with 1 less this.
+/// Singular values are compared with 1 minus this.
 const MARGIN: f64 = 1e-8;
-/// Steps of the contraction before Newton's method starts.
+/// Number of contraction steps before Newton's method starts.
 const CONTRACTIONS: usize = 60;
-/// Steps of Newton's method.
+/// Maximum number of steps of Newton's method.
 const NEWTON_STEPS: usize = 60;
 
-/// The argument that proves exactly one solution, if one of the cheap ones does and `proceed` stays true.
+/// The argument that proves that there is exactly one solution, if a cheap one does and `proceed` remains
+/// `true`.
 pub(super) fn proof(
     problem: &ScaledProblem,
     propagation: &SolvedForm,
@@ -33,7 +34,7 @@ pub(super) fn proof(
     singular_values_below_one(propagation, proceed)?.then_some(Method::SingularValue)
 }
 
-/// `(1 - delta)^2 I - G^T G` is positive definite, where `delta` covers how far `G` may be off.
+/// Whether `(1 - delta)^2 I - G^T G` is positive definite, where `delta` covers the error of `G`.
 fn singular_values_below_one(propagation: &SolvedForm, proceed: &mut dyn FnMut() -> bool) -> Option<bool> {
     let contacts = propagation.frictionless.len();
     let coupling = &propagation.coupling;
@@ -50,8 +51,8 @@ fn singular_values_below_one(propagation: &SolvedForm, proceed: &mut dyn FnMut()
     Some(has_cholesky_factor(bound - squares, proceed))
 }
 
-/// The pattern of the only solution: the contraction `N <- e - G |N|`, then Newton's method on the
-/// pattern. None if that does not settle, or once `proceed` is false.
+/// The pattern of the only solution: the contraction `N <- e - G |N|`, then Newton's method on the pattern.
+/// `None` if that does not converge, or once `proceed` is `false`.
 pub(super) fn only_pattern(
     problem: &ScaledProblem,
     propagation: &SolvedForm,
@@ -70,7 +71,7 @@ pub(super) fn only_pattern(
         let (matrix, right_hand_side) = problem.system(&pattern);
         let y = Lu::new(matrix, proceed)?.solve(&right_hand_side)?;
         let size = y.amax();
-        // Where y is negative beyond rounding the contact is on its other side.
+        // Where y is negative beyond rounding, the contact is on its other side.
         let wrong: Vec<usize> = (0..pattern.len()).filter(|&k| y[k] < -1e-12 * size).collect();
         if wrong.is_empty() {
             return Some(pattern);
@@ -123,7 +124,7 @@ mod tests {
 
     #[test]
     fn columns_shorter_than_one_prove_nothing() {
-        // Both columns have the length 0.99, and the largest singular value is 1.4.
+        // Both columns have length 0.99, but the largest singular value is 1.4.
         assert_eq!(proof_of(&equation(&DMatrix::from_element(2, 2, 0.7))), None);
     }
 
@@ -138,8 +139,8 @@ mod tests {
 
     #[test]
     fn bounds_of_the_columns_add_to_singular_values() {
-        // sigma_max = 0.92 in the middle, and 1.02 with a diagonal that is less by a tenth, the other entries
-        // being more.
+        // sigma_max = 0.92 at the midpoint, and 1.02 if the diagonal is reduced by a tenth and the other
+        // entries are increased.
         let problem = equation(&DMatrix::from_row_slice(2, 2, &[0.65, 0.65, -0.65, 0.65]));
         for (relative, expected) in [(1e-3, Some(Method::SingularValue)), (0.1, None)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");

@@ -1,13 +1,13 @@
-//! Sets of contacts, of any number.
+//! Sets of contacts of any size.
 
-/// A set of contacts, bit by bit.
+/// A set of contacts as bits.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct ContactSet {
     words: Vec<u64>,
 }
 
 impl ContactSet {
-    /// No contact, out of the given number of contacts.
+    /// The empty set, for the given number of contacts.
     pub(crate) fn none_of(contacts: usize) -> Self {
         Self { words: vec![0; contacts.div_ceil(64)] }
     }
@@ -33,7 +33,7 @@ impl ContactSet {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Whether another set, of as many contacts, holds all of this one.
+    /// Whether another set, for the same number of contacts, contains this one.
     pub(crate) fn is_within(&self, other: &Self) -> bool {
         self.words.iter().zip(&other.words).all(|(own, others)| own & !others == 0)
     }

@@ -1,17 +1,17 @@
-//! How much is looked for, and kept.
+//! How much is searched for, and how much is kept.
 
-/// How much an enumeration may do.
+/// How much work an enumeration may do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// Largest number of contacts.
     pub contacts: usize,
     /// Largest number of patterns, `2^(r-j) 3^j` with `j` contacts at which the right-hand side jumps.
     pub patterns: u64,
-    /// Largest number of solutions and gap states; one that several patterns share counts once.
+    /// Largest number of solutions and gap states; one shared by several patterns counts once.
     pub solutions: usize,
     /// Largest number of patterns listed with one solution or one singular set.
     pub listed: usize,
-    /// Largest number of (nearly) singular patterns that are examined; more are only counted.
+    /// Largest number of (nearly) singular patterns that are examined; further ones are only counted.
     pub singular: usize,
     /// Largest number of bases tried, over all singular patterns, to describe what they admit.
     pub bases: u64,

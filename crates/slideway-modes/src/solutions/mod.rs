@@ -1,4 +1,4 @@
-//! What an enumeration finds.
+//! The results of an enumeration.
 
 mod contact_set;
 mod limits;
@@ -13,13 +13,13 @@ use nalgebra::DVector;
 use crate::interval::Interval;
 use crate::problem::{ContactState, Side, SolutionSet};
 
-/// What is proven of a solution, a gap state or a singular set.
+/// What is proven about a solution, a gap state or a singular set.
 ///
-/// Intervals hold one unknown per contact, as [`decide`](crate::certificate::decide) has them for the state's
-/// first pattern: `y_k`, or the share `lambda_k` of a contact in its gap.
+/// Intervals contain one unknown per contact, as returned by [`decide`](crate::certificate::decide) for the
+/// state's first pattern: `y_k`, or the share `lambda_k` for a contact in its gap.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Certificate {
-    /// It exists for all values within the bounds of the data, strictly inside of its pattern.
+    /// It exists for all values within the bounds of the data, strictly inside its pattern.
     Proven {
         /// Encloses the solution for every value.
         unknowns: Vec<Interval>,
@@ -33,24 +33,24 @@ pub enum Certificate {
         /// Contacts with `lambda_k = 1`.
         full_share: Vec<usize>,
     },
-    /// The data are exact, `D = 0`, and this is all that the pattern admits, but for the rounding of the
-    /// result.
+    /// The data are exact, `D = 0`, and this is everything that the pattern admits, apart from the rounding
+    /// of the result.
     Singular,
-    /// It is a solution in the middle of the bounds, but may be none for other values within them.
+    /// It is a solution at the midpoint of the bounds, but may not be one for other values within them.
     OnBoundaryWithinBounds {
-        /// Encloses the solution of the pattern's equations for every value; none if `D = 0` could not be
+        /// Encloses the solution of the pattern's equations for every value; `None` if `D = 0` could not be
         /// ruled out.
         unknowns: Option<Vec<Interval>>,
-        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is
-        /// none.
+        /// Contacts whose `y_k` may be negative, or whose `lambda_k` may be outside 0 to 1; empty if
+        /// `unknowns` is `None`.
         in_doubt: Vec<usize>,
     },
-    /// It was found within tolerances only.
+    /// It was found only within tolerances.
     NotProven,
 }
 
 impl Certificate {
-    /// Proven bounds of the unknowns; none where there are none, and for singular sets.
+    /// Proven bounds on the unknowns; `None` if there are none, and for singular sets.
     pub fn unknowns(&self) -> Option<&[Interval]> {
         match self {
             Self::Proven { unknowns }
@@ -62,7 +62,7 @@ impl Certificate {
 }
 
 impl Certificate {
-    /// Replaces the bounds of the unknown of a contact, where there are bounds.
+    /// Replaces the bounds on the unknown of a contact, if there are bounds.
     pub fn set_bounds(&mut self, contact: usize, bounds: Interval) {
         if let Self::Proven { unknowns }
         | Self::Boundary { unknowns, .. }
@@ -78,19 +78,20 @@ impl Certificate {
     }
 }
 
-/// A pattern of a problem within bounds that has no solution in the middle of the bounds, but may have one
+/// A pattern of a problem within bounds that has no solution at the midpoint of the bounds, but may have one
 /// for other values within them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UndecidedPattern {
     /// The state of each contact.
     pub pattern: Vec<ContactState>,
-    /// All patterns that are meant, at most [`Limits::listed`](crate::Limits::listed): more than one where
+    /// All patterns that this represents, at most [`Limits::listed`](crate::Limits::listed): more than one if
     /// another group of contacts is in a state that several patterns share.
     pub patterns: Vec<Vec<ContactState>>,
-    /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None
-    /// if `D = 0` could not be ruled out.
+    /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap.
+    /// `None` if `D = 0` could not be ruled out.
     pub unknowns: Option<Vec<Interval>>,
-    /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
+    /// Contacts whose `y_k` may be negative, or whose `lambda_k` may be outside 0 to 1; empty if `unknowns`
+    /// is `None`.
     pub in_doubt: Vec<usize>,
 }
 
@@ -104,7 +105,7 @@ impl UndecidedPattern {
     }
 }
 
-/// A solution with every contact pressed on a side or just about to change it.
+/// A solution with every contact pressed on a side or just about to change sides.
 pub type ModeSolution = ModeState<Side>;
 
 /// A state with at least one contact between its faces (theory, section 3, "Preload gap").
@@ -120,8 +121,8 @@ pub struct ModeState<S> {
     pub shares: Vec<GapShare>,
     /// Sign of every normal force, 0 in the gap and on the boundary.
     pub signs: Vec<i8>,
-    /// `y_k = |N_k|`, exactly 0 in the gap and on the boundary. Of an exact problem it is infinite where `y_k`
-    /// is too large for `f64`, and no less than the least positive number where it is too small.
+    /// `y_k = |N_k|`, exactly 0 in the gap and on the boundary. For an exact problem, it is infinite if `y_k`
+    /// is too large for `f64`, and at least the least positive number if it is too small.
     pub y: DVector<f64>,
     /// Signed normal forces `N_k = sigma_k y_k`.
     pub normal_force: DVector<f64>,
@@ -129,17 +130,17 @@ pub struct ModeState<S> {
     pub determinant: f64,
     /// Pressed contacts with `y_k = 0` within `tolerance`.
     pub on_boundary: Vec<usize>,
-    /// The patterns that give this same state, at most [`Limits::listed`](crate::Limits::listed).
+    /// The patterns that give this state, at most [`Limits::listed`](crate::Limits::listed).
     pub patterns: Vec<Vec<S>>,
-    /// How many patterns give this same state.
+    /// Number of patterns that give this state.
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
-    /// Whether it is not part of a continuum that was found, too: exactly, if the data are exact, else within
-    /// tolerances.
+    /// Whether it is not part of a continuum that was also found: exactly, if the data are exact, otherwise
+    /// within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,
-    /// What is proven of it.
+    /// What is proven about it.
     pub certificate: Certificate,
 }
 
@@ -155,7 +156,7 @@ pub(crate) fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
     pattern.iter().fold(determinant, |product, side| product * side.sign())
 }
 
-/// How the preload friction of a contact in its gap is shared between the faces.
+/// How the preload friction of a contact in its gap is divided between the faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GapShare {
     /// The contact, from 0.
@@ -164,33 +165,32 @@ pub struct GapShare {
     pub lambda: f64,
 }
 
-/// A pattern with `D = 0` within tolerance and what it admits.
+/// A pattern with `D = 0` within tolerance, and what it admits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SingularMode {
-    /// The first pattern, in the order of enumeration; with gap states where they were tried.
+    /// The first pattern, in the order of enumeration; including gap states if they were tried.
     pub pattern: Vec<ContactState>,
-    /// The singular patterns that admit this same set: several only if it is not empty; at most
+    /// The singular patterns that admit this set: several only if it is not empty; at most
     /// [`Limits::listed`](crate::Limits::listed).
     pub patterns: Vec<Vec<ContactState>>,
-    /// How many singular patterns admit this same set.
+    /// Number of singular patterns that admit this set.
     pub pattern_count: u64,
-    /// What the pattern admits. For a pattern with gap states these are its normal forces; the
-    /// shares `lambda` may vary besides.
+    /// What the pattern admits. For a pattern with gap states, this is the set of its normal forces; the
+    /// shares `lambda` may vary as well.
     pub set: SolutionSet,
-    /// Where the set is a point, the shares of the contacts in their gaps; if they vary, those of one of the
+    /// If the set is a point, the shares of the contacts in their gaps; if they vary, those of one of the
     /// states.
     pub shares: Vec<GapShare>,
-    /// Whether the set is a point, and there are several states with these normal forces, which differ in
-    /// their shares.
+    /// Whether the set is a point with several states that have these normal forces but different shares.
     pub shares_vary: bool,
-    /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
+    /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and are therefore
     /// reported there as well.
     pub contains: Vec<usize>,
-    /// Whether it is not part of a larger continuum that was found, too: exactly, if the data are exact, else
-    /// within tolerances.
+    /// Whether it is not part of a larger continuum that was also found: exactly, if the data are exact,
+    /// otherwise within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,
-    /// What is proven of it.
+    /// What is proven about it.
     pub certificate: Certificate,
 }
 
@@ -207,27 +207,27 @@ pub struct ClosestMode {
     pub y: DVector<f64>,
 }
 
-/// How many patterns had which outcome. Every pattern is in exactly one of the counts.
+/// Number of patterns with each outcome. Every pattern is in exactly one of the counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PatternCounts {
     /// All `y_k > 0`.
     pub solution: u64,
-    /// Solutions with at least one `y_k = 0`, or a share `lambda` of 0 or 1; for data within bounds those for
-    /// which that could not be ruled out.
+    /// Solutions with at least one `y_k = 0`, or a share `lambda` of 0 or 1; for data within bounds, those
+    /// for which that could not be ruled out.
     pub boundary: u64,
     /// Some `y_k < 0`.
     pub no_solution: u64,
-    /// `D = 0` and nothing that solves the equations with `y >= 0`: locking of the mode.
+    /// `D = 0`, and no `y >= 0` solves the equations: locking of the mode.
     pub singular_empty: u64,
-    /// `D = 0` and exactly one `y >= 0`.
+    /// `D = 0`, and exactly one `y >= 0` solves the equations.
     pub singular_point: u64,
-    /// `D = 0` and a continuum of `y >= 0`.
+    /// `D = 0`, and a continuum of `y >= 0` solves the equations.
     pub singular_continuum: u64,
-    /// `D = 0`, or so close to it that only a closer look could tell, and no such look was taken
-    /// or completed: it would have passed [`Limits::singular`](crate::Limits::singular) or
+    /// `D = 0`, or so close to it that only a closer examination could tell, which was not started or not
+    /// completed: it would have exceeded [`Limits::singular`](crate::Limits::singular) or
     /// [`Limits::bases`](crate::Limits::bases), or numbers overflowed.
     pub not_examined: u64,
-    /// Data within bounds only: [`UndecidedPattern`].
+    /// For data within bounds only: [`UndecidedPattern`].
     pub undecided: u64,
 }
 
@@ -256,8 +256,8 @@ impl PatternCounts {
     }
 }
 
-/// Everything that an enumeration found. Lists are in the order of enumeration: lexicographic by
-/// pattern, contact 0 first, positive before negative before gap.
+/// Everything that an enumeration found. Lists are in the order of enumeration: lexicographic by pattern,
+/// with contact 0 first, and positive before negative before gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solutions {
     /// The outcome of all `2^r` patterns.
@@ -269,11 +269,11 @@ pub struct Solutions {
     pub solutions: Vec<ModeSolution>,
     /// Preload-gap states that are not already in `solutions`.
     pub gaps: Vec<GapState>,
-    /// Singular patterns that were examined, each set reported once, and those without a solution
-    /// one by one.
+    /// Singular patterns that were examined: each set is reported once, but patterns without a solution are
+    /// reported individually.
     pub singular: Vec<SingularMode>,
-    /// Patterns that have a solution for some of the values within bounds only, if any, and none in their
-    /// middle.
+    /// Patterns that have a solution only for some of the values within bounds, if any, and none at the
+    /// midpoint.
     pub undecided: Vec<UndecidedPattern>,
     /// Up to four regular patterns with the smallest `|D|`, if `solutions` is empty.
     pub closest: Vec<ClosestMode>,
@@ -285,8 +285,8 @@ impl Solutions {
         self.counts.not_examined == 0 && self.gap_counts.not_examined == 0
     }
 
-    /// Whether there is nothing at all: no solution, no gap state, no singular pattern that admits
-    /// something, and nothing left unexamined.
+    /// Whether there is nothing at all: no solution, no gap state, no singular pattern that admits anything,
+    /// and nothing left unexamined.
     pub fn is_jammed(&self) -> bool {
         self.is_complete() && self.admits_nothing()
     }

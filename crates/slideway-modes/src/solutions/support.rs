@@ -1,10 +1,10 @@
-//! Which unknowns of a solution, or of a set of them, are positive: what decides which set is part of which.
+//! The positive unknowns of a solution, or of a set of solutions, which decide which set is part of which.
 //!
-//! Give each contact an unknown `y_k^+, y_k^- >= 0` for either side, and the shares `lambda_k` and
-//! `1 - lambda_k >= 0` where the right-hand side jumps. Then what a pattern admits is a face of one
-//! polyhedron, that of the relaxation (theory, section 4 (b)): the face in which all unknowns of other
-//! states vanish. So it is part of what another pattern admits exactly if every unknown that is positive
-//! somewhere in it is so somewhere in the other.
+//! Give each contact an unknown `y_k^+, y_k^- >= 0` for each side, and the shares `lambda_k` and
+//! `1 - lambda_k >= 0` if the right-hand side jumps. Then what a pattern admits is a face of one polyhedron,
+//! that of the relaxation (theory, section 4 (b)): the face in which all unknowns of other states vanish. It
+//! is therefore part of what another pattern admits exactly if every unknown that is positive somewhere in
+//! it is also positive somewhere in the other.
 
 use dashu_ratio::RBig;
 use nalgebra::DVector;
@@ -16,8 +16,8 @@ use crate::solutions::contact_set::ContactSet;
 /// Unknowns of one contact.
 const UNKNOWNS: usize = 4;
 
-/// The unknowns that are positive somewhere in a set: of each contact `y^+`, `y^-`, and where the right-hand
-/// side jumps `lambda` and `1 - lambda`.
+/// The unknowns that are positive somewhere in a set: for each contact `y^+` and `y^-`, and `lambda` and
+/// `1 - lambda` if the right-hand side jumps.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Support {
     unknowns: ContactSet,
@@ -28,8 +28,8 @@ impl Support {
         Self { unknowns: ContactSet::none_of(UNKNOWNS * contacts) }
     }
 
-    /// Of one solution or gap state: `y_k` or `lambda_k`, the contacts with `y_k = 0`, and those with a share
-    /// of 0 or 1.
+    /// The support of one solution or gap state: `y_k` or `lambda_k`, the contacts with `y_k = 0`, and those
+    /// with a share of 0 or 1.
     pub(crate) fn of_point(
         pattern: &[ContactState],
         unknowns: &DVector<f64>,
@@ -45,7 +45,7 @@ impl Support {
         support
     }
 
-    /// Of what a singular pattern admits, exactly.
+    /// The support of what a singular pattern admits, exactly.
     pub(crate) fn of_exact_set(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
         let mut support = Self::none_of(pattern.len());
         for point in set.vertices() {
@@ -60,9 +60,9 @@ impl Support {
         support
     }
 
-    /// Of what a singular pattern admits, within tolerances: its vertices and directions with `y_k`, or the
-    /// share of a contact in its gap, and behind these `1 - lambda` of the contacts in their gaps. What
-    /// vanishes is exactly zero.
+    /// The support of what a singular pattern admits, within tolerances: its vertices and directions with
+    /// `y_k`, or the share of a contact in its gap, followed by `1 - lambda` for the contacts in their gaps.
+    /// Vanishing values are exactly zero.
     pub(crate) fn of_corners(
         pattern: &[ContactState],
         (vertices, directions): (&[DVector<f64>], &[DVector<f64>]),
@@ -103,7 +103,7 @@ impl Support {
         }
     }
 
-    /// Adds the support of some of the contacts, which have these numbers.
+    /// Adds the support of some of the contacts, with the given numbers.
     pub(crate) fn add_part(&mut self, contacts: &[usize], part: &Self) {
         for (at, &contact) in contacts.iter().enumerate() {
             for unknown in (0..UNKNOWNS).filter(|unknown| part.unknowns.contains(UNKNOWNS * at + unknown)) {
@@ -117,7 +117,7 @@ impl Support {
         self.unknowns.len()
     }
 
-    /// Whether a set with this support is part of a larger one with the other.
+    /// Whether a set with this support is part of a larger one with the other support.
     pub(crate) fn is_part_of(&self, other: &Self) -> bool {
         self != other && self.unknowns.is_within(&other.unknowns)
     }

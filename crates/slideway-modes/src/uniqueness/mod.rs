@@ -12,19 +12,19 @@ use crate::interval::Sign;
 use crate::problem::{ContactState, ModeProblem, ScaledProblem, Side};
 use crate::progress::{Callback, Progress};
 
-/// Undecided contacts from which on the proofs are tried on a part of the tree.
+/// From this number of undecided contacts on, the proofs are tried on a part of the tree.
 const PROOF_SIZE: usize = 7;
-/// Added where numbers could have underflowed.
+/// Added wherever numbers could have underflowed.
 const UNDERFLOW: f64 = 1e-300;
 
-/// How much a decision about uniqueness may cost.
+/// The permitted cost of a decision about uniqueness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct UniquenessLimits {
     /// Largest number of nodes visited in the tree of patterns.
     pub nodes: u64,
-    /// Largest number of determinants computed exactly.
+    /// Largest number of determinants that are computed exactly.
     pub exact: u64,
-    /// Most contacts: one path through the tree keeps 16/3 `r^3` bytes.
+    /// Largest number of contacts: one path through the tree keeps 16/3 `r^3` bytes.
     pub contacts: usize,
 }
 
@@ -35,10 +35,10 @@ impl Default for UniquenessLimits {
     }
 }
 
-/// Whether there is exactly one solution for every load; see [`uniqueness`].
+/// Whether every load has exactly one solution; see [`uniqueness`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Uniqueness {
-    /// Exactly one solution for every load.
+    /// Every load has exactly one solution.
     Unique {
         /// The sign of all `p(sigma)`, 1 or -1.
         sign: i8,
@@ -55,14 +55,14 @@ pub enum Uniqueness {
         /// The pattern.
         pattern: Vec<Side>,
     },
-    /// Everything but determinants too close to zero says that there is exactly one solution.
+    /// Everything except determinants too close to zero indicates that there is exactly one solution.
     InDoubt {
         /// The first pattern whose sign could not be decided.
         pattern: Vec<Side>,
     },
-    /// More work than a limit allows, or ended on request.
+    /// A limit would be exceeded, or the work was ended on request.
     NotComputed(Unfinished),
-    /// The right-hand side jumps, and nothing follows from the determinants.
+    /// The right-hand side jumps, so nothing follows from the determinants.
     JumpsPresent {
         /// The first contact with a jump.
         contact: usize,
@@ -82,15 +82,15 @@ pub enum Unfinished {
 
 /// Whether the problem has exactly one solution for every right-hand side `N(0)`.
 ///
-/// That is so if and only if `p(sigma) = D(sigma) prod_k sigma_k` has the same nonzero sign for every
-/// pattern (theory, section 5), positive or negative. With jumps the statement does not hold. For a
-/// linear complementarity problem it says whether `M` is a P-matrix.
+/// This is the case if and only if `p(sigma) = D(sigma) prod_k sigma_k` has the same nonzero sign, positive
+/// or negative, for every pattern (theory, section 5). With jumps, the statement does not hold. For a linear
+/// complementarity problem, it says whether `M` is a P-matrix.
 ///
-/// The decision refers to the numbers given (sums of two matrices unrounded), and is rigorous. Two sufficient
-/// conditions come first (a spectral radius, a largest singular value), for the whole and for large parts of
-/// the tree of patterns. The tree's eliminations carry error bounds. Where these leave a sign open, the
-/// determinants are computed exactly. In general the question is co-NP-hard: past the limits the answer is
-/// [`Uniqueness::NotComputed`], or [`Uniqueness::InDoubt`].
+/// The decision refers to the given numbers (sums of two matrices unrounded), and is rigorous. Two sufficient
+/// conditions are tried first (a spectral radius, a largest singular value), for the whole tree of patterns
+/// and for large parts of it. The tree's eliminations carry error bounds. If these leave a sign open, the
+/// determinants are computed exactly. In general the question is co-NP-hard: beyond the limits, the answer is
+/// [`Uniqueness::NotComputed`] or [`Uniqueness::InDoubt`].
 ///
 /// ```
 /// use nalgebra::{dmatrix, dvector};
@@ -112,7 +112,7 @@ pub fn uniqueness(problem: &ModeProblem, limits: &UniquenessLimits) -> Uniquenes
     uniqueness_with(problem, limits, &mut |_| ControlFlow::Continue(()))
 }
 
-/// [`uniqueness`], with a callback at every node of the tree, which ends the work when it breaks.
+/// [`uniqueness`], with a callback at every node of the tree, which ends the work by breaking.
 pub fn uniqueness_with(
     problem: &ModeProblem,
     limits: &UniquenessLimits,
@@ -133,18 +133,18 @@ pub fn uniqueness_with(
     }
 }
 
-/// What ends a search early.
+/// Why a search ends early.
 enum Ended {
     Opposite,
     Singular,
     Unfinished(Unfinished),
 }
 
-/// The rows and columns that remain at one level, row by row; two columns for each undecided
-/// contact, `c_k^+` and `-c_k^-`, so that determinants are `p`.
+/// The rows and columns that remain at one level, row by row; each undecided contact has two columns, `c_k^+`
+/// and `-c_k^-`, so that determinants are `p`.
 struct Level {
     values: Vec<f64>,
-    /// What each value may be wrong by.
+    /// The maximum error of each value.
     errors: Vec<f64>,
 }
 
@@ -196,8 +196,8 @@ impl<'p, 'c> SignTree<'p, 'c> {
         }
     }
 
-    /// Visits all patterns that share the sides of the contacts before `level`, or only one of them
-    /// if it is known that they have one sign. `sign` is that of the pivots above.
+    /// Visits all patterns with the given sides of the contacts before `level`, or only one of them if they
+    /// are known to have one sign. `sign` is that of the pivots above.
     fn descend(&mut self, level: usize, sign: i8, one_sign: bool) -> Result<(), Ended> {
         if level == self.contacts {
             return self.file(sign);
@@ -217,7 +217,7 @@ impl<'p, 'c> SignTree<'p, 'c> {
         Ok(())
     }
 
-    /// Counts a node, and asks whether to go on.
+    /// Counts a node, and asks whether to continue.
     fn visit(&mut self) -> Result<(), Ended> {
         if self.nodes == self.limit {
             return Err(Ended::Unfinished(Unfinished::Nodes(self.limit)));
@@ -251,8 +251,8 @@ impl<'p, 'c> SignTree<'p, 'c> {
         }
     }
 
-    /// Eliminates a column with row pivoting, and with bounds of all errors. Returns the sign with
-    /// which the pivot enters the determinant; none if every possible pivot may be zero.
+    /// Eliminates a column with row pivoting and bounds on all errors. Returns the sign with which the pivot
+    /// enters the determinant; `None` if every possible pivot may be zero.
     fn eliminate(&mut self, level: usize, side: usize) -> Option<i8> {
         let rest = self.contacts - level;
         let width = 2 * rest;
@@ -276,7 +276,7 @@ impl<'p, 'c> SignTree<'p, 'c> {
         let sign = if pivot > 0.0 { sign } else { -sign };
         let Some(child) = below.first_mut() else { return Some(sign) };
         for row in 1..rest {
-            // The pivot row changes places with the first one.
+            // The pivot row and the first row are exchanged.
             let source = if row == pivot_row { 0 } else { row };
             let row_values = &values[source * width..][..width];
             let row_errors = &errors[source * width..][..width];
@@ -309,7 +309,7 @@ impl<'p, 'c> SignTree<'p, 'c> {
         Some(sign)
     }
 
-    /// Decides one by one, exactly, the patterns that share the sides of the contacts before `first`.
+    /// Decides, individually and exactly, the patterns with the given sides of the contacts before `first`.
     fn examine_all_below(&mut self, first: usize, one_sign: bool) -> Result<(), Ended> {
         if self.exact == 0 {
             self.leave_in_doubt();

@@ -1,11 +1,12 @@
-//! Sufficient conditions for all determinants to have one sign, each a few operations on matrices.
+//! Sufficient conditions for all determinants to have one sign, each requiring a few matrix operations.
 
 use nalgebra::{DMatrix, DVector};
 
-/// By how much the spectral radius has to be below 1.
+/// By how much the spectral radius must be below 1.
 const MARGIN: f64 = 1e-8;
 
-/// Matrices `P^+` and `P^-`, each known up to an error: column `k` of a pattern is one of theirs.
+/// Matrices `P^+` and `P^-`, each known up to an error: each column `k` of a pattern is taken from one of
+/// them.
 pub(super) struct Family {
     pub(super) sides: [DMatrix<f64>; 2],
     /// Sum of the error bounds of both sides, entry by entry.
@@ -15,9 +16,9 @@ pub(super) struct Family {
 impl Family {
     /// Whether it is proven that all determinants are nonzero and of one sign.
     ///
-    /// With `A = (P^+ + P^-) / 2` and `B = (P^+ - P^-) / 2` a pattern's matrix is `A + B S`,
-    /// `S = diag(sigma)`. If `R (A + B S)` is regular for all diagonal `|S| <= 1`, for some `R`,
-    /// then `det (A + B S)` does not change its sign. That is so if
+    /// With `A = (P^+ + P^-) / 2` and `B = (P^+ - P^-) / 2`, a pattern's matrix is `A + B S`,
+    /// `S = diag(sigma)`. If, for some `R`, `R (A + B S)` is regular for all diagonal `|S| <= 1`, then
+    /// `det (A + B S)` does not change sign. This is the case if
     ///
     /// - `T v < v` for some `v > 0` with `T = |I - R A| + |R B|`: the spectral radius of `T` is below 1; or
     /// - `||I - R A|| + sigma_max(R B) < 1`.
@@ -42,24 +43,24 @@ impl Family {
 /// Whether `T v < v` for a positive `v`: then the spectral radius of `T >= 0` is below 1.
 ///
 /// `v = (I - (1 + margin) T)^-1 1` is positive exactly if the spectral radius is below `1 / (1 + margin)`,
-/// and then `T v <= v / (1 + margin)`. However it was computed, only the last inequality counts.
+/// and then `T v <= v / (1 + margin)`. However `v` was computed, only the last inequality counts.
 fn dominates(t: &DMatrix<f64>) -> bool {
     let size = t.nrows();
     let matrix = DMatrix::identity(size, size) - t * (1.0 + MARGIN);
     let Some(v) = matrix.lu().solve(&DVector::repeat(size, 1.0)) else { return false };
     let image = t * &v;
-    // Sums of non-negative numbers: rounding is far below the margin.
+    // Sums of nonnegative numbers: rounding is far below the margin.
     v.iter().zip(&image).all(|(v, image)| *v > 0.0 && v.is_finite() && *image < *v * (1.0 - MARGIN / 2.0))
 }
 
 /// Whether `sigma_max(G) < 1 - deviation`: the Cholesky factorization of `t^2 I - G^T G` succeeds, with its
-/// own rounding subtracted.
+/// own rounding errors subtracted.
 fn contracts(g: &DMatrix<f64>, deviation: f64) -> bool {
     let size = g.nrows();
     let limit = 1.0 - deviation * (1.0 + 1e-9);
     let rounding = 8.0 * (size + 4) as f64 * f64::EPSILON * (g.norm_squared() + size as f64);
     let room = limit * limit - rounding;
-    // Written so that what is not a number proves nothing.
+    // Written so that NaN proves nothing.
     if !(limit > 0.0 && room > 0.0) {
         return false;
     }

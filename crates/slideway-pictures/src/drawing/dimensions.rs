@@ -1,8 +1,8 @@
 //! Lengths and heights of blocks.
 
+use super::Painter;
 use super::outline::{Local, turned, upper_side};
 use super::scene::{Class, Point, Shape};
-use super::{Painter, quantity};
 use slideway::ids::JointId;
 use slideway::model::SliderKind;
 
@@ -39,7 +39,12 @@ impl Painter<'_> {
             };
             let downwards = -upper_side(slide.guide.across);
             let edge = downwards * slide.half_channel();
-            self.dimension(&slide.guide, [from, to], [edge, edge + downwards * ASIDE], quantity(length, "m"));
+            self.dimension(
+                &slide.guide,
+                [from, to],
+                [edge, edge + downwards * ASIDE],
+                self.shown(length, "m"),
+            );
             if slider.height != 0.0 {
                 let half = 0.5 * slide.height;
                 let across = Local {
@@ -48,7 +53,7 @@ impl Painter<'_> {
                     across: slide.guide.along,
                 };
                 let end = slide.outer().2[1] + if slide.around { 12.0 } else { 0.0 };
-                let height = quantity(slider.height.abs(), "m");
+                let height = self.shown(slider.height.abs(), "m");
                 self.dimension(&across, [-half, half], [end, end + 14.0], height);
             }
         }

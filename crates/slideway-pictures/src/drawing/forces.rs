@@ -4,7 +4,7 @@ use super::labels::{obstacles, reserve};
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
-use super::{ContactForces, Painter, quantity};
+use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::model::{CarriedBy, SliderKind};
 
@@ -68,7 +68,7 @@ impl Painter<'_> {
         let direction = slide.guide.across * forces.normal.signum();
         let length = forces.normal.abs() * scale;
         let from = if slide.around { face } else { face - direction * length.max(super::loads::LEAST_ARROW) };
-        self.arrow(Class::Reaction, from, from + direction * length, quantity(forces.normal.abs(), "N"));
+        self.arrow(Class::Reaction, from, from + direction * length, self.shown(forces.normal.abs(), "N"));
     }
 
     fn friction(&mut self, slide: &Slide, contact: ContactId, side: f64, forces: ContactForces, scale: f64) {
@@ -78,7 +78,7 @@ impl Painter<'_> {
         let from = self.face(slide, contact, side);
         let direction = -slide.guide.along * forces.friction.signum();
         let length = forces.friction.abs() * scale;
-        self.arrow(Class::Friction, from, from + direction * length, quantity(forces.friction.abs(), "N"));
+        self.arrow(Class::Friction, from, from + direction * length, self.shown(forces.friction.abs(), "N"));
     }
 
     /// The velocity of what moves: the block, or the guide past a block on ground.
@@ -99,7 +99,7 @@ impl Painter<'_> {
             let half = slide.guide.along * (0.5 * VELOCITY * velocity.signum());
             let (middle, side) = self.free_place(&slide, half);
             self.scene.add(Class::Velocity, Shape::Arrow { from: middle - half, to: middle + half });
-            let text = quantity(velocity.abs(), "m/s");
+            let text = self.shown(velocity.abs(), "m/s");
             let ends = [middle - half, middle + half];
             self.value_along(Class::Velocity, text, ends, slide.guide.across * side);
         }

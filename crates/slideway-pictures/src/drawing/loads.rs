@@ -1,9 +1,9 @@
 //! Springs and dampers, loads, weights and the efforts of drives.
 
+use super::Painter;
 use super::outline::{turned, unit};
 use super::scene::{Class, Point, Shape};
 use super::view::is_zero;
-use super::{Painter, quantity};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
 use slideway::ids::{BodyId, Frame};
@@ -138,7 +138,7 @@ impl Painter<'_> {
                 LoadKind::Torque { body, moment, .. } => {
                     let moment = self.value_of(*moment);
                     if moment != Some(0.0) {
-                        let text = named(&load.name, moment, "N m");
+                        let text = self.named(&load.name, moment, "N m");
                         self.torque(Class::Load, *body, moment.unwrap_or(1.0), text);
                     }
                 }
@@ -164,7 +164,7 @@ impl Painter<'_> {
         else {
             return;
         };
-        let text = named(&load.name, Some(force.norm()), "N");
+        let text = self.named(&load.name, Some(force.norm()), "N");
         self.force(Class::Load, at, force, text);
     }
 
@@ -244,13 +244,18 @@ impl Painter<'_> {
                     if turns { self.configuration.direction(at.frame, direction) } else { direction };
                 let force = direction * effort.unwrap_or(1.0);
                 if force.norm() > 0.0 {
-                    self.force(class, at, force, named(&drive.name, effort, "N"));
+                    self.force(class, at, force, self.named(&drive.name, effort, "N"));
                 }
             }
             Effort::Torque { body, .. } => {
-                self.torque(class, body, effort.unwrap_or(1.0), named(&drive.name, effort, "N m"));
+                self.torque(class, body, effort.unwrap_or(1.0), self.named(&drive.name, effort, "N m"));
             }
         }
+    }
+
+    /// "W = 300 N", or the name alone.
+    fn named(&self, name: &str, value: Option<f64>, si: &str) -> String {
+        value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", self.shown(value, si)))
     }
 
     fn weights(&mut self) {
@@ -259,7 +264,7 @@ impl Painter<'_> {
             let weight = mechanism.gravity * body.mass;
             if weight.norm() > 0.0 {
                 let at = Attachment { frame: Frame::Body(BodyId(index)), position: body.centre_of_mass };
-                self.force(Class::Load, at, weight, quantity(weight.norm(), "N"));
+                self.force(Class::Load, at, weight, self.shown(weight.norm(), "N"));
             }
         }
     }
@@ -279,11 +284,6 @@ pub(super) fn load_force(
     };
     let force = axes[0] * value(components[0])? + axes[1] * value(components[1])?;
     Some(if *turns { configuration.direction(at.frame, force) } else { force })
-}
-
-/// "W = 300 N", or the name alone.
-fn named(name: &str, value: Option<f64>, unit: &str) -> String {
-    value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", quantity(value, unit)))
 }
 
 /// The line of a spring.

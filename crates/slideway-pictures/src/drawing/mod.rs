@@ -32,6 +32,7 @@ use slideway::configuration::Configuration;
 use slideway::ids::JointId;
 use slideway::mechanism::Mechanism;
 use slideway::report::Solution;
+use slideway::units::Unit;
 
 /// Size of names.
 pub(crate) const NAME_SIZE: f64 = 15.0;
@@ -292,21 +293,20 @@ impl Painter<'_> {
         }
     }
 
+    /// A value in the unit of the model for quantities with this SI unit.
+    fn shown(&self, value: f64, si: &str) -> String {
+        quantity(value, &self.mechanism.units.of(si))
+    }
+
     fn slide(&self, joint: JointId) -> Option<Slide> {
         self.sliders.get(joint.index()).copied().flatten()
     }
 }
 
-/// A number with four significant digits and its unit; multiples of SI units where they read better.
-pub(crate) fn quantity(value: f64, unit: &str) -> String {
-    let size = value.abs();
-    let (factor, unit) = match unit {
-        "m" if size > 0.0 && size < 0.1 => (1e3, "mm"),
-        "N" if size >= 1e4 => (1e-3, "kN"),
-        "N m" if size >= 1e4 => (1e-3, "kN m"),
-        unit => (1.0, unit),
-    };
-    format!("{} {unit}", number(value * factor))
+/// An SI value in a unit, with four significant digits.
+pub(crate) fn quantity(value: f64, unit: &Unit) -> String {
+    let number = number(unit.number_of(value));
+    if unit.name().is_empty() { number } else { format!("{number} {}", unit.name()) }
 }
 
 /// The signs of a pattern one by one, with true minus signs.

@@ -7,6 +7,7 @@ use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
 use slideway::report::{CoordinateState, Solution, SolveReport, Status};
+use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel.
 const PANEL: [f64; 2] = [440.0, 320.0];
@@ -94,10 +95,11 @@ pub fn sheet(
     let drawn = Drawn { mechanism, configuration, report, view: &view };
     let panels = drawn.panels(shown)?;
     let title = mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned());
-    let mut lines: Vec<String> = report.map(|report| state_line(&report.state)).into_iter().collect();
+    let mut lines: Vec<String> =
+        report.map(|report| state_line(&report.state, &mechanism.units)).into_iter().collect();
     lines.extend(report.map(answer));
     let description = described(&lines, &panels);
-    Some(Layout { view: &view, panels, title, lines }.sheet(description))
+    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines }.sheet(description))
 }
 
 struct Drawn<'a> {
@@ -178,13 +180,13 @@ impl Drawn<'_> {
 }
 
 /// "q = 0 m, rate 1 m/s"
-fn state_line(state: &[CoordinateState]) -> String {
+fn state_line(state: &[CoordinateState], units: &Units) -> String {
     let coordinates = state.iter().map(|coordinate| {
         format!(
             "{} = {}, rate {}",
             coordinate.name,
-            quantity(coordinate.value, coordinate.unit),
-            quantity(coordinate.rate, &format!("{}/s", coordinate.unit))
+            quantity(coordinate.value, &units.of(coordinate.unit)),
+            quantity(coordinate.rate, &units.of_rate(coordinate.unit))
         )
     });
     coordinates.collect::<Vec<_>>().join("; ")
@@ -216,6 +218,7 @@ fn described(lines: &[String], panels: &[Panel]) -> String {
 
 struct Layout<'a> {
     view: &'a View,
+    units: &'a Units,
     panels: Vec<Panel>,
     title: String,
     lines: Vec<String>,
@@ -233,7 +236,7 @@ impl Layout<'_> {
         for line in &self.lines {
             y = paragraph(&mut scene, line, VALUE_SIZE, Point::new(0.0, y), row_width);
         }
-        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale);
+        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
         for row in self.panels.chunks(columns) {
             let picture = bounds_of(row).map_or(picture, |bounds| picture.with_heights_of(&bounds));
             let mut below: f64 = 0.0;
@@ -271,13 +274,14 @@ impl Layout<'_> {
         for line in dimensions::scale_bar(from, length * self.view.scale) {
             scene.add(Class::Edge, Shape::Line(line));
         }
-        right = beside(scene, Point::new(right, corner.y), quantity(length, "m"));
+        right = beside(scene, Point::new(right, corner.y), quantity(length, &self.units.of("m")));
         if let Some(scale) = panel.force_scale {
-            let force = nice(0.7 * LONGEST_FORCE / scale);
+            let unit = self.units.of("N");
+            let force = nice(0.7 * LONGEST_FORCE / scale, &unit);
             let from = Point::new(right + 26.0, corner.y);
             let to = from + Point::new(force * scale, 0.0);
             scene.add(Class::Reaction, Shape::Arrow { from, to });
-            beside(scene, to, quantity(force, "N"));
+            beside(scene, to, quantity(force, &unit));
         }
     }
 }
@@ -370,10 +374,11 @@ fn key(scene: &mut Scene, y: f64, most: f64) -> f64 {
     if used.is_empty() { y } else { corner.y + 8.0 }
 }
 
-/// The greatest of 1, 2, 5 times a power of ten that is not above a positive value.
-fn nice(value: f64) -> f64 {
+/// The greatest of 1, 2, 5 times a power of ten of a unit that is not above a positive value.
+fn nice(value: f64, unit: &Unit) -> f64 {
+    let value = unit.number_of(value);
     if !(value.is_finite() && value > 0.0) {
-        return 1.0;
+        return unit.scale();
     }
     let power = 10.0_f64.powf(value.log10().floor());
     [5.0, 2.0, 1.0]
@@ -381,4 +386,5 @@ fn nice(value: f64) -> f64 {
         .map(|part| part * power)
         .find(|nice| *nice <= value * (1.0 + 1e-9))
         .unwrap_or(power)
+        * unit.scale()
 }

@@ -4,6 +4,7 @@ use crate::drawing::signs;
 use crate::plot::{Axis, Band, Branch, Curve, Figure, Panel, Stroke};
 use crate::theme::LIGHT;
 use slideway::motion::{History, PhaseInterval, Series};
+use slideway::units::{Unit, Units};
 
 /// Points of a curve, shared among the phases.
 const POINTS: f64 = 1500.0;
@@ -17,7 +18,7 @@ const BEFORE_END: f64 = 1e-9;
 /// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, energies.
 pub fn motion_figure(history: &History) -> Figure {
     let samples = Samples::of(history);
-    let mut builder = Builder { samples: &samples, branches: Vec::new() };
+    let mut builder = Builder { samples: &samples, units: &history.mechanism.units, branches: Vec::new() };
     let mechanism = &history.mechanism;
     let mut panels = Vec::new();
     for (angles, unit) in [(false, "m"), (true, "rad")] {
@@ -69,12 +70,15 @@ pub fn portrait_figure(history: &History) -> Figure {
     let coordinates = history.mechanism.coordinates.iter().enumerate();
     let panel = |(index, coordinate): (usize, &slideway::mechanism::Coordinate)| {
         let name = &coordinate.name;
-        let unit = if coordinate.kind.is_angle() { "rad" } else { "m" };
-        let axis = |name: String, unit: String| Axis { name, unit, ..Axis::default() };
-        let pieces = samples.pieces.iter().map(|piece| curve(piece, (name, &format!("{name}.rate")), index));
+        let si = if coordinate.kind.is_angle() { "rad" } else { "m" };
+        let units = &history.mechanism.units;
+        let shown_in = [units.of(si), units.of_rate(si)];
+        let axis = |name: String, unit: &Unit| Axis { name, unit: unit.name().to_owned(), ..Axis::default() };
+        let rate = format!("{name}.rate");
+        let pieces = samples.pieces.iter().map(|piece| curve(piece, [name, &rate], &shown_in, index));
         Panel {
-            x: axis(name.to_string(), unit.to_owned()),
-            y: axis(format!("rate of {name}"), format!("{unit}/s")),
+            x: axis(name.to_string(), &shown_in[0]),
+            y: axis(format!("rate of {name}"), &shown_in[1]),
             curves: pieces.collect(),
             ..Panel::default()
         }
@@ -148,6 +152,7 @@ fn groups(history: &History) -> Vec<Vec<&PhaseInterval>> {
 
 struct Builder<'s> {
     samples: &'s Samples,
+    units: &'s Units,
     branches: Vec<Branch>,
 }
 
@@ -155,10 +160,12 @@ impl Builder<'_> {
     /// A panel with the time as its axis; curves are given by their names and columns.
     fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[(String, String)]) -> Panel {
         let mut drawn = Vec::new();
+        let shown_in = [Unit::si_unit("s"), self.units.of(unit)];
         for (name, column) in curves {
             let index = self.branches.len();
             self.branches.push(branch(name, index));
-            drawn.extend(self.samples.pieces.iter().map(|piece| curve(piece, ("t", column), index)));
+            let pieces = self.samples.pieces.iter();
+            drawn.extend(pieces.map(|piece| curve(piece, ["t", column], &shown_in, index)));
         }
         Panel {
             title: title.to_owned(),
@@ -168,18 +175,19 @@ impl Builder<'_> {
                 range: Some(self.samples.range),
                 ..Axis::default()
             },
-            y: Axis { name: name.to_owned(), unit: unit.to_owned(), ..Axis::default() },
+            y: Axis { name: name.to_owned(), unit: shown_in[1].name().to_owned(), ..Axis::default() },
             curves: drawn,
             ..Panel::default()
         }
     }
 }
 
-/// One column over another.
-fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
+/// One column over another, each in its unit.
+fn curve(series: &Series, [x, y]: [&str; 2], [x_unit, y_unit]: &[Unit; 2], branch: usize) -> Curve {
     let values = |name: &str| series.column(name).map_or(&[][..], |column| &column.values);
     let pairs = values(x).iter().zip(values(y));
-    let points = pairs.filter_map(|(x, y)| Some([(*x)?, (*y)?])).collect();
+    let points =
+        pairs.filter_map(|(x, y)| Some([x_unit.number_of((*x)?), y_unit.number_of((*y)?)])).collect();
     Curve { branch, quantity: 0, points, ends: <[crate::plot::End; 2]>::default() }
 }
 

@@ -2,19 +2,20 @@
 
 use super::{Figure, Page, text};
 use crate::drawing::svg::{self, Colours, Frame};
-use crate::drawing::{number, signs};
+use crate::drawing::{number, quantity, signs};
 use slideway::limits::{LimitsReport, ModeLimits};
 use slideway::report::{JointMode, Proof, Solution, SolveReport, followed, precise};
-use std::fmt::Display;
+use slideway::units::{Unit, Units};
 
 /// Everything between the ends of `body`.
 pub(super) fn body(page: &Page<'_>) -> String {
     let states = page.report.map(states).unwrap_or_default();
+    let units = page.report.map(|report| report.model.units.clone()).unwrap_or_default();
     format!(
         "{}\n{}\n{}\n{}\n{}\n<footer class=\"quiet\">\n<p>Made by <code>{}</code>, slideway {}.</p>\n</footer>\n",
         header(page, !states.is_empty()),
         drawing(page),
-        solutions(&states),
+        solutions(&states, &units),
         limits(page),
         model(page),
         text(page.command),
@@ -61,12 +62,9 @@ fn answer(report: &SolveReport) -> String {
         .state
         .iter()
         .map(|coordinate| {
-            let (name, unit) = (text(&coordinate.name), text(coordinate.unit));
-            format!(
-                "{name} = {} {unit}, rate\n{} {unit}/s",
-                number(coordinate.value),
-                number(coordinate.rate)
-            )
+            let value = quantity(coordinate.value, &model.units.of(coordinate.unit));
+            let rate = quantity(coordinate.rate, &model.units.of_rate(coordinate.unit));
+            format!("{} = {}, rate\n{}", text(&coordinate.name), text(&value), text(&rate))
         })
         .collect();
     let followed =
@@ -117,28 +115,30 @@ fn states(report: &SolveReport) -> Vec<(String, &Solution)> {
         .collect()
 }
 
-fn solutions(states: &[(String, &Solution)]) -> String {
+fn solutions(states: &[(String, &Solution)], units: &Units) -> String {
     if states.is_empty() {
         return String::new();
     }
-    let states = all(states, |(heading, solution)| state(heading, solution));
+    let states = all(states, |(heading, solution)| state(heading, solution, units));
     format!("<section id=\"solutions\">\n<h2>Solutions</h2>\n{states}</section>\n")
 }
 
-fn state(heading: &str, solution: &Solution) -> String {
+fn state(heading: &str, solution: &Solution, units: &Units) -> String {
+    let [force, friction, sliding] = [("Normal force", "N"), ("Friction", "N"), ("Sliding", "m/s")]
+        .map(|(what, si)| text(&units.of(si).title(what)));
     let joints: Vec<String> = solution.joints.iter().map(|joint| joint_mode(joint, ": ")).collect();
     let end = if joints.is_empty() { "" } else { "." };
     format!(
         "<section class=\"state\">\n<h3>{}</h3>\n<p>{}{end}\n{}</p>\n<div class=\"wide\">\n\
-         <table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">Normal force in N</th>\
-         <th class=\"number\">Friction in N</th>\n<th class=\"number\">Sliding in m/s</th></tr></thead>\n<tbody>\n{}\
+         <table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">{force}</th>\
+         <th class=\"number\">{friction}</th>\n<th class=\"number\">{sliding}</th></tr></thead>\n<tbody>\n{}\
          </tbody>\n</table>\n<table class=\"rest\">\n<thead><tr><th>Of</th><th>What</th><th class=\"number\">Value</th>\
          <th>Unit</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n</section>\n",
         text(heading),
         joints.join("; "),
         text(&solution.attainability.in_words()),
-        contacts(solution),
-        everything_else(solution),
+        contacts(solution, units),
+        everything_else(solution, units),
     )
 }
 
@@ -146,52 +146,56 @@ fn joint_mode(joint: &JointMode, between: &str) -> String {
     format!("{}{between}{}", text(&joint.name), text(&joint.mode))
 }
 
-fn contacts(solution: &Solution) -> String {
+fn contacts(solution: &Solution, units: &Units) -> String {
+    let [force, speed] = ["N", "m/s"].map(|si| units.of(si));
     all(&solution.contacts, |contact| {
         format!(
             "<tr><td>{}</td><td class=\"number\">{}</td>\n<td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
             text(&contact.name),
-            number(contact.normal_force),
-            number(contact.friction_force),
-            number(contact.sliding_velocity),
+            number(force.number_of(contact.normal_force)),
+            number(force.number_of(contact.friction_force)),
+            number(speed.number_of(contact.sliding_velocity)),
         )
     })
 }
 
 /// Rows of what is no contact: accelerations, efforts, hinge forces.
-fn everything_else(solution: &Solution) -> String {
+fn everything_else(solution: &Solution, units: &Units) -> String {
     let coordinates = all(&solution.coordinates, |coordinate| {
-        let value = format!("{}</td>\n", number(coordinate.acceleration));
-        row(&coordinate.name, "acceleration", value, &coordinate.unit.replace("^2", "²"))
+        row([&coordinate.name, "acceleration"], coordinate.acceleration, &units.of(coordinate.unit)) + "\n"
     });
-    let drives = all(&solution.drives, |drive| {
-        row(&drive.name, "effort", format!("{}</td>", number(drive.effort)), drive.unit)
-    });
+    let drives =
+        all(&solution.drives, |drive| row([&drive.name, "effort"], drive.effort, &units.of(drive.unit)));
     let hinges = all(&solution.hinges, |hinge| {
-        pair(&hinge.name, &format!("hinge force on {}", hinge.on), hinge.force, "N")
+        pair(&hinge.name, &format!("hinge force on {}", hinge.on), hinge.force, &units.of("N"))
     });
     let bodies = all(&solution.bodies, |body| {
-        let angular = format!("{}</td>", number(body.angular_acceleration));
-        pair(&body.name, "acceleration", body.acceleration, "m/s²")
-            + &row("", "angular acceleration", angular, "rad/s²")
+        pair(&body.name, "acceleration", body.acceleration, &units.of("m/s^2"))
+            + &row(["", "angular acceleration"], body.angular_acceleration, &units.of("rad/s^2"))
     });
     coordinates + &drives + &hinges + &bodies
 }
 
-/// A row with one value, which brings the end of its cell.
-fn row(of: &str, what: &str, value: impl Display, unit: &str) -> String {
-    let (of, what, unit) = (text(of), text(what), text(unit));
-    format!("<tr><td>{of}</td><td>{what}</td><td class=\"number\">{value}<td>{unit}</td></tr>\n")
+/// The name of a unit with true exponents.
+fn name_of(unit: &Unit) -> String {
+    text(&unit.name().replace("^2", "²"))
+}
+
+/// A row with one value.
+fn row([of, what]: [&str; 2], value: f64, unit: &Unit) -> String {
+    let (of, what, value) = (text(of), text(what), number(unit.number_of(value)));
+    let unit = name_of(unit);
+    format!("<tr><td>{of}</td><td>{what}</td><td class=\"number\">{value}</td><td>{unit}</td></tr>\n")
 }
 
 /// A row with the two components of a vector.
-fn pair(of: &str, what: &str, [x, y]: [f64; 2], unit: &str) -> String {
+fn pair(of: &str, what: &str, components: [f64; 2], unit: &Unit) -> String {
+    let [x, y] = components.map(|component| number(unit.number_of(component)));
     format!(
-        "<tr><td>{}</td><td>{}</td>\n<td class=\"number\">({}, {})</td><td>{unit}</td></tr>\n",
+        "<tr><td>{}</td><td>{}</td>\n<td class=\"number\">({x}, {y})</td><td>{}</td></tr>\n",
         text(of),
         text(what),
-        number(x),
-        number(y)
+        name_of(unit)
     )
 }
 
@@ -213,22 +217,25 @@ fn limits_of(limits: &LimitsReport) -> String {
         "friction" => "Factor of all coefficients of friction",
         name => name,
     };
+    let unit = &limits.vary.shown_in;
     format!(
-        "<h3>{}, from\n{} to {} (SI units)</h3>\n{}<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
-         <th class=\"number\">From</th><th class=\"number\">To</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
+        "<h3>{}, from\n{} to {}</h3>\n{}<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
+         <th class=\"number\">{}</th><th class=\"number\">{}</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
          <tbody>\n{}</tbody>\n</table>\n</div>\n<p class=\"quiet\">{}</p>\n",
         text(name),
-        precise(limits.vary.from),
-        precise(limits.vary.to),
+        precise(unit.number_of(limits.vary.from)),
+        text(&unit.precise(limits.vary.to)),
         all(&limits.conclusion, |line| format!("<p class=\"conclusion\">{}</p>\n", text(line))),
-        all(&limits.modes, mode),
+        text(&unit.title("From")),
+        text(&unit.title("To")),
+        all(&limits.modes, |row| mode(row, unit)),
         text(&limits.guarantee),
     )
 }
 
 /// The row of a mode.
-fn mode(mode: &ModeLimits) -> String {
-    let end = |value: Option<f64>| value.map(precise).unwrap_or_default();
+fn mode(mode: &ModeLimits, unit: &Unit) -> String {
+    let end = |value: Option<f64>| value.map(|value| precise(unit.number_of(value))).unwrap_or_default();
     let at = if mode.to_at.is_empty() { String::new() } else { format!(": {}", mode.to_at.join(", ")) };
     let joints: Vec<String> = mode.joints.iter().map(|joint| joint_mode(joint, " ")).collect();
     format!(

@@ -52,7 +52,7 @@ struct Builder<'c> {
 impl Builder<'_> {
     fn panel(&mut self, report: &LimitsReport, title: &str, unit: &str, direction: Direction<'_>) -> Panel {
         let (modes, found, counts, without) = direction;
-        let scale = self.curves.shown_in.scale;
+        let scale = self.curves.shown_in.scale();
         let drawn = modes.iter().zip(found).flat_map(|(mode, curve)| self.mode(mode, curve, unit)).collect();
         let name = match self.curves.quantity {
             Quantity::NormalForce => "normal force",
@@ -69,11 +69,11 @@ impl Builder<'_> {
             title: title.to_owned(),
             x: Axis {
                 name: report.vary.name.clone(),
-                unit: self.curves.shown_in.unit.clone(),
+                unit: self.curves.shown_in.name().to_owned(),
                 range: Some([report.vary.from / scale, report.vary.to / scale]),
                 logarithmic: false,
             },
-            y: Axis { name, unit: unit.to_owned(), ..Axis::default() },
+            y: Axis { name, unit: self.curves.units.of(unit).name().to_owned(), ..Axis::default() },
             zones: zones(counts, without, [report.vary.from, report.vary.to], scale),
             marked: marked(modes, [report.vary.from, report.vary.to], scale),
             bands: Vec::new(),
@@ -98,13 +98,19 @@ impl Builder<'_> {
                 if start == 0 { end_of(mode.from_is) } else { End::Plain },
                 if end == curve.points.len() { end_of(mode.to_is) } else { End::Plain },
             ];
-            let scale = self.curves.shown_in.scale;
+            let scale = self.curves.shown_in.scale();
+            let shown_in = self.curves.units.of(unit);
             let series = self.curves.series.iter().enumerate().filter(|(_, series)| series.unit == unit);
-            drawn.extend(series.map(|(quantity, _)| Curve {
-                branch,
-                quantity,
-                points: points.iter().map(|point| [point.at / scale, point.values[quantity]]).collect(),
-                ends,
+            drawn.extend(series.map(|(quantity, _)| {
+                Curve {
+                    branch,
+                    quantity,
+                    points: points
+                        .iter()
+                        .map(|point| [point.at / scale, shown_in.number_of(point.values[quantity])])
+                        .collect(),
+                    ends,
+                }
             }));
             start = end;
         }

@@ -312,17 +312,17 @@ impl SweepPlot {
             [only] => format!("{name} of {}", only.name),
             _ => name.to_owned(),
         };
-        let scale = self.line.shown_in.scale;
+        let scale = self.line.shown_in.scale();
         let drawn = self.branches.iter().enumerate();
         Panel {
             title: String::new(),
             x: Axis {
                 name: self.line.name.clone(),
-                unit: self.line.shown_in.unit.clone(),
+                unit: self.line.shown_in.name().to_owned(),
                 range: Some(self.line.range.map(|end| end / scale)),
                 logarithmic: self.line.logarithmic,
             },
-            y: Axis { name, unit: unit.to_owned(), ..Axis::default() },
+            y: Axis { name, unit: self.line.units.of(unit).name().to_owned(), ..Axis::default() },
             zones: self.runs.iter().filter_map(|run| self.zone(run)).collect(),
             marked: self.marked(),
             bands: Vec::new(),
@@ -333,7 +333,8 @@ impl SweepPlot {
     /// The curves of a branch, cut where its verdict changes.
     fn curves(&self, colour: usize, branch: &Drawn, unit: &str, legend: &mut Vec<Branch>) -> Vec<Curve> {
         let mut curves = Vec::new();
-        let scale = self.line.shown_in.scale;
+        let scale = self.line.shown_in.scale();
+        let shown_in = self.line.units.of(unit);
         let points = &branch.points;
         let strokes = strokes(points);
         let mut start = 0;
@@ -353,7 +354,8 @@ impl SweepPlot {
             // The next stretch begins where this one ends.
             let stretch = &points[start.saturating_sub(1)..end];
             for (quantity, _) in self.series.iter().enumerate().filter(|(_, series)| series.unit == unit) {
-                let points = stretch.iter().map(|kept| [kept.at / scale, kept.values[quantity]]).collect();
+                let value = |kept: &Kept| [kept.at / scale, shown_in.number_of(kept.values[quantity])];
+                let points = stretch.iter().map(value).collect();
                 curves.push(Curve { branch: place, quantity, points, ends });
             }
             start = end;
@@ -377,7 +379,7 @@ impl SweepPlot {
         let mark = |point: Option<u64>| self.marks.iter().find(|mark| Some(mark.point) == point);
         let from = mark(run.first.checked_sub(1)).map_or(run.from, |mark| mark.at);
         let to = mark(run.last.checked_add(1)).map_or(run.to, |mark| mark.at);
-        let scale = self.line.shown_in.scale;
+        let scale = self.line.shown_in.scale();
         let meaning = match run.hatching {
             Hatching::Rising => "excluded: no solution, friction locks it",
             Hatching::Falling | Hatching::Dotted => "excluded: cannot be assembled or solved",
@@ -402,7 +404,7 @@ impl SweepPlot {
         let mut words: Vec<&str> = marks.iter().map(|mark| in_words(mark.breakpoint)).collect();
         words.dedup();
         let first = marks.first().map_or(0.0, |mark| mark.at);
-        let at = if first.abs() <= near { 0.0 } else { first / self.line.shown_in.scale };
+        let at = if first.abs() <= near { 0.0 } else { first / self.line.shown_in.scale() };
         let number = precise(at).replace('-', "\u{2212}");
         let asymptote = marks.iter().any(|mark| mark.breakpoint == Breakpoint::Locking);
         MarkedValue { at, label: format!("{number}: {}", words.join("; ")), asymptote }

@@ -13,22 +13,29 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
+mod directions;
 mod text;
 
-use crate::configuration::{Configuration, Mobility, free_motions, motions_without_inertia, unit};
+use crate::configuration::{Configuration, Mobility, Pose, free_motions, motions_without_inertia, unit};
 use crate::fault::{FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
-use crate::model::{Model, SliderKind, Stop};
+use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::report::finite;
 use crate::solve::{check_size, mode_problem, velocity_signs};
+use crate::units::Units;
+use crate::warning::{Warning, warnings};
 use serde::Serialize;
 use std::fmt;
 
 /// Version of the layout of a [`CheckReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/check/1";
+
+/// Bodies that have moved from the drawing by less than this part of the mechanism's size, or are turned by
+/// less (rad), have not: that is the rounding of its closed joints.
+const MOVED: f64 = 1e-9;
 
 /// What a model consists of, and what stands in the way of solving it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -38,11 +45,16 @@ pub struct CheckReport {
     pub schema: &'static str,
     /// The model's title.
     pub title: Option<String>,
+    /// The units in which texts show its numbers.
+    #[serde(skip)]
+    pub units: Units,
     /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings.
     /// (What only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
     pub sound: bool,
     /// Everything for which it would be refused.
     pub findings: Vec<Finding>,
+    /// What is perhaps not meant, though it does not stand in the way.
+    pub warnings: Vec<Warning>,
     /// Degrees of freedom and determinacy.
     pub mobility: MobilitySummary,
     /// Inertia of the motions that the joints leave.
@@ -121,6 +133,10 @@ pub struct BodySummary {
     pub mass: f64,
     /// Moment of inertia about the centre of mass (kg m^2).
     pub moment_of_inertia: f64,
+    /// How far its centre of mass is from its place in the drawing (m).
+    pub moved_by: f64,
+    /// By which angle it is turned against the drawing (rad), counter-clockwise.
+    pub turned_by: f64,
 }
 
 /// A joint.
@@ -135,6 +151,10 @@ pub struct JointSummary {
     pub joins: [String; 2],
     /// Scalar constraints.
     pub constraints: usize,
+    /// Direction `u` of a sliding joint in this state: that of `along`, turned with the guide.
+    pub direction: Option<[f64; 2]>,
+    /// What it means that it slides in its positive direction, in words.
+    pub positive: Option<String>,
     /// Displacement of a sliding joint (m).
     pub displacement: Option<f64>,
     /// Supported length of a block slider (m).
@@ -233,6 +253,8 @@ pub struct CoordinateSummary {
     pub name: String,
     /// What it measures.
     pub kind: CoordinateForm,
+    /// What it means that it grows, in words.
+    pub positive: String,
     /// "m" or "rad".
     pub unit: &'static str,
     /// Its value in the state.
@@ -276,19 +298,21 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     finite(CheckReport {
         schema: SCHEMA,
         title: mechanism.title.clone(),
+        units: model.units.clone(),
         sound: faults.is_empty(),
         findings: faults.sorted().iter().map(|fault| finding(&fault.kind)).collect(),
+        warnings: Warning::list(&warnings(model)),
         mobility: mobility_summary(&mechanism, &mobility),
         inertia,
         condition,
         assembled,
         steps_from_drawing: configuration.steps_from_drawing(),
-        bodies: bodies(&mechanism),
+        bodies: bodies(&mechanism, &configuration),
         joints: joints(&mechanism, &configuration),
         contacts: contacts(&mechanism, &configuration, assembled),
         loads: mechanism.loads.iter().map(|load| load.name.to_string()).collect(),
         drives: drives(&mechanism),
-        coordinates: coordinates(&mechanism),
+        coordinates: coordinates((model, &mechanism), &configuration),
     })
 }
 
@@ -317,17 +341,24 @@ fn inertia(mechanism: &Mechanism, configuration: &Configuration) -> InertiaSumma
     if motions.ncols() == 0 {
         return InertiaSummary { regular: true, motions_without: Vec::new() };
     }
-    let motions_without = motions_without_inertia(mechanism, configuration, &motions);
+    let motions_without = motions_without_inertia(mechanism, configuration, &motions, None);
     InertiaSummary { regular: motions_without.is_empty(), motions_without }
 }
 
-fn bodies(mechanism: &Mechanism) -> Vec<BodySummary> {
-    let one = |body: &crate::mechanism::Body| BodySummary {
+/// A value, or zero if it is smaller than what counts.
+fn at_least(value: f64, least: f64) -> f64 {
+    if value.abs() < least { 0.0 } else { value }
+}
+
+fn bodies(mechanism: &Mechanism, configuration: &Configuration) -> Vec<BodySummary> {
+    let one = |(body, pose): (&crate::mechanism::Body, &Pose)| BodySummary {
         name: body.name.to_string(),
         mass: body.mass,
         moment_of_inertia: body.moment_of_inertia,
+        moved_by: at_least((pose.position - body.centre_of_mass).norm(), MOVED * mechanism.size),
+        turned_by: at_least(pose.angle(), MOVED),
     };
-    mechanism.bodies.iter().map(one).collect()
+    mechanism.bodies.iter().zip(&configuration.poses).map(one).collect()
 }
 
 fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSummary> {
@@ -348,6 +379,8 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             kind,
             joins: frames.map(|frame| mechanism.frame_name(frame).to_owned()),
             constraints,
+            direction: slider.map(|slider| configuration.slide(mechanism, slider).tangent.into()),
+            positive: slider.map(|slider| directions::of_joint(mechanism, configuration, slider)),
             displacement: slider.map(|slider| configuration.slide(mechanism, slider).displacement),
             overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
             stops: slider.map(|slider| slider.stops).filter(|stops| *stops != [None; 2]),
@@ -377,9 +410,13 @@ fn drives(mechanism: &Mechanism) -> Vec<DriveSummary> {
     mechanism.drives.iter().map(one).collect()
 }
 
-fn coordinates(mechanism: &Mechanism) -> Vec<CoordinateSummary> {
-    let one = |coordinate: &crate::mechanism::Coordinate| CoordinateSummary {
+fn coordinates(
+    (model, mechanism): (&Model, &Mechanism),
+    configuration: &Configuration,
+) -> Vec<CoordinateSummary> {
+    let one = |(coordinate, typed): (&crate::mechanism::Coordinate, &Coordinate)| CoordinateSummary {
         name: coordinate.name.to_string(),
+        positive: directions::of_coordinate((model, mechanism), configuration, typed),
         kind: match coordinate.kind {
             CoordinateKind::Slide(_) => CoordinateForm::Slide,
             CoordinateKind::Rotation(..) => CoordinateForm::Rotation,
@@ -389,5 +426,5 @@ fn coordinates(mechanism: &Mechanism) -> Vec<CoordinateSummary> {
         value: coordinate.value,
         rate: coordinate.rate,
     };
-    mechanism.coordinates.iter().map(one).collect()
+    mechanism.coordinates.iter().zip(&model.coordinates).map(one).collect()
 }

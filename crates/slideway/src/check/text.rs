@@ -6,6 +6,7 @@ use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Report, Style, count, followed};
+use crate::units::Unit;
 use anstyle::AnsiColor;
 
 impl Report for CheckReport {
@@ -45,7 +46,9 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let (colour, verdict) = if report.sound {
+        let (colour, verdict) = if report.sound && !report.warnings.is_empty() {
+            (AnsiColor::Yellow, "It can be solved in this state, but look at the warnings.".to_owned())
+        } else if report.sound {
             (AnsiColor::Green, "Sound: it can be solved in this state.".to_owned())
         } else {
             let findings = count(report.findings.len(), "finding", "findings");
@@ -57,6 +60,14 @@ impl Text<'_> {
             if let Some(hint) = &finding.hint {
                 self.line(&format!("    help: {hint}"));
             }
+        }
+        if !report.warnings.is_empty() {
+            let warnings = count(report.warnings.len(), "warning", "warnings");
+            self.painted(AnsiColor::Yellow.on_default().bold(), &format!("{warnings}:"), "");
+        }
+        for warning in &report.warnings {
+            self.line(&format!("  - {}", warning.message));
+            self.line(&format!("    help: {}", warning.hint));
         }
         self.line("");
     }
@@ -109,37 +120,52 @@ impl Text<'_> {
 
     fn tables(&mut self) {
         let report = self.report;
-        let bodies = report
-            .bodies
-            .iter()
-            .map(|body| vec![body.name.clone(), number(body.mass), number(body.moment_of_inertia)]);
-        self.table(&["body", "mass in kg", "moment of inertia in kg m^2"], &bodies.collect::<Vec<_>>(), 1);
-        let optional = |value: Option<f64>| value.map_or(String::new(), number);
+        let units = &report.units;
+        let [mass, inertia, length] = ["kg", "kg m^2", "m"].map(|si| units.of(si));
+        let angle = units.of("rad");
+        let has_moved = report.bodies.iter().any(|body| body.moved_by != 0.0 || body.turned_by != 0.0);
+        let bodies = report.bodies.iter().map(|body| {
+            let mut row =
+                vec![body.name.clone(), mass.number(body.mass), inertia.number(body.moment_of_inertia)];
+            row.extend(has_moved.then(|| length.number(body.moved_by)));
+            row.extend(has_moved.then(|| angle.number(body.turned_by)));
+            row
+        });
+        let mut header = vec!["body".to_owned(), mass.title("mass"), inertia.title("moment of inertia")];
+        header.extend(has_moved.then(|| length.title("moved from the drawing by")));
+        header.extend(has_moved.then(|| angle.title("turned by")));
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        self.table(&header, &bodies.collect::<Vec<_>>(), 1);
         let joints = report.joints.iter().map(|joint| {
             vec![
                 joint.name.clone(),
                 joint.kind.to_string(),
                 joint.joins.join(", "),
+                joint.positive.clone().unwrap_or_default(),
                 joint.constraints.to_string(),
-                optional(joint.overlap),
+                joint.overlap.map_or(String::new(), |overlap| length.number(overlap)),
             ]
         });
-        let header = ["joint", "kind", "joins", "constraints", "overlap in m"];
-        self.table(&header, &joints.collect::<Vec<_>>(), 3);
-        let contacts = report.contacts.iter().map(contact_row);
-        let header = ["contact", "mu", "mu_static", "preload in N", "sliding in m/s"];
+        let header =
+            ["joint", "kind", "joins", "positive direction", "constraints", &length.title("overlap")];
+        self.table(&header, &joints.collect::<Vec<_>>(), 4);
+        let [force, speed] = ["N", "m/s"].map(|si| units.of(si));
+        let contacts = report.contacts.iter().map(|contact| contact_row(contact, [&force, &speed]));
+        let header = ["contact", "mu", "mu_static", &force.title("preload"), &speed.title("sliding")];
         self.table(&header, &contacts.collect::<Vec<_>>(), 1);
         self.speeds_and_stops();
         let coordinates = report.coordinates.iter().map(|coordinate| {
             vec![
                 coordinate.name.clone(),
                 coordinate.kind.to_string(),
+                coordinate.positive.clone(),
                 driven_by(report, &coordinate.name),
-                format!("{} {}", number(coordinate.value), coordinate.unit),
-                format!("{} {}/s", number(coordinate.rate), coordinate.unit),
+                units.of(coordinate.unit).show(coordinate.value),
+                units.of_rate(coordinate.unit).show(coordinate.rate),
             ]
         });
-        self.table(&["coordinate", "kind", "drive", "value", "rate"], &coordinates.collect::<Vec<_>>(), 3);
+        let header = ["coordinate", "kind", "positive direction", "drive", "value", "rate"];
+        self.table(&header, &coordinates.collect::<Vec<_>>(), 4);
     }
 
     /// What the tables do not show: friction over velocity, end stops.
@@ -161,8 +187,9 @@ impl Text<'_> {
                         format!("a stop with restitution {}", number(restitution))
                     }
                     Some(Stop::Pad { stiffness, damping }) => {
-                        let [stiffness, damping] = [stiffness, damping].map(number);
-                        format!("a pad of {stiffness} N/m and {damping} N s/m")
+                        let stiffness = report.units.of("N/m").show(stiffness);
+                        let damping = report.units.of("N s/m").show(damping);
+                        format!("a pad of {stiffness} and {damping}")
                     }
                 };
                 self.line(&format!("{} has {told} at its {end} displacement.", joint.name));
@@ -183,21 +210,21 @@ fn driven_by(report: &CheckReport, coordinate: &str) -> String {
     drive.map_or(String::new(), |drive| drive.name.clone())
 }
 
-fn contact_row(contact: &ContactSummary) -> Vec<String> {
+fn contact_row(contact: &ContactSummary, [force, speed]: [&Unit; 2]) -> Vec<String> {
     vec![
         contact.name.clone(),
-        sides(contact.mu),
-        sides(contact.mu_static),
-        sides(contact.preload),
-        contact.sliding_velocity.map_or("unknown".to_owned(), number),
+        sides(contact.mu, &Unit::default()),
+        sides(contact.mu_static, &Unit::default()),
+        sides(contact.preload, force),
+        contact.sliding_velocity.map_or("unknown".to_owned(), |velocity| speed.number(velocity)),
     ]
 }
 
 /// One number, or both where the sides differ.
-fn sides([positive, negative]: [f64; 2]) -> String {
+fn sides([positive, negative]: [f64; 2], unit: &Unit) -> String {
     if positive == negative {
-        number(positive)
+        unit.number(positive)
     } else {
-        format!("{} (+), {} (-)", number(positive), number(negative))
+        format!("{} (+), {} (-)", unit.number(positive), unit.number(negative))
     }
 }

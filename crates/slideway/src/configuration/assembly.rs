@@ -131,24 +131,47 @@ fn open_joint(
     if equations.residual.amax() <= CLOSED {
         return None;
     }
+    let gap = widest_gap(mechanism, &equations)?;
+    let joint = &mechanism.joints[gap.joint.index()];
+    let kind = FaultKind::NotAssembled {
+        joint: joint.name.to_string(),
+        loop_joints: loop_of(mechanism, gap.joint),
+        gap: gap.in_words(mechanism),
+        reached: reached.map(|values| state(mechanism, values)),
+    };
+    Some(Fault::new(kind, joint.place.clone()))
+}
+
+/// How far a joint is open.
+pub(crate) struct Gap {
+    pub(crate) joint: JointId,
+    /// In sizes of the mechanism, or rad.
+    pub(crate) relative: f64,
+    is_angle: bool,
+}
+
+impl Gap {
+    /// With its unit: "12.5 mm".
+    pub(crate) fn in_words(&self, mechanism: &Mechanism) -> String {
+        let (value, si) =
+            if self.is_angle { (self.relative, "rad") } else { (self.relative * mechanism.size, "m") };
+        mechanism.units.of(si).show(value)
+    }
+}
+
+/// The joint that is most open where the drawing has the bodies.
+pub(crate) fn widest_gap_of_drawing(mechanism: &Mechanism) -> Option<Gap> {
+    let (poses, values) = (drawing_poses(mechanism), drawn(mechanism));
+    widest_gap(mechanism, &JointEquations::with_coordinates(mechanism, &poses, &values))
+}
+
+fn widest_gap(mechanism: &Mechanism, equations: &JointEquations) -> Option<Gap> {
     let open = (0..equations.joints.len())
         .filter_map(|row| equations.joints[row].map(|joint| (joint, row)))
         .max_by(|a, b| equations.residual[a.1].abs().total_cmp(&equations.residual[b.1].abs()));
     let (joint, row) = open?;
     let is_angle = row > 0 && equations.joints[row - 1] == Some(joint) && is_slider(mechanism, joint);
-    let residual = equations.residual[row].abs();
-    let gap = if is_angle { in_units(residual, "rad") } else { in_units(residual * mechanism.size, "m") };
-    let kind = FaultKind::NotAssembled {
-        joint: mechanism.joints[joint.index()].name.to_string(),
-        loop_joints: loop_of(mechanism, joint),
-        gap,
-        reached: reached.map(|values| state(mechanism, values)),
-    };
-    Some(Fault::new(kind, mechanism.joints[joint.index()].place.clone()))
-}
-
-fn in_units(value: f64, unit: &str) -> String {
-    if value < 1e-3 { format!("{value:.2e} {unit}") } else { format!("{value:.4} {unit}") }
+    Some(Gap { joint, relative: equations.residual[row].abs(), is_angle })
 }
 
 /// The joints of a shortest loop through `joint`, that one first; none if it closes no loop.
@@ -184,12 +207,7 @@ fn is_slider(mechanism: &Mechanism, joint: JointId) -> bool {
 /// Coordinate values in words.
 fn state(mechanism: &Mechanism, values: &[f64]) -> String {
     let one = |(coordinate, value): (&crate::mechanism::Coordinate, &f64)| {
-        let degrees = if coordinate.kind.is_angle() {
-            format!(" ({:.2} deg)", value.to_degrees())
-        } else {
-            String::new()
-        };
-        format!("{} = {value:.5} {}{degrees}", coordinate.name, unit(&coordinate.kind))
+        format!("{} = {}", coordinate.name, mechanism.units.of(unit(&coordinate.kind)).show(*value))
     };
     let list: Vec<String> = mechanism.coordinates.iter().zip(values).map(one).collect();
     list.join(", ")
@@ -222,22 +240,25 @@ pub(super) fn singular_state(mechanism: &Mechanism, poses: &[Pose]) -> Fault {
 /// Travel limits and overlaps of the sliding joints.
 pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
     let mut faults = Faults::default();
+    let length = || mechanism.units.of("m");
     for joint in &mechanism.joints {
         let JointKind::Slider(slider) = &joint.kind else { continue };
+        let place = &joint.place;
         let displacement = configuration.slide(mechanism, slider).displacement;
         if let Some(overlap) = configuration.overlap(mechanism, slider)
             && overlap <= 1e-9 * slider.length
         {
-            let kind = FaultKind::OverlapVanished { joint: joint.name.to_string(), overlap, displacement };
-            faults.push(Fault::new(kind, joint.place.clone()));
+            let (joint, unit) = (joint.name.to_string(), length());
+            let kind = FaultKind::OverlapVanished { joint, overlap, displacement, unit };
+            faults.push(Fault::new(kind, place.clone()));
         }
         let [lowest, highest] = slider.limits();
         if let Some([least, greatest]) = slider.travel
             && !(lowest..=highest).contains(&displacement)
         {
-            let kind =
-                FaultKind::TravelExceeded { joint: joint.name.to_string(), displacement, least, greatest };
-            faults.push(Fault::new(kind, joint.place.clone()));
+            let (joint, unit) = (joint.name.to_string(), length());
+            let kind = FaultKind::TravelExceeded { joint, displacement, least, greatest, unit };
+            faults.push(Fault::new(kind, place.clone()));
         }
     }
     faults.or(())

@@ -274,11 +274,13 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
     })
 }
 
-/// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words.
+/// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words: each in the
+/// direction in which loads (N, N, N m of every body) move it, if there are any that do.
 pub(crate) fn motions_without_inertia(
     mechanism: &Mechanism,
     configuration: &Configuration,
     motions: &DMatrix<f64>,
+    loads: Option<&DVector<f64>>,
 ) -> Vec<String> {
     let masses = mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]);
     let masses = DVector::from_iterator(motions.nrows(), masses);
@@ -291,8 +293,10 @@ pub(crate) fn motions_without_inertia(
     let without = (0..motions.ncols()).filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest);
     let in_words = |index: usize| {
         let mut motion = motions * eigen.eigenvectors.column(index);
-        // Of both directions the one whose greatest component is positive.
-        if motion[motion.icamax()] < 0.0 {
+        let power = loads.map_or(0.0, |loads| loads.dot(&motion));
+        // Without loads it is the direction whose greatest component is positive.
+        let forwards = if power == 0.0 { motion[motion.icamax()] } else { power };
+        if forwards < 0.0 {
             motion = -motion;
         }
         motion_in_words(mechanism, configuration, &motion)

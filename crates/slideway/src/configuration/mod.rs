@@ -19,6 +19,7 @@ mod following;
 mod joint_equations;
 mod mobility;
 
+pub(crate) use assembly::widest_gap_of_drawing;
 pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};

@@ -40,7 +40,10 @@ pub(super) fn direction(
     let course = Tabulated { varied, efforts: &efforts, range, found: &found, blow_ups: &blow_ups, work };
     let rows = course.rows(steps);
     let without_mode_problem = RangeWithoutProblem::of(&found);
-    Ok((guarantee(&found), CourseDirection { direction, rows, blow_ups, without_mode_problem }))
+    Ok((
+        guarantee(&found, &varied.shown_in),
+        CourseDirection { direction, rows, blow_ups, without_mode_problem },
+    ))
 }
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes

@@ -43,7 +43,7 @@ pub use report::{
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, VariedQuantity, Vary};
+use crate::limits::{VariedQuantity, Vary};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{finite, locked};
@@ -125,6 +125,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
     let mut report = DriveReport {
         schema: SCHEMA,
         title: model.title.clone(),
+        units: model.units.clone(),
         state,
         drives: drives.collect(),
         directions: vec![forwards, opposite],
@@ -141,9 +142,9 @@ fn course(
     rows: usize,
     work: Work<'_>,
 ) -> Result<Course, Faults> {
-    let varied = Varied::new(model, &vary.name)?;
+    let varied = vary.of(model)?;
     let range = vary.ends(&varied, || usual_range(model, &varied))?;
-    let opposite = Varied::new(reversed, &vary.name)?;
+    let opposite = vary.of(reversed)?;
     let steps = rows.clamp(2, GREATEST_ROWS) - 1;
     let (guarantee, forwards) = course::direction(&varied, (range, steps), Sense::Model, work.part(0, 2))?;
     let (_, backwards) = course::direction(&opposite, (range, steps), Sense::Reversed, work.part(1, 2))?;

@@ -2,6 +2,7 @@
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
 use crate::report::{CoordinateState, JointMode, Status, Verdict};
+use crate::units::Units;
 use serde::Serialize;
 
 /// Version of the layout of a [`DriveReport`]; changes whenever a field is renamed or removed.
@@ -15,6 +16,9 @@ pub struct DriveReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
+    /// The units in which texts show its numbers.
+    #[serde(skip)]
+    pub units: Units,
     /// The coordinates, with the rates of the model.
     pub state: Vec<CoordinateState>,
     /// The drives; all lists of efforts have their order.

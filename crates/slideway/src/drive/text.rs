@@ -1,7 +1,7 @@
 //! Driven motion as text for people.
 
 use super::report::{
-    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency,
+    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, Efficiency,
     EfficiencyKind, Sense,
 };
 use crate::limits::{RangeWithoutProblem, no_answer};
@@ -10,6 +10,7 @@ use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Report, Status, Style, Verdict, spaced};
+use crate::units::Unit;
 
 impl Report for DriveReport {
     /// What it comes to, the efforts in the state, and those over what is varied.
@@ -55,15 +56,10 @@ fn outcome(report: &DriveReport, direction: &DriveDirection, locked: &str) -> St
         ([], Status::Unknown) => "it is not known which effort moves it".to_owned(),
         ([], _) => format!("no effort moves it, {locked}"),
         ([only], _) => {
-            let one = |(drive, (with, without)): (&super::DriveName, (&f64, &f64))| {
-                format!(
-                    "{} needs {} {} instead of {} {} without friction",
-                    drive.name,
-                    number(*with),
-                    drive.unit,
-                    number(*without),
-                    drive.unit
-                )
+            let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
+                let unit = report.units.of(drive.unit);
+                let (with, without) = (unit.show(*with), unit.show(*without));
+                format!("{} needs {with} instead of {without} without friction", drive.name)
             };
             let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
             let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
@@ -114,16 +110,7 @@ impl Page<'_, DriveReport> {
         if let Some(title) = &report.title {
             self.headline(title);
         }
-        let state = report.state.iter().map(|coordinate| {
-            format!(
-                "{} = {} {}, rate {} {}/s",
-                coordinate.name,
-                number(coordinate.value),
-                coordinate.unit,
-                number(coordinate.rate),
-                coordinate.unit
-            )
-        });
+        let state = report.state.iter().map(|coordinate| coordinate.in_words(&report.units));
         self.line(&state.collect::<Vec<_>>().join("; "));
         self.line("");
         for sentence in &report.conclusion {
@@ -136,12 +123,13 @@ impl Page<'_, DriveReport> {
         self.headline(moving(direction.direction));
         let mut header = vec!["signs".to_owned(), "elastic guides".to_owned()];
         header.extend(self.effort_titles());
-        header.extend(["power in W", "efficiency", "contact mode"].map(str::to_owned));
+        let power = self.report.units.of("W").title("power");
+        header.extend([power, "efficiency".to_owned(), "contact mode".to_owned()]);
         let frictionless = &direction.frictionless;
-        let mut rows = vec![row(["without friction", ""], &frictionless.efforts, frictionless.power)];
+        let mut rows = vec![self.row(["without friction", ""], &frictionless.efforts, frictionless.power)];
         rows[0].extend([String::new(), String::new()]);
         for solution in &direction.solutions {
-            let mut one = row(
+            let mut one = self.row(
                 [&spaced(&solution.pattern), verdict(solution.attainability)],
                 &solution.efforts,
                 solution.power,
@@ -155,7 +143,20 @@ impl Page<'_, DriveReport> {
     }
 
     fn effort_titles(&self) -> Vec<String> {
-        self.report.drives.iter().map(|drive| format!("{} in {}", drive.name, drive.unit)).collect()
+        let title = |drive: &DriveName| self.report.units.of(drive.unit).title(&drive.name);
+        self.report.drives.iter().map(title).collect()
+    }
+
+    /// The units of the efforts.
+    fn effort_units(&self) -> Vec<Unit> {
+        self.report.drives.iter().map(|drive| self.report.units.of(drive.unit)).collect()
+    }
+
+    fn row(&self, [signs, verdict]: [&str; 2], efforts: &[f64], power: f64) -> Vec<String> {
+        let mut row = vec![signs.to_owned(), verdict.to_owned()];
+        row.extend(efforts.iter().zip(self.effort_units()).map(|(effort, unit)| unit.number(*effort)));
+        row.push(self.report.units.of("W").number(power));
+        row
     }
 
     fn course(&mut self, course: &Course) {
@@ -165,16 +166,11 @@ impl Page<'_, DriveReport> {
             self.lines(&self.course_table(course, direction));
             for blow_up in &direction.blow_ups {
                 let told = without_bound(self.report, blow_up);
-                let unit = if course.vary.unit.is_empty() { "" } else { " " };
-                self.line(&format!(
-                    "  At {} = {}{unit}{} {told}.",
-                    course.vary.name,
-                    precise(blow_up.at),
-                    course.vary.unit
-                ));
+                let at = course.vary.shown_in.precise(blow_up.at);
+                self.line(&format!("  At {} = {at} {told}.", course.vary.name));
             }
             for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
-                self.line(&no_answer([*from, *to], reason));
+                self.line(&no_answer([*from, *to], &course.vary.shown_in, reason));
             }
         }
         self.line("");
@@ -182,43 +178,37 @@ impl Page<'_, DriveReport> {
     }
 
     fn course_table(&self, course: &Course, direction: &CourseDirection) -> String {
-        let name = match course.vary.unit.as_str() {
-            "" => course.vary.name.clone(),
-            unit => format!("{} in {unit}", course.vary.name),
-        };
-        let mut header = vec![name, "signs".to_owned()];
+        let mut header = vec![course.vary.shown_in.title(&course.vary.name), "signs".to_owned()];
         header.extend(self.effort_titles());
         header.extend(self.report.drives.iter().map(|drive| format!("{} without friction", drive.name)));
         header.push("efficiency".to_owned());
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let rows: Vec<Vec<String>> =
-            direction.rows.iter().map(|row| course_row(row, self.report.drives.len())).collect();
+        let units = self.effort_units();
+        let row = |row: &CourseRow| course_row(row, &course.vary.shown_in, &units);
+        let rows: Vec<Vec<String>> = direction.rows.iter().map(row).collect();
         table(&header, &rows, 0)
     }
 }
 
-fn row([signs, verdict]: [&str; 2], efforts: &[f64], power: f64) -> Vec<String> {
-    let mut row = vec![signs.to_owned(), verdict.to_owned()];
-    row.extend(efforts.iter().chain([&power]).copied().map(number));
-    row
-}
-
-fn course_row(row: &CourseRow, drives: usize) -> Vec<String> {
-    let mut cells = vec![precise(row.at)];
+fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
+    let mut cells = vec![shown_in.precise_number(row.at)];
     cells.push(match (&row.pattern, &row.frictionless) {
         (Some(pattern), _) => spaced(pattern),
         (None, Some(_)) => "no solution".to_owned(),
         (None, None) => "no position".to_owned(),
     });
-    cells.extend((0..drives).map(|drive| match (&row.efforts, row.grows.get(drive)) {
-        (Some(efforts), _) => number(efforts[drive]),
+    let drives = || units.iter().enumerate();
+    cells.extend(drives().map(|(drive, unit)| match (&row.efforts, row.grows.get(drive)) {
+        (Some(efforts), _) => unit.number(efforts[drive]),
         (None, Some(1)) => "without bound".to_owned(),
         (None, Some(-1)) => "-without bound".to_owned(),
         _ => String::new(),
     }));
-    let frictionless =
-        |drive: usize| row.frictionless.as_ref().map_or(String::new(), |all| number(all[drive]));
-    cells.extend((0..drives).map(frictionless));
+    cells.extend(
+        drives().map(|(drive, unit)| {
+            row.frictionless.as_ref().map_or(String::new(), |all| unit.number(all[drive]))
+        }),
+    );
     cells.push(row.efficiency.map_or(String::new(), share));
     cells
 }

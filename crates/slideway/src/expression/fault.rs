@@ -207,6 +207,9 @@ pub enum ExpressionFaultKind {
     /// The exponents of the dimension leave the range from -128 to 127.
     #[error("the exponents of the dimension are too large")]
     DimensionTooLarge,
+    /// Three dots where two stand between the ends of a range.
+    #[error("a range has two dots between its ends, not three")]
+    ThreeDots,
     /// A division by zero.
     #[error("division by zero: {numerator} / 0")]
     DivisionByZero {

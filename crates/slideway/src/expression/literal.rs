@@ -8,7 +8,7 @@ use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::inference::whole_exponent;
 use super::lexer::{TokenKind, tokens};
 use super::parser::{Parser, Read};
-use super::unit::{self, Scale, UNITS, Unit};
+use super::unit::{self, Scale, UNITS, Unit, WrittenUnit};
 use super::{names::is_reserved, nearest_names};
 use crate::interval::Interval;
 
@@ -23,14 +23,22 @@ enum Joint {
 /// The most units proposed in place of an unknown one.
 const MAX_PROPOSALS: usize = 3;
 
-/// The value in SI units of a unit that stands by itself, such as `mm` or `N/m`; none for a text that is no
-/// unit.
-pub(crate) fn unit_in_si(text: &str) -> Option<f64> {
+/// A unit that stands by itself, such as `mm` or `N/m`; nothing for a text that is none.
+pub(crate) fn written_unit(text: &str) -> Option<WrittenUnit> {
     let names = Names::new();
     let mut parser = Parser::new(text, tokens(text).ok()?, &names);
-    let scale = parser.unit(&mut (0..0)).ok()??;
-    let is_whole = parser.faults.is_empty() && parser.peek(0).is_none();
-    is_whole.then(|| scale.in_si(1.0))
+    let unit = parser.unit(&mut (0..0)).ok()??;
+    let is_unit = !unit.is_none() && parser.faults.is_empty() && parser.peek(0).is_none();
+    is_unit.then_some(unit)
+}
+
+/// The units behind the numbers of an expression, in the order of the text; none of a text that cannot be
+/// read.
+pub(crate) fn written_units(text: &str, names: &Names) -> Vec<WrittenUnit> {
+    let Ok(tokens) = tokens(text) else { return Vec::new() };
+    let mut parser = Parser::new(text, tokens, names);
+    let is_read = parser.whole().is_ok() && parser.faults.is_empty();
+    if is_read { parser.units } else { Vec::new() }
 }
 
 impl<'t> Parser<'t> {
@@ -41,26 +49,27 @@ impl<'t> Parser<'t> {
             self.number(number, enclosure, Inferred::Number, span.clone());
             return Ok(span);
         }
-        if let Some(scale) = self.unit(&mut span)? {
-            let enclosure = scale.enclosed_in_si(enclosure);
-            self.quantity(scale.in_si(number), enclosure, scale, span.clone());
+        if let Some(unit) = self.unit(&mut span)? {
+            let enclosure = unit.scale.enclosed_in_si(enclosure);
+            self.quantity(unit.scale.in_si(number), enclosure, unit.scale, span.clone());
+            self.units.push(unit);
         }
         Ok(span)
     }
 
     /// The unit behind what was read, whose place grows by that of the unit; none if there is something wrong
     /// with it.
-    fn unit(&mut self, span: &mut Range<usize>) -> Result<Option<Scale>, ExpressionFault> {
-        let mut scale = Some(Scale::ONE);
+    fn unit(&mut self, span: &mut Range<usize>) -> Result<Option<WrittenUnit>, ExpressionFault> {
+        let mut written = Some(WrittenUnit::NONE);
         while let Some((joint, name)) = self.joint() {
             let factor = self.factor(joint, name, span)?;
             span.end = self.previous_end();
-            scale = scale.zip(factor).and_then(|(scale, (unit, exponent))| {
-                let scaled = scale.times(unit, exponent);
-                scaled.map_err(|kind| self.faults.push(ExpressionFault::new(kind, span.clone()))).ok()
+            written = written.zip(factor).and_then(|(written, (unit, exponent))| {
+                let longer = written.times(unit, exponent);
+                longer.map_err(|kind| self.faults.push(ExpressionFault::new(kind, span.clone()))).ok()
             });
         }
-        Ok(scale)
+        Ok(written)
     }
 
     fn quantity(&mut self, value: f64, enclosure: Interval, scale: Scale, span: Range<usize>) {

@@ -67,6 +67,8 @@ pub(super) struct Parser<'t> {
     pub(super) program: Expression,
     /// Faults that reading goes on after.
     pub(super) faults: Vec<ExpressionFault>,
+    /// The units behind numbers so far.
+    pub(super) units: Vec<unit::WrittenUnit>,
     depth: usize,
 }
 
@@ -90,7 +92,7 @@ fn infix(kind: TokenKind<'_>) -> Option<(Binary, u8, u8)> {
 impl<'t> Parser<'t> {
     pub(super) fn new(text: &'t str, tokens: Vec<Token<'t>>, names: &'t Names) -> Self {
         let program = Expression::default();
-        Self { text, tokens, next: 0, names, program, faults: Vec::new(), depth: 0 }
+        Self { text, tokens, next: 0, names, program, faults: Vec::new(), units: Vec::new(), depth: 0 }
     }
 
     pub(super) fn peek(&self, ahead: usize) -> Option<TokenKind<'t>> {
@@ -121,7 +123,7 @@ impl<'t> Parser<'t> {
         ExpressionFault::new(kind, self.span())
     }
 
-    fn whole(&mut self) -> Read {
+    pub(super) fn whole(&mut self) -> Read {
         let span = self.expression(SUM)?;
         match self.peek(0) {
             None => Ok(span),

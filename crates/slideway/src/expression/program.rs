@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::decimal;
-use super::dimension::Inferred;
+use super::dimension::{Dimension, Inferred};
 use super::function::{Binary, Unary};
 use super::names::Symbol;
 use super::table::Table;
@@ -121,6 +121,33 @@ impl Expression {
     pub(crate) fn only_symbol(&self) -> Option<Symbol> {
         match self.steps() {
             [Step { operation: Operation::Symbol(symbol), .. }] => Some(*symbol),
+            _ => None,
+        }
+    }
+
+    /// The number, if it is nothing else, or its opposite, and has no unit.
+    pub(crate) fn bare_number(&self) -> Option<f64> {
+        self.typed_number().filter(|(_, inferred)| *inferred == Inferred::Number).map(|(value, _)| value)
+    }
+
+    /// The number, if it is nothing else, or its opposite, and has this dimension: by its unit, or as a bare
+    /// number where that is wanted.
+    pub(crate) fn only_number(&self, dimension: Dimension, wanted: Option<Dimension>) -> Option<f64> {
+        let (value, inferred) = self.typed_number()?;
+        let is_one = match inferred {
+            Inferred::Known(known) => known == dimension,
+            _ => wanted == Some(dimension),
+        };
+        is_one.then_some(value)
+    }
+
+    fn typed_number(&self) -> Option<(f64, Inferred)> {
+        match self.steps() {
+            [Step { operation: Operation::Number { value, inferred, .. }, .. }] => Some((*value, *inferred)),
+            [
+                Step { operation: Operation::Number { value, inferred, .. }, .. },
+                Step { operation: Operation::Unary(Unary::Negate), .. },
+            ] => Some((-value, *inferred)),
             _ => None,
         }
     }

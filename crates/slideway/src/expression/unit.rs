@@ -132,3 +132,75 @@ impl Scale {
         self.dimension
     }
 }
+
+/// A unit as it stands behind a number: a product of powers of units.
+#[derive(Clone, Debug)]
+pub(crate) struct WrittenUnit {
+    pub(super) scale: Scale,
+    factors: Vec<(&'static Unit, i8)>,
+}
+
+impl WrittenUnit {
+    /// That of a pure number.
+    pub(super) const NONE: Self = Self { scale: Scale::ONE, factors: Vec::new() };
+
+    /// Whether there is no unit.
+    pub(super) fn is_none(&self) -> bool {
+        self.factors.is_empty()
+    }
+
+    /// This unit times `unit^exponent`; faults as those of [`Scale::times`].
+    pub(super) fn times(mut self, unit: &'static Unit, exponent: i8) -> Result<Self, ExpressionFaultKind> {
+        self.factors.push((unit, exponent));
+        Ok(Self { scale: self.scale.times(unit, exponent)?, ..self })
+    }
+
+    /// Its name in one way of writing: "N m", "m/s^2".
+    pub(crate) fn name(&self) -> String {
+        let mut name = String::new();
+        for (unit, exponent) in &self.factors {
+            let joint = match (name.is_empty(), *exponent < 0) {
+                (true, false) => "",
+                (true, true) => "1/",
+                (false, false) => " ",
+                (false, true) => "/",
+            };
+            let power = match exponent.unsigned_abs() {
+                1 => String::new(),
+                power => format!("^{power}"),
+            };
+            name += &format!("{joint}{}{power}", if unit.name == "\u{b0}" { "deg" } else { unit.name });
+        }
+        name
+    }
+
+    /// Its value in SI units, as a quotient of numbers that are exact for decimal units.
+    pub(crate) fn in_si(&self) -> [f64; 2] {
+        [self.scale.numerator, self.scale.denominator]
+    }
+
+    /// What it measures.
+    pub(crate) fn dimension(&self) -> Dimension {
+        self.scale.dimension
+    }
+
+    /// The SI unit of which it is a multiple. An angle, which has no dimension, is told from a pure number,
+    /// and an energy from a torque.
+    pub(crate) fn si(&self) -> String {
+        let exponent = |is: fn(&Unit) -> bool| -> i8 {
+            self.factors.iter().filter(|(unit, _)| is(unit)).map(|(_, exponent)| *exponent).sum()
+        };
+        let angle = exponent(|unit| matches!(unit.name, "rad" | "mrad" | "deg" | "\u{b0}" | "rpm"));
+        let energy = exponent(|unit| matches!(unit.name, "J" | "kJ"));
+        let name = match (self.dimension(), angle) {
+            (Dimension::ANGLE, 1) => "rad",
+            (Dimension::ANGULAR_VELOCITY, 1) => "rad/s",
+            (Dimension::ANGULAR_ACCELERATION, 1) => "rad/s^2",
+            (Dimension::TORSIONAL_STIFFNESS, -1) => "N m/rad",
+            (Dimension::TORSIONAL_DAMPING, -1) => "N m s/rad",
+            (Dimension::TORQUE, 0) if energy == 1 => "J",
+            (dimension, _) => return dimension.unit(),
+        };
+        name.to_owned()
+    }
+}

@@ -9,6 +9,8 @@ use super::Faults;
 pub enum AxisProblem {
     #[error("it is not of the form NAME=VALUES")]
     Malformed,
+    #[error("there are three dots in its range")]
+    ThreeDots,
     #[error("it does not say how many values there are")]
     NoCount,
     #[error("`{text}` is not a number of values (2 or more)")]
@@ -57,6 +59,7 @@ impl AxisProblem {
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::Malformed => "for instance `mu=0..0.8:801`, `mu=0.1,0.2,0.5` or `mu=normal(0.3, 0.05)`",
+            Self::ThreeDots => "two dots stand between the ends of a range: FROM..TO",
             Self::NoCount => "write it after the range, for instance `mu=0..0.8:801`",
             Self::Spacing { .. } => "evenly spaced values are usual; `:log` spaces them logarithmically",
             Self::Empty { .. } => "for one value write NAME=VALUE",

@@ -5,7 +5,7 @@ use super::find::find;
 use super::found::ModesFound;
 use super::options::LimitsOptions;
 use super::report::LimitsReport;
-use super::varied::{ShownIn, Varied};
+use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::Model;
 use crate::progress::Work;
@@ -19,7 +19,6 @@ const USUAL_FRICTION: f64 = 1.0;
 pub(super) struct Analysis {
     pub(super) varied: Varied,
     pub(super) range: [f64; 2],
-    pub(super) shown_in: ShownIn,
     pub(super) found: ModesFound,
     pub(super) reversed: Option<(Varied, ModesFound)>,
 }
@@ -27,8 +26,7 @@ pub(super) struct Analysis {
 impl Analysis {
     pub(super) fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
         let vary = &options.vary;
-        let varied = Varied::new(model, &vary.name)?;
-        let shown_in = vary.shown_in(&varied);
+        let varied = vary.of(model)?;
         let range = vary.ends(&varied, || usual_range(model, &varied))?;
         let directions = 1 + usize::from(options.both_directions);
         let find = |varied: &Varied, part: usize| {
@@ -37,13 +35,13 @@ impl Analysis {
         };
         let found = find(&varied, 0)?;
         let reversed = if options.both_directions {
-            let varied = Varied::new(&model.reversed(), &vary.name)?;
+            let varied = vary.of(&model.reversed())?;
             let found = find(&varied, 1)?;
             Some((varied, found))
         } else {
             None
         };
-        Ok(Self { varied, range, shown_in, found, reversed })
+        Ok(Self { varied, range, found, reversed })
     }
 
     pub(super) fn report(&self, naming: &Naming) -> LimitsReport {

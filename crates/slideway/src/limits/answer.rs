@@ -20,7 +20,8 @@ use crate::solve::{mode_in_words, pattern, signs};
 
 impl VariedQuantity {
     pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
-        Self { name: varied.name.clone(), unit: varied.unit(), from, to, value }
+        let (name, shown_in) = (varied.name.clone(), varied.shown_in.clone());
+        Self { name, unit: varied.unit(), from, to, value, shown_in }
     }
 }
 
@@ -153,9 +154,9 @@ pub(super) fn report(
     let forwards = naming.direction(found);
     let reversed = reversed.map(|found| naming.direction(found));
     let locked = locked(varied.model().has_guided_sliders());
-    let conclusion = conclusion((&varied.name, found.method), locked, &forwards, reversed.as_ref());
+    let conclusion = conclusion((varied, found.method), locked, &forwards, reversed.as_ref());
     let value = varied.present().unwrap_or_default();
-    let mut guarantee = guarantee(found);
+    let mut guarantee = guarantee(found, &varied.shown_in);
     if varied.is_coordinate() {
         guarantee += " Each position was followed from the drawing by steps that are proven to stay on its assembly branch.";
     }

@@ -2,12 +2,12 @@
 
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known};
-use crate::report::precise;
+use super::varied::Varied;
 
 /// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7); `locked` says
 /// what no solution means.
 pub(super) fn conclusion(
-    (name, method): (&str, Method),
+    (varied, method): (&Varied, Method),
     locked: &str,
     forwards: &Direction,
     reversed: Option<&Direction>,
@@ -23,10 +23,15 @@ pub(super) fn conclusion(
             _ => joined.push(piece),
         }
     }
-    let pieces = joined.into_iter().map(|piece| piece.sentence(name, method));
+    let pieces = joined.into_iter().map(|piece| piece.sentence(varied, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
-        let sentence =
-            |at: &f64| format!("At {name} = {} there is{way} a state in a preload gap.", precise(*at));
+        let sentence = |at: &f64| {
+            format!(
+                "At {} = {} there is{way} a state in a preload gap.",
+                varied.name,
+                varied.shown_in.precise(*at)
+            )
+        };
         direction.between_faces_at.iter().map(sentence).collect()
     };
     let other =
@@ -50,12 +55,12 @@ impl Piece {
             && (self.known == other.known || is_certain(self.known) && is_certain(other.known))
     }
 
-    fn sentence(&self, name: &str, method: Method) -> String {
+    fn sentence(&self, varied: &Varied, method: Method) -> String {
         let Self { from, to, ref verdict, known } = *self;
         let verdict = if known == Known::Undecided { "not decided" } else { verdict };
         let sampled = if known == Known::Sampled { " (sampled)" } else { "" };
         let same = if matches!(method, Method::Same { .. }) { ", the same in the whole range" } else { "" };
-        format!("{name} from {} to {}{same}: {verdict}{sampled}.", precise(from), precise(to))
+        format!("{}{same}: {verdict}{sampled}.", varied.shown_in.range(&varied.name, [from, to]))
     }
 }
 

@@ -5,7 +5,7 @@ use super::answer::Naming;
 use super::found::ModesFound;
 use super::options::LimitsOptions;
 use super::report::LimitsReport;
-use super::varied::{ShownIn, Varied};
+use super::varied::Varied;
 use crate::attainability::ElasticGuides;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -19,6 +19,7 @@ use crate::modes::{ContactState, Side};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
 use crate::solve::{Parts, ProblemData, Stages, friction, rougher};
+use crate::units::{Unit, Units};
 use nalgebra::DVector;
 
 /// Even steps in the interval of a mode.
@@ -74,7 +75,9 @@ pub struct Curves {
     /// What was computed.
     pub quantity: Quantity,
     /// In which unit values of what is varied are to be shown.
-    pub shown_in: ShownIn,
+    pub shown_in: Unit,
+    /// In which units the values of its series are to be shown.
+    pub units: Units,
     /// What the values of every point are.
     pub series: Vec<Series>,
     /// One curve for each of [`LimitsReport::modes`].
@@ -138,7 +141,8 @@ fn curves_of(
     let forwards = curves(&analysis.varied, &analysis.found);
     let reversed = analysis.reversed.as_ref().map(|(varied, found)| curves(varied, found));
     let report = finite(analysis.report(&naming))?;
-    Ok((report, Curves { quantity, shown_in: analysis.shown_in, series, forwards, reversed }))
+    let (shown_in, units) = (analysis.varied.shown_in, model.units.clone());
+    Ok((report, Curves { quantity, shown_in, units, series, forwards, reversed }))
 }
 
 fn series(mechanism: &Mechanism, quantity: Quantity) -> Result<Vec<Series>, Faults> {

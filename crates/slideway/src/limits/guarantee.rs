@@ -2,10 +2,10 @@
 
 use super::found::{Elsewhere, Method, ModesFound, SingleValues, left_out};
 use super::text::at_most;
-use crate::report::precise;
+use crate::units::Unit;
 
 /// How the ends were found, and how the numbers of solutions between them are known.
-pub(crate) fn guarantee(found: &ModesFound) -> String {
+pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
     let mut sentences = vec![match found.method {
         Method::ClosedForm => {
             "The mode problem depends linearly on it, so all ends are zeros of determinants.".to_owned()
@@ -16,12 +16,12 @@ pub(crate) fn guarantee(found: &ModesFound) -> String {
                 .to_owned()
         }
         Method::Bracketing => format!(
-            "{} values were tried, and changes between them were bisected to machine precision; ends closer to each other than {:.1e} are one.",
+            "{} values were tried, and changes between them were bisected to machine precision; ends closer to each other than {} are one.",
             found.tried.len(),
-            found.same_end
+            shown_in.with(&format!("{:.1e}", shown_in.number_of(found.same_end)))
         ),
     }];
-    sentences.extend(knowledge(found));
+    sentences.extend(knowledge(found, shown_in));
     let single = "States of a guided slider between its faces at single values alone, where its normal force passes through zero, are";
     match found.between_faces {
         SingleValues::Impossible => {}
@@ -42,7 +42,7 @@ pub(crate) fn guarantee(found: &ModesFound) -> String {
 }
 
 /// How the numbers of solutions are known.
-fn knowledge(found: &ModesFound) -> Option<String> {
+fn knowledge(found: &ModesFound, shown_in: &Unit) -> Option<String> {
     let known = found.known.iter().map(|known| known.elsewhere);
     let sampled =
         known.clone().filter_map(|one| if let Elsewhere::Sampled(by) = one { Some(by) } else { None });
@@ -61,7 +61,7 @@ fn knowledge(found: &ModesFound) -> Option<String> {
         return Some(if left_out > 0.0 {
             format!(
                 "The numbers of solutions are proven, except within {} of ends of modes{rounded}.",
-                at_most(left_out)
+                at_most(left_out, shown_in)
             )
         } else {
             "The numbers of solutions are proven for all values.".to_owned()
@@ -78,7 +78,7 @@ fn knowledge(found: &ModesFound) -> Option<String> {
     if spacing > 0.0 {
         parts.push(format!(
             "{they} were found at values up to {} apart: a mode that appears and disappears between two of them may be missed",
-            precise(spacing)
+            shown_in.precise(spacing)
         ));
     }
     if is_any(Elsewhere::Contradicted) {

@@ -56,7 +56,7 @@ pub use report::{
 };
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
-pub use varied::{FRICTION, ShownIn};
+pub use varied::FRICTION;
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
 

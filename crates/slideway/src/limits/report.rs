@@ -2,6 +2,7 @@
 
 use super::found::left_out;
 use crate::report::{JointMode, ModeEndCause};
+use crate::units::Unit;
 use serde::Serialize;
 
 /// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
@@ -72,6 +73,9 @@ pub struct VariedQuantity {
     pub to: f64,
     /// Its value in the model.
     pub value: f64,
+    /// The unit in which texts show it.
+    #[serde(skip)]
+    pub shown_in: Unit,
 }
 
 /// The modes of the opposite direction of motion.

@@ -5,7 +5,8 @@ use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{ModeEndCause, Report, Style, followed, precise, spaced};
+use crate::report::{ModeEndCause, Report, Style, followed, spaced};
+use crate::units::Unit;
 
 impl Report for LimitsReport {
     /// What it comes to, the modes, the numbers of solutions.
@@ -28,8 +29,8 @@ impl Page<'_, LimitsReport> {
             self.headline(title);
         }
         let vary = &report.vary;
-        let [from, to, value] = [vary.from, vary.to, vary.value].map(precise);
-        self.line(&format!("{} from {from} to {to} (in the model {value})", vary.name));
+        let range = vary.shown_in.range(&vary.name, [vary.from, vary.to]);
+        self.line(&format!("{range} (in the model {})", vary.shown_in.precise(vary.value)));
         if let Some(steps) = report.steps_from_drawing {
             self.line(&followed(steps));
         }
@@ -47,34 +48,37 @@ impl Page<'_, LimitsReport> {
     ) {
         self.line("");
         self.headline(&format!("Contact modes{which}"));
-        let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
-        self.lines(&table(&["signs", "from", "to", "begins with", "ends with", "contact mode"], &rows, 1));
+        let unit = &self.report.vary.shown_in;
+        let [from, to] = ["from", "to"].map(|end| unit.title(end));
+        let rows: Vec<Vec<String>> = modes.iter().map(|mode| mode_row(mode, unit)).collect();
+        self.lines(&table(&["signs", &from, &to, "begins with", "ends with", "contact mode"], &rows, 1));
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
-        let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
-        self.lines(&table(&["from", "to", "solutions", "preload gaps", "known"], &rows, 0));
+        let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
+        self.lines(&table(&[&from, &to, "solutions", "preload gaps", "known"], &rows, 0));
         for RangeWithoutProblem { from, to, reason } in gaps {
-            self.line(&no_answer([*from, *to], reason));
+            self.line(&no_answer([*from, *to], unit, reason));
         }
     }
 }
 
 /// Where there is no mode problem, and why.
-pub(crate) fn no_answer([from, to]: [f64; 2], reason: &str) -> String {
-    let place = match [from, to].map(precise) {
-        [from, to] if from == to => format!("At {from}"),
-        [from, to] => format!("From {from} to {to}"),
+pub(crate) fn no_answer([from, to]: [f64; 2], unit: &Unit, reason: &str) -> String {
+    let place = match [from, to].map(|end| unit.precise_number(end)) {
+        [from, to] if from == to => format!("At {}", unit.with(&from)),
+        [from, to] => format!("From {from} to {}", unit.with(&to)),
     };
     format!("  {place} there is no answer, which does not count as locking: {reason}.")
 }
 
-fn mode_row(mode: &ModeLimits) -> Vec<String> {
+fn mode_row(mode: &ModeLimits, unit: &Unit) -> Vec<String> {
+    let end = |at: Option<f64>| at.map_or("infinity".to_owned(), |at| unit.precise_number(at));
     let words: Vec<String> =
         mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
     vec![
         spaced(&mode.pattern),
-        mode.from.map_or("infinity".to_owned(), precise),
-        mode.to.map_or("infinity".to_owned(), precise),
+        end(mode.from),
+        end(mode.to),
         cause(mode.from_is, &mode.from_at, mode.reactions.iter().map(|r| (&*r.contact, r.from_grows))),
         cause(mode.to_is, &mode.to_at, mode.reactions.iter().map(|r| (&*r.contact, r.to_grows))),
         words.join("; "),
@@ -105,22 +109,23 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
     }
 }
 
-fn count_row(count: &CountLimits) -> Vec<String> {
+fn count_row(count: &CountLimits, unit: &Unit) -> Vec<String> {
     let gaps =
         if count.preload_gap_states == 0 { String::new() } else { count.preload_gap_states.to_string() };
-    vec![precise(count.from), precise(count.to), number(count.solutions as f64), gaps, known(count)]
+    let [from, to] = [count.from, count.to].map(|end| unit.precise_number(end));
+    vec![from, to, number(count.solutions as f64), gaps, known(count, unit)]
 }
 
 /// How numbers of solutions are known, in words.
-fn known(count: &CountLimits) -> String {
+fn known(count: &CountLimits, unit: &Unit) -> String {
     let rest = match (count.known, count.spacing) {
         (Known::Proven, _) => {
             let left_out = count.left_out();
-            let except = format!("proven except within {} of ends", at_most(left_out));
+            let except = format!("proven except within {} of ends", at_most(left_out, unit));
             return if left_out > 0.0 { except } else { "proven".to_owned() };
         }
         (Known::Undecided, _) => return "not decided".to_owned(),
-        (Known::Sampled, Some(spacing)) => format!("sampled every {}", number(spacing)),
+        (Known::Sampled, Some(spacing)) => format!("sampled every {}", unit.show(spacing)),
         _ => "closed form".to_owned(),
     };
     let length = |[from, to]: &[f64; 2]| to - from;
@@ -130,16 +135,18 @@ fn known(count: &CountLimits) -> String {
                 1 => String::new(),
                 many => format!(" and in {}", count_of(many - 1, "shorter interval", "shorter intervals")),
             };
-            format!("proven from {} to {}{further}, else {rest}", precise(*from), precise(*to))
+            format!("proven {}{further}, else {rest}", unit.range("", [*from, *to]).trim_start())
         }
         None => rest,
     }
 }
 
-/// A number with two digits, not less than it.
-pub(super) fn at_most(value: f64) -> String {
+/// A number with two digits, not less than it, in a unit.
+pub(super) fn at_most(value: f64, shown_in: &Unit) -> String {
+    let value = shown_in.number_of(value);
     let exponent = value.log10().floor();
     let unit = 10_f64.powf(exponent - 1.0);
     let rounded = (value / unit).ceil() * unit;
-    if (-4.0..6.0).contains(&exponent) { number(rounded) } else { format!("{rounded:.1e}") }
+    let text = if (-4.0..6.0).contains(&exponent) { number(rounded) } else { format!("{rounded:.1e}") };
+    shown_in.with(&text)
 }

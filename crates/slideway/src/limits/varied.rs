@@ -2,7 +2,7 @@
 
 use crate::configuration::Follower;
 use crate::enclosure::{UncertainParameters, enclosure};
-use crate::expression::{Degree, unit_in_si};
+use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
 use crate::mechanism::{Coordinate, Mechanism};
@@ -12,6 +12,7 @@ use crate::modes::search;
 use crate::progress::{Progress, Work};
 use crate::report::Solution;
 use crate::solve::{Parts, SolveOptions, Stages, certain_counts, states_between_faces};
+use crate::units::Unit;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -34,6 +35,8 @@ pub(crate) struct Varied {
     model: Model,
     pub(crate) name: String,
     kind: Kind,
+    /// The unit in which its values are shown.
+    pub(crate) shown_in: Unit,
     /// The stages that a factor of friction leaves as they are.
     stages: Option<Stages>,
     /// The positions at the last values.
@@ -53,7 +56,22 @@ impl Varied {
             _ => return Err(unknown(model, name)),
         };
         let stages = if kind == Kind::Friction { Some(Stages::new(model)?) } else { None };
-        Ok(Self { model: model.clone(), name: name.to_owned(), kind, stages, follower: Mutex::default() })
+        let shown_in = match kind {
+            Kind::Friction => Unit::default(),
+            Kind::Parameter => model.units.parameter(name, &model.parameter_unit(name)),
+            Kind::Coordinate => model.units.of(coordinate_unit(model, name)),
+        };
+        let (model, name, follower) = (model.clone(), name.to_owned(), Mutex::default());
+        Ok(Self { model, name, kind, shown_in, stages, follower })
+    }
+
+    /// The same, shown in the unit of both ends of a range as they were typed, if they have one.
+    pub(crate) fn typed_as(mut self, range: Option<&[Value; 2]>) -> Self {
+        let unit = range.and_then(|[from, to]| from.unit().filter(|unit| to.unit().as_ref() == Some(unit)));
+        if let Some(unit) = unit {
+            self.shown_in = self.model.units.typed_as(unit);
+        }
+        self
     }
 
     /// Whether all coefficients of friction are scaled together.
@@ -98,19 +116,14 @@ impl Varied {
     /// A value in SI units.
     ///
     /// # Errors
-    /// A text that is no quantity of the right dimension.
+    /// A text that is no quantity of the right dimension; the places are those of a setting.
     pub(crate) fn value_of(&self, value: &Value) -> Result<f64, Faults> {
         let kind = match self.kind {
             Kind::Friction => return self.factor(value),
             Kind::Parameter => SettingKind::Parameter,
             Kind::Coordinate => SettingKind::Position,
         };
-        // Its places are those of a setting, but the range is none.
-        let setting = Setting::new(kind, &self.name, value.clone());
-        self.model.setting_value(&setting).map_err(|faults| {
-            let text = setting.text();
-            Fault::general(FaultKind::Axis { text, problem: AxisProblem::of(&faults) }).into()
-        })
+        self.model.setting_value(&Setting::new(kind, &self.name, value.clone()))
     }
 
     /// A factor of friction: a plain number, not below zero.
@@ -207,30 +220,21 @@ impl Varied {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the
-    /// SI.
-    pub(crate) fn shown_in(&self, range: Option<[&Value; 2]>) -> ShownIn {
-        let [from, to] = range.map_or([""; 2], |ends| ends.map(unit_of));
-        let scale = if from == to && !from.is_empty() { unit_in_si(from) } else { None };
-        match scale {
-            Some(scale) if scale > 0.0 => ShownIn { unit: from.to_owned(), scale },
-            _ => ShownIn { unit: self.unit(), scale: 1.0 },
+    /// The unit in which the model has it, or things of its kind, if it was typed.
+    pub(crate) fn typed_unit(&self) -> Option<Unit> {
+        match self.kind {
+            Kind::Friction => None,
+            Kind::Parameter => self.model.units.typed_parameter(&self.name).cloned(),
+            Kind::Coordinate => self.model.units.typed(coordinate_unit(&self.model, &self.name)),
         }
     }
 
     /// The SI unit, empty for pure numbers.
     pub(crate) fn unit(&self) -> String {
-        let coordinate = self.model.coordinates.iter().find(|coordinate| *coordinate.name == *self.name);
-        match (self.kind, coordinate) {
-            (Kind::Friction, _) | (Kind::Coordinate, None) => String::new(),
-            (Kind::Coordinate, Some(coordinate)) => {
-                if coordinate.kind.is_angle() {
-                    "rad".to_owned()
-                } else {
-                    "m".to_owned()
-                }
-            }
-            (Kind::Parameter, _) => self.model.parameter_unit(&self.name),
+        match self.kind {
+            Kind::Friction => String::new(),
+            Kind::Parameter => self.model.parameter_unit(&self.name),
+            Kind::Coordinate => coordinate_unit(&self.model, &self.name).to_owned(),
         }
     }
 
@@ -315,22 +319,10 @@ pub(crate) fn mechanism_with(model: &Model, values: &[(&Varied, f64)]) -> Result
     Ok((mechanism, of_kind(Kind::Friction).map(|(_, factor)| factor).product()))
 }
 
-/// The unit in which values of what is varied are shown.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ShownIn {
-    /// Its name, empty for pure numbers.
-    pub unit: String,
-    /// The unit in SI units.
-    pub scale: f64,
-}
-
-/// What stands behind the number of a text.
-fn unit_of(value: &Value) -> &str {
-    let Value::Text(text) = value else { return "" };
-    let text = text.trim();
-    let number =
-        (0..=text.len()).rev().filter_map(|end| text.get(..end)).find(|start| start.parse::<f64>().is_ok());
-    number.map_or("", |number| text[number.len()..].trim())
+/// The SI unit of a coordinate.
+fn coordinate_unit(model: &Model, name: &str) -> &'static str {
+    let coordinate = model.coordinates.iter().find(|coordinate| *coordinate.name == *name);
+    coordinate.map_or("", |coordinate| if coordinate.kind.is_angle() { "rad" } else { "m" })
 }
 
 fn unknown(model: &Model, name: &str) -> Faults {

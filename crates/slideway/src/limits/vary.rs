@@ -1,11 +1,14 @@
 //! What is to be varied, and over which range.
 
-use super::varied::{ShownIn, Varied};
+use super::varied::Varied;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
-use crate::model::Value;
+use crate::model::{Model, Value};
 use std::fmt;
 use std::str::FromStr;
+
+/// Between the ends of a range.
+const TO: &str = "..";
 
 /// What is to be varied, and over which range: a parameter, a coordinate, or all coefficients of friction
 /// together ([`FRICTION`](super::FRICTION)).
@@ -48,9 +51,13 @@ impl Vary {
         varied: &Varied,
         usual: impl FnOnce() -> Result<[f64; 2], Faults>,
     ) -> Result<[f64; 2], Faults> {
-        let Some([from, to]) = &self.range else { return usual() };
-        let (what, fault) = (varied.in_words(), |kind| Faults::from(Fault::general(kind)));
-        let (from, to) = (varied.value_of(from)?, varied.value_of(to)?);
+        let Some([from, to]) = &self.range else {
+            return usual().map_err(|faults| faults.in_argument(&self.name, |_| 0..self.name.len()));
+        };
+        let (what, fault) = (varied.in_words(), |kind| Faults::from(self.fault(kind)));
+        let start = self.name.len() + 1;
+        let second = start + from.to_string().len() + TO.len();
+        let (from, to) = (self.end(varied, from, start)?, self.end(varied, to, second)?);
         if from.abs().max(to.abs()) > *MAGNITUDES.end() {
             return Err(fault(FaultKind::Overflow { quantity: format!("the range of {}", varied.name) }));
         }
@@ -67,9 +74,51 @@ impl Vary {
         Ok([from, to])
     }
 
-    /// The unit in which its values are shown.
-    pub(crate) fn shown_in(&self, varied: &Varied) -> ShownIn {
-        varied.shown_in(self.range.as_ref().map(|[from, to]| [from, to]))
+    /// It in a model.
+    ///
+    /// # Errors
+    /// As [`Varied::new`].
+    pub(crate) fn of(&self, model: &Model) -> Result<Varied, Faults> {
+        let varied = Varied::new(model, &self.name)
+            .map_err(|faults| faults.in_argument(&self.to_string(), |_| 0..self.name.len()))?;
+        Ok(varied.typed_as(self.range.as_ref()))
+    }
+
+    /// A warning for each end without a unit of what the model has in another unit than that of the SI.
+    pub fn warnings(&self, model: &Model) -> Faults {
+        let mut found = Faults::default();
+        let (Some([from, to]), Ok(varied)) = (&self.range, Varied::new(model, &self.name)) else {
+            return found;
+        };
+        let start = self.name.len() + 1;
+        let second = start + from.to_string().len() + TO.len();
+        for (end, start) in [(from, start), (to, second)] {
+            let doubt = end.without_unit(&self.name, varied.typed_unit());
+            let span = start..start + end.to_string().len();
+            found.extend(
+                doubt.map(|doubt| Fault::of_argument(FaultKind::Doubt(doubt), &self.to_string(), span)),
+            );
+        }
+        found
+    }
+
+    /// A fault of the range.
+    fn fault(&self, kind: FaultKind) -> Fault {
+        let text = self.to_string();
+        Fault::of_argument(kind, &text, (self.name.len() + 1).min(text.len())..text.len())
+    }
+
+    /// An end of the range, whose text begins at this byte of the argument.
+    fn end(&self, varied: &Varied, value: &Value, start: usize) -> Result<f64, Faults> {
+        let length = value.to_string().len();
+        // The text of a setting is NAME=VALUE.
+        let offset = start - (self.name.len() + 1);
+        varied.value_of(value).map_err(|faults| {
+            faults.in_argument(&self.to_string(), |place| match place {
+                Some(place) => place.start + offset..place.end + offset,
+                None => start..start + length,
+            })
+        })
     }
 }
 
@@ -80,11 +129,14 @@ impl FromStr for Vary {
     fn from_str(text: &str) -> Result<Self, Faults> {
         let Some((name, range)) = text.split_once('=') else { return Ok(Self::usual(text.trim())) };
         let name = name.trim();
-        let Some((from, to)) = range.split_once("..") else {
-            let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
-            return Err(Fault::general(kind).into());
-        };
-        Ok(Self::between(name, from.trim(), to.trim()))
+        match range.split_once(TO) {
+            // The end of `0...1` would be 0.1, which nobody means.
+            Some((from, to)) if !to.starts_with('.') => Ok(Self::between(name, from.trim(), to.trim())),
+            _ => {
+                let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
+                Err(Fault::of_argument(kind, text, text.len() - range.len()..text.len()).into())
+            }
+        }
     }
 }
 

@@ -29,7 +29,7 @@ pub use class::ClassMeaning;
 pub use report::{MapAxis, MapClass, MapReport, SCHEMA};
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{ShownIn, Varied, Vary};
+use crate::limits::{Varied, Vary};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -118,17 +118,16 @@ impl MapOptions {
 struct Axis {
     varied: Varied,
     range: [f64; 2],
-    shown_in: ShownIn,
 }
 
 impl Axis {
     fn new(model: &Model, vary: &Vary) -> Result<Self, Faults> {
-        let varied = Varied::new(model, &vary.name)?;
+        let varied = vary.of(model)?;
         let range = vary.ends(&varied, || {
             let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
             Err(Fault::general(kind).into())
         })?;
-        Ok(Self { shown_in: vary.shown_in(&varied), range, varied })
+        Ok(Self { range, varied })
     }
 
     /// The value in the middle of a pixel.

@@ -10,6 +10,7 @@ use crate::progress::Work;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::{Report, Style, indented, locked, precise, spaced};
+use crate::units::Unit;
 use serde::Serialize;
 
 /// Version of the layout of a [`MapReport`]; changes whenever a field is renamed or removed.
@@ -58,6 +59,9 @@ pub struct MapAxis {
     pub unit: String,
     /// That unit in SI units.
     pub scale: f64,
+    /// The same unit.
+    #[serde(skip)]
+    pub shown_in: Unit,
 }
 
 /// A class of points.
@@ -103,8 +107,8 @@ impl Report for MapReport {
             text.headline(title);
         }
         for axis in [&self.x, &self.y] {
-            let [from, to] = [axis.from, axis.to].map(|end| precise(end / axis.scale));
-            text.line(format!("{} from {from} to {to} {}", axis.name, axis.unit).trim_end());
+            let (from, to) = (axis.shown_in.precise_number(axis.from), axis.shown_in.precise(axis.to));
+            text.line(&format!("{} from {from} to {to}", axis.name));
         }
         text.line("");
         let pixels = (self.x.pixels * self.y.pixels) as f64;
@@ -165,8 +169,9 @@ pub(super) fn report(
         to: axis.range[1],
         value: axis.varied.present().unwrap_or_default(),
         pixels,
-        unit: axis.shown_in.unit.clone(),
-        scale: axis.shown_in.scale,
+        unit: axis.varied.shown_in.name().to_owned(),
+        scale: axis.varied.shown_in.scale(),
+        shown_in: axis.varied.shown_in.clone(),
     };
     MapReport {
         schema: SCHEMA,

@@ -42,6 +42,7 @@ impl<T: Real> Evaluation<'_, T> {
             drives: model.drives.iter().map(|drive| self.drive(drive)).collect(),
             coordinates,
             events: model.events.iter().map(|event| self.event(event)).collect(),
+            units: model.units.clone(),
             size: 1.0,
             parameters: model.parameter_values(&self.values),
             formulas: Arc::clone(&model.formulas),

@@ -12,6 +12,7 @@ use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind, Stop};
+use crate::units::Units;
 use evaluation::Evaluation;
 use nalgebra::Vector2;
 pub use pad::Pad;
@@ -44,6 +45,8 @@ pub struct Mechanism<T = f64> {
     pub coordinates: Vec<Coordinate<T>>,
     /// What a motion is watched for.
     pub events: Vec<EventDefinition<T>>,
+    /// The units in which its numbers are shown.
+    pub units: Units,
     /// The diagonal of the rectangle around its points (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
     parameters: Vec<T>,

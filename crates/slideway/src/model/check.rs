@@ -95,9 +95,12 @@ impl Model {
         self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
     }
 
-    /// The SI unit of a parameter: empty for pure numbers and where its dimension does not follow from the
-    /// model.
+    /// The SI unit of a parameter: empty for pure numbers, for angles that were typed without a unit, and where
+    /// its dimension does not follow from the model.
     pub fn parameter_unit(&self, parameter: &str) -> String {
+        if let Some(unit) = self.units.typed_parameter(parameter) {
+            return unit.si().to_owned();
+        }
         let index = self.parameters.iter().position(|other| &*other.name == parameter);
         index.and_then(|index| self.parameter_dimension(index)).map_or_else(String::new, Dimension::unit)
     }

@@ -34,7 +34,7 @@
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
 //! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
 //! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `value.rs` is what is
-//! given, `settings.rs` applies changes.
+//! given, `settings.rs` applies changes, `typed.rs` tells in which units a file was typed.
 
 mod check;
 mod dependence;
@@ -49,6 +49,7 @@ mod sections;
 mod settings;
 mod stop;
 mod structure;
+mod typed;
 mod value;
 
 pub(crate) use dependence::Dependence;
@@ -61,6 +62,7 @@ pub use value::Value;
 
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
+use crate::units::{UnitSystem, Units};
 use std::sync::Arc;
 
 /// Largest model file that is read, in bytes.
@@ -94,6 +96,10 @@ pub struct Model {
     pub events: Vec<EventDefinition>,
     /// Every formula of the model.
     pub formulas: Arc<Vec<Formula>>,
+    /// The units in which its numbers are shown.
+    pub units: Units,
+    /// What was perhaps not meant in the settings that were applied.
+    pub(crate) doubts: Vec<Fault>,
     /// The parameters in an order in which each uses only those before it.
     evaluation_order: Vec<usize>,
 }
@@ -481,6 +487,12 @@ impl Model {
                 Err(Fault::new(kind, Place::model(offset..offset + 1)).into())
             }
         }
+    }
+
+    /// The model with its numbers shown in these units.
+    #[must_use]
+    pub fn with_units(self, system: UnitSystem) -> Self {
+        Self { units: self.units.in_system(system), ..self }
     }
 
     /// The formula with this number.

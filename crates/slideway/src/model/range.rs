@@ -1,12 +1,13 @@
 //! Parameters that are only known within bounds: `mu = "0.1..0.15"`.
 
 use super::{Model, Parameter};
-use crate::expression::{Expression, ExpressionFault, Names, Values, parse};
+use crate::expression::{Expression, ExpressionFault, ExpressionFaultKind, Names, Values, parse};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Interval;
+use crate::units::Unit;
 
 /// What separates the ends of a range.
-const TO: &str = "..";
+pub(super) const TO: &str = "..";
 
 /// A parameter that is known within bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +20,8 @@ pub struct ParameterRange {
     pub to: f64,
     /// The value that counts where one is needed: the middle.
     pub middle: f64,
+    /// The unit in which texts show it.
+    pub shown_in: Unit,
 }
 
 impl ParameterRange {
@@ -37,6 +40,10 @@ pub(super) type Parsed = (Expression, Option<Box<[Expression; 2]>>);
 /// The faults of the expressions, with places in the whole text.
 pub(super) fn parse_value(text: &str, names: &Names) -> Result<Parsed, Vec<ExpressionFault>> {
     let Some((from, to)) = text.split_once(TO) else { return Ok((parse(text, names)?, None)) };
+    if to.starts_with('.') {
+        let dots = from.len()..from.len() + TO.len() + 1;
+        return Err(vec![ExpressionFault { kind: ExpressionFaultKind::ThreeDots, span: dots }]);
+    }
     let start = from.len() + TO.len();
     let ends = [(from, 0), (to, start)].map(|(end, offset)| {
         parse(end, names).map_err(|mut faults| {
@@ -67,7 +74,9 @@ impl Model {
         let values = self.parameter_values(&self.constants()?);
         let ranges = self.parameters.iter().zip(&values).filter_map(|(parameter, &middle)| {
             let [from, to] = self.range_ends(parameter, &values)?.ok()?;
-            Some(ParameterRange { name: parameter.name.to_string(), from, to, middle })
+            let name = parameter.name.to_string();
+            let shown_in = self.units.parameter(&name, &self.parameter_unit(&name));
+            Some(ParameterRange { name, from, to, middle, shown_in })
         });
         Ok(ranges.collect())
     }

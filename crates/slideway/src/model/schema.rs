@@ -6,6 +6,7 @@
 use super::file::{BodyTable, CoordinateTable, DriveTable, EventTable, TableTable};
 use super::quantity::{Components, Direction, Gravity, Name, PerSide, Place, Quantity, Sides};
 use super::sections::{JointContents, LoadContents};
+use crate::units::UnitSystem;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -25,6 +26,8 @@ struct ModelFile {
     gravity: Option<Gravity>,
     /// Time of the state, `t` in expressions (s). Default: 0.
     time: Option<Quantity>,
+    /// In which units numbers are shown to people; `--units` overrides it. Default: "as-typed".
+    units: Option<UnitSystem>,
     /// Named numbers that any expression may use and that `--set name=value` overrides.
     parameters: Option<BTreeMap<String, Quantity>>,
     /// Functions given by values, which expressions may call: `push(t)` for `[tables.push]`.

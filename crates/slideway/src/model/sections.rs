@@ -10,6 +10,7 @@ use super::quantity::{Components, Gravity, Name, Quantity};
 use super::structure::StructureCheck;
 use crate::expression::ExpressionFaultKind;
 use crate::fault::{Fault, FaultKind, Faults, Place};
+use crate::units::UnitSystem;
 use serde::de::DeserializeOwned;
 use std::sync::OnceLock;
 use toml::Spanned;
@@ -20,6 +21,7 @@ pub(super) struct Sections {
     pub(super) title: Option<Name>,
     pub(super) gravity: Option<Gravity>,
     pub(super) time: Option<Quantity>,
+    pub(super) units: Option<UnitSystem>,
     pub(super) parameters: Vec<Entry<Quantity>>,
     pub(super) tables: Vec<Entry<TableTable>>,
     pub(super) points: Vec<Entry<Components>>,
@@ -77,6 +79,7 @@ pub(super) fn sections(text: &str) -> (Sections, Faults) {
         title: reader.single(&mut root, "title"),
         gravity: reader.single(&mut root, "gravity"),
         time: reader.single(&mut root, "time"),
+        units: reader.single(&mut root, "units"),
         parameters: reader.section(&mut root, "parameters", deserialize),
         tables: reader.section(&mut root, "tables", deserialize),
         points: reader.section(&mut root, "points", deserialize),

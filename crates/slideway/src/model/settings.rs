@@ -102,6 +102,7 @@ impl Model {
     pub fn with(&self, settings: &Settings) -> Result<Self, Faults> {
         let mut model = self.clone();
         let mut faults = Faults::default();
+        model.doubts.extend(self.bare_settings(settings));
         for (index, setting) in settings.entries().iter().enumerate() {
             if let Err(fault) = model.change(setting, Source::Setting(index)) {
                 faults.append(fault);
@@ -123,6 +124,36 @@ impl Model {
         model
     }
 
+    /// The warnings of settings, which may be the reason for their faults: numbers that are typed without a
+    /// unit where the model has another one than that of the SI.
+    pub fn warnings_of(&self, settings: &Settings) -> Faults {
+        let mut found = Faults::default();
+        found.extend(self.bare_settings(settings));
+        found
+    }
+
+    fn bare_settings(&self, settings: &Settings) -> Vec<Fault> {
+        let numbered = settings.entries().iter().enumerate();
+        numbered.filter_map(|(index, setting)| self.bare_setting(setting, Source::Setting(index))).collect()
+    }
+
+    fn bare_setting(&self, setting: &Setting, source: Source) -> Option<Fault> {
+        let coordinate = || self.coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
+        let unit = match setting.kind {
+            SettingKind::Parameter => self.units.typed_parameter(&setting.name).cloned(),
+            SettingKind::Position => {
+                self.units.typed(if coordinate()?.kind.is_angle() { "rad" } else { "m" })
+            }
+            SettingKind::Rate => {
+                self.units.typed(if coordinate()?.kind.is_angle() { "rad/s" } else { "m/s" })
+            }
+            SettingKind::Time => self.units.typed("s"),
+        };
+        let doubt = setting.value.without_unit(&setting.name, unit)?;
+        let place = Place { source, span: setting.name.len() + 1..setting.text().len() };
+        Some(Fault::new(FaultKind::Doubt(doubt), place))
+    }
+
     fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {
         let name = setting.name.as_str();
         match setting.kind {
@@ -138,6 +169,9 @@ impl Model {
                 let old = self.parameter_dimension(index);
                 let formula = self.setting_formula(setting, source, old)?;
                 self.replace_formula(Some(self.parameters[index].value), formula);
+                if let Some(unit) = setting.value.unit() {
+                    self.units = std::mem::take(&mut self.units).with_parameter(name, unit);
+                }
             }
             SettingKind::Position | SettingKind::Rate => {
                 let Some(index) = self.coordinates.iter().position(|c| c.name.as_ref() == name) else {

@@ -8,20 +8,21 @@ mod csv;
 mod end;
 mod finite;
 mod json;
-pub(crate) mod number;
 pub(crate) mod page;
 pub(crate) mod table;
 mod text;
 
+pub(crate) use crate::units::number;
+pub use crate::units::precise;
 pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
-pub use number::precise;
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
+use crate::units::{Unit, Units};
 use serde::Serialize;
 pub use slideway_modes::{Proof, Status};
 
@@ -137,6 +138,9 @@ pub struct ModelSummary {
     pub contacts: usize,
     /// Number of drives.
     pub drives: usize,
+    /// The units in which texts show its numbers.
+    #[serde(skip)]
+    pub units: Units,
 }
 
 /// A chosen coordinate in the state.
@@ -151,6 +155,14 @@ pub struct CoordinateState {
     pub value: f64,
     /// Its rate.
     pub rate: f64,
+}
+
+impl CoordinateState {
+    /// "phi = 30 deg, rate 1 rad/s"
+    pub(crate) fn in_words(&self, units: &Units) -> String {
+        let (value, rate) = (units.of(self.unit).show(self.value), units.of_rate(self.unit).show(self.rate));
+        format!("{} = {value}, rate {rate}", self.name)
+    }
 }
 
 /// How many patterns had which outcome; all but `rejected` and the gap states add up to `total`.
@@ -355,6 +367,9 @@ pub struct UncertainParameter {
     pub to: f64,
     /// The value for which the rest of the report holds: the middle.
     pub value: f64,
+    /// The unit in which texts show it.
+    #[serde(skip)]
+    pub shown_in: Unit,
 }
 
 /// A mode that exists for some values of the uncertain parameters, or perhaps does.

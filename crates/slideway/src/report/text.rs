@@ -1,12 +1,13 @@
 //! The report as text for people: words first, then aligned numbers.
 
-use super::number::{against, number};
+use super::number::number;
 use super::page::Page;
 use super::table::table;
 use super::{
     CertificateKind, ClosestMode, Contact, JointMode, ModeEndCause, ModeMargin, PatternSummary, Persistence,
     Report, Solution, SolveReport, Status, UncertainMode,
 };
+use crate::units::{Unit, Units};
 use std::fmt::Write;
 
 /// Whether the text may use colours.
@@ -61,13 +62,7 @@ impl Text<'_> {
         }
         self.line(&parts.join(", "));
         for state in &self.report.state {
-            self.line(&format!(
-                "{} = {} {unit}, rate {} {unit}/s",
-                state.name,
-                number(state.value),
-                number(state.rate),
-                unit = state.unit
-            ));
+            self.line(&state.in_words(&self.report.model.units));
         }
         if self.report.time != 0.0 {
             self.line(&format!("t = {} s", number(self.report.time)));
@@ -151,7 +146,7 @@ impl Text<'_> {
         self.modes(&solution.joints);
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
-        let contacts = contact_table(&solution.contacts);
+        let contacts = contact_table(&solution.contacts, &self.report.model.units);
         self.lines(&contacts);
         self.line("");
         let motion = motion_table(self.report, solution);
@@ -244,7 +239,7 @@ impl Text<'_> {
         let ranges: Vec<String> = uncertainty
             .parameters
             .iter()
-            .map(|range| format!("{} from {} to {}", range.name, number(range.from), number(range.to)))
+            .map(|range| range.shown_in.range(&range.name, [range.from, range.to]))
             .collect();
         self.headline(&format!("For {}", ranges.join(", ")));
         let least = uncertainty.least_solutions;
@@ -261,11 +256,12 @@ impl Text<'_> {
         }
         let rows: Vec<Vec<String>> =
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
-        self.lines(&table(&["signs", "exists", "normal forces in N"], &rows, 3));
+        let forces = self.report.model.units.of("N").title("normal forces");
+        self.lines(&table(&["signs", "exists", &forces], &rows, 3));
         let nominal: Vec<String> = uncertainty
             .parameters
             .iter()
-            .map(|range| format!("{} = {}", range.name, number(range.value)))
+            .map(|range| format!("{} = {}", range.name, range.shown_in.show(range.value)))
             .collect();
         self.line(&format!("  Everything else holds for {}.", nominal.join(", ")));
     }
@@ -277,10 +273,10 @@ impl Text<'_> {
             self.headline(&title);
             self.line("  Normal forces at the ends and directions of unbounded growth, contact by contact:");
             for vertex in &continuum.vertices {
-                self.line(&format!("  from {}", vector(vertex, " N")));
+                self.line(&format!("  from {}", vector(vertex, &self.report.model.units.of("N"))));
             }
             for direction in &continuum.directions {
-                self.line(&format!("  along {}", vector(direction, "")));
+                self.line(&format!("  along {}", vector(direction, &Unit::default())));
             }
             if !continuum.tipping.is_empty() {
                 self.line(&format!("  In a part of it {} would tip.", continuum.tipping.join(", ")));
@@ -301,14 +297,15 @@ impl Text<'_> {
     }
 
     fn rejected(&mut self) {
+        let couple = self.report.model.units.of("N m");
         for rejection in &self.report.rejected {
             self.line("");
             self.line(&format!(
-                "Rejected: signs {}. {} would tip: it needs a couple of {} N m, but its face provides at most {} N m.",
+                "Rejected: signs {}. {} would tip: it needs a couple of {}, but its face provides at most {}.",
                 spaced(&rejection.pattern),
                 rejection.joint,
-                number(rejection.couple.abs()),
-                number(rejection.limit)
+                couple.show(rejection.couple.abs()),
+                couple.show(rejection.limit)
             ));
             self.line(&format!("  Model {} as a block slider to see its tipped mode.", rejection.joint));
         }
@@ -391,9 +388,10 @@ fn uncertain_row(report: &SolveReport, mode: &UncertainMode) -> Vec<String> {
         Persistence::Undecided => "undecided",
     };
     let names = report.solutions.first().map_or(&[][..], |solution| &solution.contacts);
+    let force = report.model.units.of("N");
     let bound = |(contact, [from, to]): (usize, &[f64; 2])| {
         let name = names.get(contact).map_or(String::new(), |contact| format!("{} ", contact.name));
-        format!("{name}{} to {}", number(*from), number(*to))
+        format!("{name}{} to {}", force.number(*from), force.number(*to))
     };
     let bounds = mode.normal_force_bounds.as_ref();
     let bounds: Vec<String> =
@@ -409,23 +407,27 @@ fn closest_row(mode: &ClosestMode) -> Vec<String> {
     vec![spaced(&mode.pattern), modes.join("; "), number(mode.determinant), verdict.to_owned()]
 }
 
-fn contact_table(contacts: &[Contact]) -> String {
+fn contact_table(contacts: &[Contact], units: &Units) -> String {
+    let [force, speed, couple] = ["N", "m/s", "N m"].map(|si| units.of(si));
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
     let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
-    let mut header = vec!["contact", "normal force in N", "friction in N", "sliding in m/s"];
-    header.extend(has_couple.then_some("couple in N m"));
-    header.extend(has_share.then_some("preload share at +"));
-    let optional = |value: Option<f64>| value.map_or(String::new(), |value| against(value, scale));
+    let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];
+    header.push(speed.title("sliding"));
+    header.extend(has_couple.then(|| couple.title("couple")));
+    header.extend(has_share.then(|| "preload share at +".to_owned()));
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let optional =
+        |value: Option<f64>, unit: &Unit| value.map_or(String::new(), |value| unit.against(value, scale));
     let row = |contact: &Contact| {
         let mut row = vec![
             contact.name.clone(),
-            against(contact.normal_force, scale),
-            against(contact.friction_force, scale),
-            number(contact.sliding_velocity),
+            force.against(contact.normal_force, scale),
+            force.against(contact.friction_force, scale),
+            speed.number(contact.sliding_velocity),
         ];
-        row.extend(has_couple.then(|| optional(contact.couple)));
-        row.extend(has_share.then(|| optional(contact.preload_share)));
+        row.extend(has_couple.then(|| optional(contact.couple, &couple)));
+        row.extend(has_share.then(|| optional(contact.preload_share, &Unit::default())));
         row
     };
     table(&header, &contacts.iter().map(row).collect::<Vec<_>>(), 1)
@@ -434,46 +436,47 @@ fn contact_table(contacts: &[Contact]) -> String {
 /// Coordinates, drives, hinges and bodies: name, what, value, unit.
 fn motion_table(report: &SolveReport, solution: &Solution) -> String {
     let mut rows = Vec::new();
-    let mut row = |name: &str, what: &str, value: String, unit: &str| {
-        rows.push(vec![name.to_owned(), what.to_owned(), value, unit.to_owned()]);
+    let mut row = |name: &str, what: &str, value: String, unit: &Unit| {
+        rows.push(vec![name.to_owned(), what.to_owned(), value, unit.name().to_owned()]);
     };
+    let units = &report.model.units;
     for (index, coordinate) in solution.coordinates.iter().enumerate() {
         let scale = report.influence.coordinate_accelerations[index].abs();
-        let value = against(coordinate.acceleration, scale);
-        row(&coordinate.name, "acceleration", value, coordinate.unit);
+        let unit = units.of(coordinate.unit);
+        row(&coordinate.name, "acceleration", unit.against(coordinate.acceleration, scale), &unit);
     }
     for drive in &solution.drives {
-        row(
-            &drive.name,
-            if drive.unit == "N" { "drive force" } else { "drive torque" },
-            number(drive.effort),
-            drive.unit,
-        );
+        let unit = units.of(drive.unit);
+        let what = if drive.unit == "N" { "drive force" } else { "drive torque" };
+        row(&drive.name, what, unit.number(drive.effort), &unit);
     }
     let force_scale = solution.contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     for hinge in &solution.hinges {
         let what = format!("hinge force on {}", hinge.on);
-        row(&hinge.name, &what, pair(hinge.force, force_scale), "N");
+        let unit = units.of("N");
+        row(&hinge.name, &what, pair(hinge.force, force_scale, &unit), &unit);
     }
     let scale = solution.bodies.iter().flat_map(|body| body.acceleration).map(f64::abs).fold(0.0, f64::max);
     for body in &solution.bodies {
-        row(&body.name, "acceleration", pair(body.acceleration, scale), "m/s^2");
+        let [unit, angular] = ["m/s^2", "rad/s^2"].map(|si| units.of(si));
+        row(&body.name, "acceleration", pair(body.acceleration, scale, &unit), &unit);
         if body.angular_acceleration.abs() > 1e-13 * scale {
-            row(&body.name, "angular acceleration", number(body.angular_acceleration), "rad/s^2");
+            let value = angular.number(body.angular_acceleration);
+            row(&body.name, "angular acceleration", value, &angular);
         }
     }
     table(&["", "", "value", "unit"], &rows, 2)
 }
 
-fn pair(components: [f64; 2], scale: f64) -> String {
+fn pair(components: [f64; 2], scale: f64, unit: &Unit) -> String {
     let scale = scale.max(components[0].abs()).max(components[1].abs());
-    format!("({}, {})", against(components[0], scale), against(components[1], scale))
+    format!("({}, {})", unit.against(components[0], scale), unit.against(components[1], scale))
 }
 
-fn vector(components: &[f64], unit: &str) -> String {
+fn vector(components: &[f64], unit: &Unit) -> String {
     let scale = components.iter().map(|component| component.abs()).fold(0.0, f64::max);
-    let list: Vec<String> = components.iter().map(|component| against(*component, scale)).collect();
-    format!("({}){unit}", list.join(", "))
+    let list: Vec<String> = components.iter().map(|component| unit.against(*component, scale)).collect();
+    unit.with(&format!("({})", list.join(", ")))
 }
 
 fn is_guided_in_gap(contact: &Contact) -> bool {

@@ -130,14 +130,13 @@ pub fn size_with(
 }
 
 fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeReport, Faults> {
-    let name = &options.vary.name;
     let at_rest = options.against != Against::Locking;
     if at_rest && options.both_directions {
         return Err(Fault::general(FaultKind::NoDirectionAtRest).into());
     }
-    let varied = Varied::new(model, name)?;
+    let varied = options.vary.of(model)?;
     let range = options.vary.ends(&varied, || usual_range(model, &varied))?;
-    let opposite = if options.both_directions { Some(Varied::new(&model.reversed(), name)?) } else { None };
+    let opposite = if options.both_directions { Some(options.vary.of(&model.reversed())?) } else { None };
     let question = MarginQuestion { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
     let value = varied.present()?;
     let present = present(&question, value, work.part(0, 2))?;

@@ -161,7 +161,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         met: found.met.iter().map(interval).collect(),
         without_position: found.gaps.iter().map(gap).collect(),
         samples: samples(found, *steps, options.margin),
-        guarantee: words::guarantee(*range, *steps),
+        guarantee: words::guarantee(*range, *steps, &question.varied.shown_in),
         conclusion: Vec::new(),
     };
     report.conclusion = Words { report: &report, places: &found.places }.conclusion();

@@ -1,7 +1,6 @@
 //! A design as text for people.
 
 use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
-use super::words::quantity;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -25,7 +24,7 @@ impl Page<'_, SizeReport> {
             self.headline(title);
         }
         let vary = &report.vary;
-        self.line(&format!("{} from {} to {}", vary.name, precise(vary.from), quantity(report, vary.to)));
+        self.line(&vary.shown_in.range(&vary.name, [vary.from, vary.to]));
         self.line("");
         for sentence in &report.conclusion {
             self.headline(sentence);
@@ -41,32 +40,34 @@ impl Page<'_, SizeReport> {
         self.line("");
         self.headline(&format!("Where the margin is at least {}", precise(report.margin)));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
-        self.lines(&table(&["from", "to", "begins with", "ends with"], &rows, 0));
+        let [from, to] = ["from", "to"].map(|end| report.vary.shown_in.title(end));
+        self.lines(&table(&[&from, &to, "begins with", "ends with"], &rows, 0));
     }
 
     fn margins(&mut self) {
         let report = self.report;
         self.line("");
         self.headline("Margins");
-        let name = match report.vary.unit.as_str() {
-            "" => report.vary.name.clone(),
-            unit => format!("{} in {unit}", report.vary.name),
-        };
+        let unit = &report.vary.shown_in;
+        let name = unit.title(&report.vary.name);
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
             (_, Some(margin)) => precise(margin),
             _ => "no answer".to_owned(),
         };
-        let rows: Vec<Vec<String>> =
-            report.samples.iter().map(|sample| vec![precise(sample.at), margin(sample)]).collect();
+        let rows: Vec<Vec<String>> = report
+            .samples
+            .iter()
+            .map(|sample| vec![unit.precise_number(sample.at), margin(sample)])
+            .collect();
         self.lines(&table(&[&name, "margin"], &rows, 0));
     }
 }
 
 fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
     vec![
-        precise(interval.from),
-        precise(interval.to),
+        report.vary.shown_in.precise_number(interval.from),
+        report.vary.shown_in.precise_number(interval.to),
         cause(report, interval.from_is, interval.from_jumps_to),
         cause(report, interval.to_is, interval.to_jumps_to),
     ]

@@ -4,6 +4,7 @@ use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeRep
 use super::search::Tried;
 use crate::report::number::number;
 use crate::report::number::precise;
+use crate::units::Unit;
 
 /// Margins closer than this, relative to the greater one, are the same.
 const SAME: f64 = 1e-9;
@@ -14,12 +15,12 @@ pub(super) struct Words<'r> {
     pub(super) places: &'r [Tried],
 }
 
-pub(super) fn guarantee([from, to]: [f64; 2], steps: usize) -> String {
+pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, shown_in: &Unit) -> String {
     let step = (to - from) / steps as f64;
     format!(
         "{} evenly spaced values were tried; crossings of the wanted margin between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump of the margin there and back, or a second dip, within two steps of {} may be missed.",
         steps + 1,
-        number(step)
+        shown_in.show(step)
     )
 }
 
@@ -49,7 +50,8 @@ impl Words<'_> {
             [] => {
                 let best = self.places.iter().filter_map(|place| Some((place.at, place.margin?)));
                 let best = best.min_by(|(_, one), (_, other)| one.demand(1.0).total_cmp(&other.demand(1.0)));
-                let range = format!("{} to {}", precise(report.vary.from), quantity(report, report.vary.to));
+                let from = report.vary.shown_in.precise_number(report.vary.from);
+                let range = format!("{from} to {}", quantity(report, report.vary.to));
                 let gives =
                     if report.without_position.is_empty() { "gives it" } else { "is known to give it" };
                 match best.and_then(|(at, margin)| Some((at, margin.factor()?))) {
@@ -72,7 +74,7 @@ impl Words<'_> {
     fn interval(&self, interval: &MetInterval) -> String {
         let report = self.report;
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
-        let bare = precise(interval.from);
+        let bare = report.vary.shown_in.precise_number(interval.from);
         match (interval.from_is, interval.to_is) {
             (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
             (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
@@ -165,9 +167,5 @@ fn wish(report: &SizeReport) -> String {
 
 /// A value of what is varied, with its unit.
 pub(super) fn quantity(report: &SizeReport, value: f64) -> String {
-    match report.vary.unit.as_str() {
-        "" => precise(value),
-        "rad" => format!("{} rad ({} deg)", precise(value), number(value.to_degrees())),
-        unit => format!("{} {unit}", precise(value)),
-    }
+    report.vary.shown_in.precise(value)
 }

@@ -170,6 +170,7 @@ impl<'a> Answer<'a> {
             bodies: self.mechanism.bodies.len(),
             contacts: self.mechanism.contacts.len(),
             drives: self.mechanism.drives.len(),
+            units: self.mechanism.units.clone(),
         }
     }
 

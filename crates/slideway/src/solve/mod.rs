@@ -50,6 +50,7 @@ pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
 pub(crate) use with_friction::solve_with_friction;
 pub use words::mode_in_words;
+pub(crate) use words::sliding_in_words;
 
 use crate::configuration::Configuration;
 use crate::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};

@@ -261,6 +261,7 @@ fn hull(one: &[[f64; 2]], other: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 fn parameter(range: &ParameterRange) -> report::UncertainParameter {
     report::UncertainParameter {
+        shown_in: range.shown_in.clone(),
         name: range.name.clone(),
         from: range.from,
         to: range.to,

@@ -149,6 +149,7 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
     finite(HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
+        units: model.units.clone(),
         verdict,
         holds: verdict.holds(),
         state: state(&setup),
@@ -259,7 +260,9 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
     let motions = held_motions(setup, free_motions(mechanism, configuration));
-    motions_without_inertia(mechanism, configuration, &motions)
+    let varied = setup.load.as_ref().map(|load| &load.forces * load.nominal);
+    let loads = varied.map_or_else(|| setup.given.clone(), |varied| varied + &setup.given);
+    motions_without_inertia(mechanism, configuration, &motions, Some(&loads))
 }
 
 /// The motions that drives leave.

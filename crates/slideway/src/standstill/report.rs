@@ -1,5 +1,6 @@
 //! What the analysis of standstill tells, as plain data.
 
+use crate::units::Units;
 use serde::Serialize;
 
 /// Version of the layout of a [`HoldReport`]; changes whenever a field is renamed or removed.
@@ -50,6 +51,9 @@ pub struct HoldReport {
     pub schema: &'static str,
     /// The model's title.
     pub title: Option<String>,
+    /// The units in which texts show its numbers.
+    #[serde(skip)]
+    pub units: Units,
     /// The answer.
     pub verdict: HoldVerdict,
     /// Whether it can stay at rest: of the verdict.

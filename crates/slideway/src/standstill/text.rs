@@ -1,10 +1,11 @@
 //! The analysis of standstill as text for people.
 
 use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
-use crate::report::number::{against, number};
+use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Report, Style, count, followed, spaced};
+use crate::units::{Unit, Units};
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
@@ -32,7 +33,8 @@ impl Text<'_> {
         if let Some(title) = &report.title {
             self.headline(title);
         }
-        let values = report.state.iter().map(|c| format!("{} = {} {}", c.name, number(c.value), c.unit));
+        let values =
+            report.state.iter().map(|c| format!("{} = {}", c.name, report.units.of(c.unit).show(c.value)));
         let rates = if report.rates_ignored { "; the rates of the model are set to zero" } else { "" };
         self.line(&format!("At rest at {}{rates}", values.collect::<Vec<_>>().join(", ")));
         if let Some(steps) = report.steps_from_drawing {
@@ -84,7 +86,7 @@ impl Text<'_> {
         let Some(load) = &self.report.load else { return };
         self.line("");
         self.headline(&load_title(load));
-        for line in held_in_words(load) {
+        for line in held_in_words(load, &self.report.units) {
             self.line(&format!("  {line}"));
         }
         for line in threshold_in_words(load) {
@@ -114,19 +116,18 @@ impl Text<'_> {
         let signs = release.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>();
         self.line(&format!("  signs {}", signs.join(" or ")));
         let scale = release.coordinates.iter().map(|c| greatest(&[c.acceleration])).fold(0.0, f64::max);
+        let units = &self.report.units;
         let sliding = release.joints.iter().filter(|joint| joint.slip != 0);
         let rows: Vec<Vec<String>> = sliding
             .map(|joint| {
-                vec![
-                    joint.name.clone(),
-                    "sliding".to_owned(),
-                    words(joint.acceleration, scale),
-                    "m/s^2".to_owned(),
-                ]
+                let unit = units.of("m/s^2");
+                let value = words(joint.acceleration, scale, &unit);
+                vec![joint.name.clone(), "sliding".to_owned(), value, unit.name().to_owned()]
             })
             .chain(release.coordinates.iter().map(|coordinate| {
-                let value = words(coordinate.acceleration, scale);
-                vec![coordinate.name.clone(), "coordinate".to_owned(), value, coordinate.unit.to_owned()]
+                let unit = units.of(coordinate.unit);
+                let value = words(coordinate.acceleration, scale, &unit);
+                vec![coordinate.name.clone(), "coordinate".to_owned(), value, unit.name().to_owned()]
             }))
             .collect();
         self.lines(&table(&["", "", "acceleration", "unit"], &rows, 2));
@@ -136,16 +137,19 @@ impl Text<'_> {
     fn reactions(&mut self, reactions: &Reactions) {
         let scale = greatest(&reactions.ranges());
         let has_couple = reactions.contacts.iter().any(|contact| contact.couple.is_some());
-        let mut header = vec!["contact", "normal force in N", "friction in N"];
-        header.extend(has_couple.then_some("couple in N m"));
+        let [force, torque] = ["N", "N m"].map(|si| self.report.units.of(si));
+        let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];
+        header.extend(has_couple.then(|| torque.title("couple")));
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
         let rows = reactions.contacts.iter().map(|contact| {
             let mut row = vec![
                 contact.name.clone(),
-                words(contact.normal_force, scale),
-                words(contact.friction_force, scale),
+                words(contact.normal_force, scale, &force),
+                words(contact.friction_force, scale, &force),
             ];
             row.extend(
-                has_couple.then(|| contact.couple.map_or(String::new(), |couple| words(couple, scale))),
+                has_couple
+                    .then(|| contact.couple.map_or(String::new(), |couple| words(couple, scale, &torque))),
             );
             row
         });
@@ -155,14 +159,17 @@ impl Text<'_> {
         }
         let hinges = reactions.hinges.iter().map(|hinge| {
             let what = format!("hinge force on {}", hinge.on);
-            vec![hinge.name.clone(), what, words(hinge.force[0], scale), words(hinge.force[1], scale)]
+            let [x, y] = hinge.force.map(|component| words(component, scale, &force));
+            vec![hinge.name.clone(), what, x, y]
         });
         let rows: Vec<Vec<String>> = hinges.collect();
         if !rows.is_empty() {
-            self.lines(&table(&["", "", "x in N", "y in N"], &rows, 2));
+            self.lines(&table(&["", "", &force.title("x"), &force.title("y")], &rows, 2));
         }
         for drive in &reactions.drives {
-            self.line(&format!("  {}: {} {}", drive.name, words(drive.effort, scale), drive.unit));
+            let unit = self.report.units.of(drive.unit);
+            let effort = unit.with(&words(drive.effort, scale, &unit));
+            self.line(&format!("  {}: {effort}", drive.name));
         }
     }
 
@@ -196,18 +203,18 @@ fn at_factor(load: &LoadReport) -> String {
     if load.unit.is_empty() { String::new() } else { format!(" without {}", load.name) }
 }
 
-fn held_in_words(load: &LoadReport) -> Vec<String> {
+fn held_in_words(load: &LoadReport, units: &Units) -> Vec<String> {
     let what = if load.unit.is_empty() { "factor" } else { "effort" };
-    let unit = if load.unit.is_empty() { String::new() } else { format!(" {}", load.unit) };
+    let unit = units.of(load.unit);
     let one = |range: &Range| match (range.least, range.greatest) {
         (None, None) => format!("every {what}"),
-        (Some(least), None) => format!("every {what} from {}{unit} on", number(least)),
-        (None, Some(greatest)) => format!("every {what} up to {}{unit}", number(greatest)),
+        (Some(least), None) => format!("every {what} from {} on", unit.show(least)),
+        (None, Some(greatest)) => format!("every {what} up to {}", unit.show(greatest)),
         (Some(least), Some(greatest)) if least == greatest => {
-            format!("the {what} {}{unit} only", number(least))
+            format!("the {what} {} only", unit.show(least))
         }
         (Some(least), Some(greatest)) => {
-            format!("{what}s from {} to {}{unit}", number(least), number(greatest))
+            format!("{what}s from {} to {}", unit.number(least), unit.show(greatest))
         }
     };
     let mut lines = match load.held.as_slice() {
@@ -260,10 +267,10 @@ fn greatest(ranges: &[Range]) -> f64 {
 }
 
 /// "3", "1 to 3", "from 1 on", "up to 3" or "any".
-fn words(range: Range, scale: f64) -> String {
+fn words(range: Range, scale: f64, unit: &Unit) -> String {
     // What is left over by the linear programs is no range.
     let noise = 1e3 * scale;
-    let number = |value: f64| against(value, noise);
+    let number = |value: f64| unit.against(value, noise);
     match (range.least, range.greatest) {
         (Some(least), Some(greatest))
             if number(least) == number(greatest) || greatest - least <= 1e-10 * scale =>

@@ -1,7 +1,8 @@
 //! What a sweep over one quantity varies, for plots.
 
 use super::{Sweep, Values};
-use crate::limits::{ShownIn, Varied};
+use crate::limits::Varied;
+use crate::units::{Unit, Units};
 
 /// The quantity of a sweep over one, and its ascending values.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,8 +11,11 @@ pub struct Line {
     pub name: String,
     /// The least and the greatest value, in SI units.
     pub range: [f64; 2],
-    /// The unit in which values are to be shown: that of both ends of the range, as written.
-    pub shown_in: ShownIn,
+    /// The unit in which values are to be shown: that of both ends of the range, as written, else that of the
+    /// model.
+    pub shown_in: Unit,
+    /// The units in which other quantities are to be shown.
+    pub units: Units,
     /// Whether the logarithms of its values are evenly spaced.
     pub logarithmic: bool,
 }
@@ -28,12 +32,11 @@ impl Sweep {
             values => values.range()?,
         };
         let model = &self.plan.model;
-        let given = axis.given.as_ref().map(|[from, to]| [from, to]);
         let varied = Varied::new(model, &axis.quantity.name).ok();
-        let shown_in = varied.map(|varied| varied.shown_in(given));
-        let si = || ShownIn { unit: axis.quantity.unit(model).to_owned(), scale: 1.0 };
-        let shown_in = shown_in.unwrap_or_else(si);
+        let shown_in = varied.map(|varied| varied.typed_as(axis.given.as_ref()).shown_in);
+        let shown_in = shown_in.unwrap_or_else(|| model.units.of(axis.quantity.unit(model)));
         let logarithmic = matches!(axis.values, Values::Logarithmic { .. });
-        (range[0] < range[1]).then(|| Line { name: axis.quantity.name.clone(), range, shown_in, logarithmic })
+        let (name, units) = (axis.quantity.name.clone(), model.units.clone());
+        (range[0] < range[1]).then_some(Line { name, range, shown_in, units, logarithmic })
     }
 }

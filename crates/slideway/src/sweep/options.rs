@@ -292,12 +292,16 @@ pub(super) const LOGARITHM: &str = "the standard deviation of the logarithm";
 
 /// What is wrong with an axis.
 pub(super) fn fault(text: &str, problem: AxisProblem) -> Faults {
-    Fault::general(FaultKind::Axis { text: text.to_owned(), problem }).into()
+    let kind = FaultKind::Axis { text: text.to_owned(), problem };
+    Fault::of_argument(kind, text, 0..text.len()).into()
 }
 
 fn name_and_values(text: &str) -> Result<(&str, &str), AxisProblem> {
     let (name, values) = text.split_once('=').ok_or(AxisProblem::Malformed)?;
     let (name, values) = (name.trim(), values.trim());
+    if values.contains("...") {
+        return Err(AxisProblem::ThreeDots);
+    }
     if name.is_empty() || values.is_empty() { Err(AxisProblem::Malformed) } else { Ok((name, values)) }
 }
 

@@ -6,6 +6,24 @@ use crate::model::{Model, Setting, SettingKind, Settings, Value};
 
 /// What follows the name of a coordinate whose rate is meant.
 const RATE: &str = ".rate";
+
+/// The units that columns of parameters may have.
+const UNITS: [&str; 14] = [
+    "m",
+    "rad",
+    "kg",
+    "s",
+    "N",
+    "N m",
+    "m/s",
+    "rad/s",
+    "m/s^2",
+    "kg m^2",
+    "N/m",
+    "N s/m",
+    "N m/rad",
+    "N m s/rad",
+];
 /// The name of the time of the state.
 const TIME: &str = "time";
 
@@ -84,11 +102,14 @@ impl Quantity {
         matches!(self.kind, Kind::Parameter(_)) && model.is_itself_friction(&self.name)
     }
 
-    /// Its unit, "SI" where that depends on the parameter.
+    /// Its SI unit; "1" for the factor of friction, "SI" for a parameter that has no unit, or a rare one.
     pub(super) fn unit(&self, model: &Model) -> &'static str {
         let is_angle = |index: usize| model.coordinates[index].kind.is_angle();
         match self.kind {
-            Kind::Parameter(_) => "SI",
+            Kind::Parameter(_) => {
+                let unit = model.parameter_unit(&self.name);
+                UNITS.into_iter().find(|known| *known == unit).unwrap_or("SI")
+            }
             Kind::Coordinate(index) if is_angle(index) => "rad",
             Kind::Coordinate(_) => "m",
             Kind::Rate(index) if is_angle(index) => "rad/s",

@@ -146,7 +146,9 @@ fn the_overlaps_of_a_boom_shrink_as_it_extends() {
     }
     let faults = at([0.0, 0.61, 0.0]).unwrap_err();
     let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
-    let FaultKind::OverlapVanished { joint, overlap, displacement } = &fault.kind else { panic!("{faults}") };
+    let FaultKind::OverlapVanished { joint, overlap, displacement, .. } = &fault.kind else {
+        panic!("{faults}")
+    };
     assert_eq!(joint, "slide_2");
     assert_close(*overlap, -0.01, 1.0, 1e-12);
     assert_close(*displacement, 0.61, 1.0, 1e-12);
@@ -181,7 +183,7 @@ fn travel_limits() {
     }
     for (outside, place) in [("-0.10001", -0.10001), ("0.30001", 0.30001)] {
         let faults = at(outside).unwrap_err();
-        let FaultKind::TravelExceeded { joint, displacement, least, greatest } = &faults.sorted()[0].kind
+        let FaultKind::TravelExceeded { joint, displacement, least, greatest, .. } = &faults.sorted()[0].kind
         else {
             panic!("{faults}")
         };

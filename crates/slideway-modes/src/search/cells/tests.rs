@@ -23,7 +23,7 @@ fn problem(columns: [DMatrix<f64>; 2], load: DVector<f64>) -> ModeProblem {
     ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
 }
 
-/// `diag(sigma 8 + ..) + U V` of whole numbers, divided by 8.
+/// `diag(sigma 8 + ..) + U V` of integers, divided by 8.
 fn columns(number: &mut impl FnMut(i64) -> f64, left: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
     let (contacts, rank) = left.shape();
     [8.0, -8.0].map(|sign| {
@@ -47,7 +47,7 @@ fn candidates_of(scaled: &ScaledProblem, load_error: &DVector<f64>) -> Option<(C
     Some((covered.candidates, covered.boxes))
 }
 
-/// Every pattern that admits something is a candidate; how many there are.
+/// Checks that every pattern that admits something is a candidate; returns their number.
 fn assert_covers(problem: &ModeProblem, candidates: &Candidates) -> usize {
     let contacts = problem.contacts();
     let mut admitted = 0;
@@ -83,8 +83,8 @@ fn random_arrangements_are_covered() {
 
 #[test]
 fn degenerate_arrangements_are_covered() {
-    // Small whole numbers: hyperplanes that are parallel, coincide or meet in one point, zero loads,
-    // singular patterns.
+    // Small integers: hyperplanes that are parallel, coincide or meet in one point, zero loads, singular
+    // patterns.
     let mut covered = 0;
     for seed in 0..120 {
         let mut number = numbers(1000 + seed);
@@ -103,7 +103,7 @@ fn degenerate_arrangements_are_covered() {
 
 #[test]
 fn what_the_decomposition_leaves_is_bounded() {
-    // Forces of some contacts are smaller than what the remainder of size 2^-38 may change.
+    // Forces of some contacts are smaller than the change that the remainder of size 2^-38 may cause.
     let (contacts, tiny) = (8, 2.0_f64.powi(-43));
     for seed in 0..40 {
         let mut number = numbers(2000 + seed);
@@ -188,8 +188,8 @@ fn steps_with_inaccurate_inverses_keep_the_solution() {
 
 #[test]
 fn steps_with_wrong_inverses_keep_all_solutions() {
-    // Rows that are parallel exactly, with all (t b, -t a) for solutions. Elimination in f64 finds an inverse
-    // for many.
+    // Rows that are exactly parallel, whose solutions are all (t b, -t a). Elimination in f64 finds an
+    // inverse for many.
     let mut inverted = 0;
     for seed in 0..200 {
         let mut number = numbers(5000 + seed);

@@ -18,6 +18,7 @@ use super::{Along, Gravity, Model, NamedPoint, Parameter, Value};
 use crate::expression::{Dimension, Expression, ExpressionFault, Names, is_reserved, is_valid_name, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
+use crate::units::Units;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -25,11 +26,13 @@ use std::sync::Arc;
 pub(super) fn read(text: &str) -> Result<Model, Faults> {
     let (sections, faults) = sections(text);
     let unreadable = faults.has_syntax_fault();
+    let system = sections.units;
     let mut reader = Reader::new(text, &sections, faults);
     let mut model = reader.model(sections);
     let mut faults = std::mem::take(&mut reader.faults);
     let complete = faults.is_empty();
     faults.append(model.check(complete));
+    model.units = Units::new(system.unwrap_or_default(), model.typed_units(text));
     if unreadable {
         faults = faults.without_absences();
     }
@@ -163,6 +166,8 @@ impl<'t> Reader<'t> {
             coordinates,
             events,
             formulas: Arc::new(std::mem::take(&mut self.formulas)),
+            units: Units::default(),
+            doubts: Vec::new(),
             evaluation_order: Vec::new(),
         }
     }

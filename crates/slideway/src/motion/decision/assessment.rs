@@ -1,4 +1,4 @@
-//! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the
+//! How far a phase is from its bounds: the slack of each of its inequalities, and what the phase does to the
 //! mechanism.
 
 use super::BOUNDARY;
@@ -11,14 +11,14 @@ use crate::pattern::{Affine, ContactPhase, JointPhase, Phase, Region, Unsolved};
 
 /// Slacks below this are rounding.
 const ROUNDING: f64 = 1e-11;
-/// More combinations of sides of the contacts that stick in a group are not tried.
+/// Beyond this number, combinations of sides of the sticking contacts in a group are not tried.
 pub(super) const MOST_SIDES: usize = 4096;
 
-/// An inequality that decides, with its slack.
+/// A deciding inequality, with its slack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slack {
-    /// What it is about; of inequalities that hang together through what statics leaves open, the friction of
-    /// all joints that stick.
+    /// What it is about; for inequalities that are linked through what statics leaves open, the friction of
+    /// all sticking joints.
     pub(super) subject: Decisive,
     /// In units; negative if it is violated.
     pub(super) value: f64,
@@ -29,15 +29,16 @@ pub(super) struct Slack {
 pub(super) enum Decisive {
     /// One inequality.
     One(Subject),
-    /// All that depend on what statics leaves open, in the group of joints that begins with this one.
+    /// All inequalities that depend on what statics leaves open, in the group of joints that begins with this
+    /// one.
     Open(usize),
 }
 
 /// A phase, or what a group of joints does in it, with the sides of its sticking contacts and the reactions
-/// that leave most slack.
+/// that leave the most slack.
 #[derive(Debug, Clone)]
 pub(super) struct Assessment {
-    /// The phase; contacts that stick have the sides that leave most slack.
+    /// The phase; sticking contacts have the sides that leave the most slack.
     pub(super) phase: Phase,
     /// Forces of the contacts, in units.
     pub(super) forces: Forces,
@@ -45,7 +46,7 @@ pub(super) struct Assessment {
     pub(super) indeterminate: usize,
     /// Slacks of its inequalities.
     pub(super) slacks: Vec<Slack>,
-    /// The least slack of what concerns the joints that stick; infinite if none does.
+    /// The least slack of the inequalities that concern sticking joints; infinite if there are none.
     pub(super) margin: f64,
     /// Whether some of its equations follow from others, so that they could contradict each other at another
     /// instant.
@@ -53,7 +54,7 @@ pub(super) struct Assessment {
 }
 
 impl Assessment {
-    /// A phase without anything decided about it yet.
+    /// A phase about which nothing has been decided.
     pub(super) fn nothing(phase: &Phase) -> Self {
         let contacts = phase.contacts.len();
         let none = ContactFriction { positive_face: 0.0, negative_face: 0.0 };
@@ -71,7 +72,7 @@ impl Assessment {
         }
     }
 
-    /// The same with what another one says of a group.
+    /// The same assessment, with a group's part taken from another one.
     pub(super) fn with(mut self, group: &Group, part: &Self) -> Self {
         for &joint in &group.joints {
             self.phase.joints[joint] = part.phase.joints[joint];
@@ -110,9 +111,9 @@ thread_local! {
     pub(in crate::motion) static ASSESSED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
 }
 
-/// A phase at an instant, with the sides of its sticking contacts that leave most slack; nothing if its
-/// equations contradict each other for all of them. No further sides are tried in a group once an admissible
-/// state has a margin that is enough.
+/// Assesses a phase at an instant, with the sides of its sticking contacts that leave the most slack; `None`
+/// if its equations contradict each other for all sides. Once an admissible state of a group has a sufficient
+/// margin, no further sides are tried for the group.
 ///
 /// # Errors
 /// If a linear program was not solved.
@@ -132,7 +133,7 @@ pub(super) fn assess(
     Ok(Some(whole))
 }
 
-/// The same of a group of joints.
+/// The same for a group of joints.
 ///
 /// # Errors
 /// If a linear program was not solved.
@@ -171,7 +172,7 @@ fn assess_sides(
     System::new(instant, question, &phase, group).map(|system| assess_system(&system)).transpose()
 }
 
-/// The slacks of a pattern and the reactions that leave most.
+/// The slacks of a pattern, and the reactions that leave the most slack.
 pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved> {
     let System { instant, phase, group, .. } = *system;
     let mut found = Assessment::nothing(phase);
@@ -202,7 +203,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
     Ok(found)
 }
 
-/// Whether an inequality is about a joint that sticks in a phase.
+/// Whether an inequality concerns a joint that sticks in a phase.
 pub(super) fn concerns_sticking((instant, phase): (&Instant<'_>, &Phase), subject: Subject) -> bool {
     match subject {
         Subject::Pressure(k) | Subject::Couple(k) | Subject::Friction(k) => {
@@ -216,11 +217,11 @@ fn without_rounding(slack: f64) -> f64 {
     if slack.abs() <= ROUNDING { 0.0 } else { slack }
 }
 
-/// The sides of a contact during an impulse: preloads do not count there.
+/// The sides of a contact during an impulse, for which preloads do not count.
 pub(super) const PRESSED: [ContactPhase; 2] =
     [ContactPhase::Pressed(Side::Positive), ContactPhase::Pressed(Side::Negative)];
 
-/// The contacts of a group that stick, with their possible sides, the phase's own one first.
+/// The sticking contacts of a group with their possible sides, that of the phase first.
 pub(super) fn sticking_sides(
     question: &Question<'_>,
     phase: &Phase,
@@ -236,7 +237,7 @@ pub(super) fn sticking_sides(
     contacts.map(options).collect()
 }
 
-/// A phase with the combination of sides of this number; nothing behind the last.
+/// A phase with the combination of sides of this number; `None` beyond the last.
 pub(super) fn with_sides(
     phase: &Phase,
     sides: &[(usize, Vec<ContactPhase>)],

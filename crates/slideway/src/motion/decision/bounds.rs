@@ -1,4 +1,4 @@
-//! What is asked at an instant, with the sides that contacts take in every admissible state.
+//! The question at an instant, with the sides that contacts take in every admissible state.
 
 use super::BOUNDARY;
 use super::instant::Instant;
@@ -7,14 +7,14 @@ use crate::ids::ContactId;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
 
-/// Rounds of the iteration for the greatest pressures.
+/// Number of rounds of the iteration for the greatest pressures.
 const ROUNDS: usize = 30;
-/// Its result is enlarged by this factor, and counts if it then bounds itself.
+/// The result is enlarged by this factor, and counts if it then bounds itself.
 const ENLARGED: f64 = 1.01;
 
 impl Instant<'_> {
-    /// The question for accelerations, with joints whose velocity is zero: about all phases, or one, in which
-    /// sides are open only if a joint sticks.
+    /// The question for accelerations, with joints whose velocity is zero: about all phases, or about a
+    /// single phase, where sides are open only if a joint sticks.
     pub(super) fn question<'q>(&'q self, stopped: &'q [bool], phase: Option<&Phase>) -> Question<'q> {
         let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
         Question {
@@ -32,8 +32,8 @@ impl Instant<'_> {
     }
 }
 
-/// The sides that each contact can take: one alone where friction cannot turn the normal force, however
-/// joints stick or slide.
+/// The sides that each contact can take: only one if friction cannot reverse the normal force, however joints
+/// stick or slide.
 ///
 /// ```text
 /// |N_j - N_j(0)| <= sum_k |eta_jk| (mu_k |N_k| + F_k0)     with the greater mu and the greater |eta| of both faces
@@ -43,7 +43,7 @@ impl Instant<'_> {
 /// 4).
 fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let contacts = 0..instant.mechanism.contacts.len();
-    // A stop pushes with any force.
+    // A stop can push with any force.
     let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0);
     let change = if is_free { greatest_changes(instant) } else { None };
     contacts
@@ -58,7 +58,7 @@ fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
         .collect()
 }
 
-/// By how much friction changes each normal force at most, in units; nothing where no bound was found.
+/// The greatest change of each normal force by friction, in units; `None` if no bound was found.
 fn greatest_changes(instant: &Instant<'_>) -> Option<DVector<f64>> {
     let [plus, minus] = &instant.outputs.columns;
     let contacts = plus.ncols();

@@ -10,9 +10,9 @@ use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::pattern::Phase;
 
-/// The normal force of each contact in a phase (N); nothing where it hangs on how the joints that stick share
-/// their friction: where the equations leave it open for some admissible sides of the contacts that stick, or
-/// it differs from one choice of sides to another by more than what counts as zero in decisions.
+/// The normal force of each contact in a phase (N); `None` if it depends on how the sticking joints share
+/// their friction: the equations leave it open for some admissible sides of the sticking contacts, or it
+/// differs between choices of sides by more than what decisions count as zero.
 ///
 /// # Errors
 /// As [`sticking_margin`](super::sticking_margin).
@@ -35,7 +35,7 @@ pub(in crate::motion) fn determined_normal_forces(
     Ok(normal)
 }
 
-/// Those of a group, in units; nothing at all if no state was found, or not all sides could be tried.
+/// The normal forces of a group, in units; `None` if no state was found, or if not all sides could be tried.
 fn of_group(
     instant: &Instant<'_>,
     question: &Question<'_>,

@@ -1,4 +1,4 @@
-//! Attainability of phases (theory, section 7): sticking joints are taken as locks.
+//! Attainability of phases (theory, section 7): sticking joints are treated as locks.
 
 use super::instant::Instant;
 use crate::attainability::ElasticGuides;
@@ -17,10 +17,10 @@ const STICKS: &str = "every joint sticks: no friction follows the normal forces"
 const IN_GAP: &str = "a contact is between its faces";
 const OUT_OF_RANGE: &str = "a coefficient is beyond the range of floating point";
 
-/// The attainability of a phase whose sides are known, without what an unattainable phase separates.
+/// The attainability of a phase whose sides are known, without finding what an unattainable phase separates.
 ///
-/// Joints that stick are locked in the middle of the block, as far as the locks are independent, and their
-/// contacts are without friction there.
+/// Sticking joints are locked at the middle of the block, as far as the locks are independent, and their
+/// contacts have no friction there.
 pub(super) fn attainability(
     instant: &Instant<'_>,
     configuration: &Configuration,
@@ -31,13 +31,13 @@ pub(super) fn attainability(
         .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
 }
 
-/// The verdict of [`attainability`] alone.
+/// Only the verdict of [`attainability`].
 pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
     let ask = |guides: &ElasticGuides<'_>, sides: &[Side]| guides.verdict_on(sides);
     examine(instant, configuration, phase, ask).unwrap_or(Verdict::NotComputed)
 }
 
-/// What is asked of a phase with elastic guides, or why there is no answer.
+/// Examines a phase with elastic guides, or gives the reason why there is no answer.
 fn examine<T>(
     instant: &Instant<'_>,
     configuration: &Configuration,
@@ -94,7 +94,7 @@ fn locked(
     found
 }
 
-/// Holds a sliding joint by a force between block and guide along the centre line.
+/// Locks a sliding joint by a force between block and guide along the centre line.
 fn lock(
     mechanism: &mut Mechanism,
     slider: &Slider,
@@ -116,7 +116,7 @@ fn lock(
         coordinate,
         acceleration: Quantity::Constant(0.0),
         effort: Effort::Force {
-            // A point of the guide on its centre line, so that the direction turns with the guide.
+            // A point of the guide on its centre line, so that the direction rotates with the guide.
             at: Attachment { frame: slider.guide, position: slider.at },
             direction: -slider.tangent,
             turns: true,

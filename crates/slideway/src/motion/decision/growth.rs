@@ -1,4 +1,4 @@
-//! Whether a phase that starts at one of its bounds moves away from it: short steps along its own motion.
+//! Whether a phase that starts at one of its bounds moves away from it, by short steps along its own motion.
 
 use super::assessment::{Assessment, Decisive, Slack, assess};
 use super::instant::Instant;
@@ -12,14 +12,14 @@ use crate::motion::moving::resolution::Resolution;
 use crate::pattern::Phase;
 use nalgebra::{DVector, Vector2};
 
-/// Length of a step, as a part of the time in which something of the motion can change.
+/// Length of a step, as a fraction of the time in which the motion can change.
 const STEP: f64 = 1e-4;
-/// Rates of slacks below this, per unit of that time, are zero: they are accurate to about 1e-8.
+/// Rates of slacks below this, per unit of that time, count as zero: they are accurate to about 1e-8.
 const NO_RATE: f64 = 1e-6;
-/// Second derivatives of slacks below this, likewise: they are accurate to about 1e-4.
+/// Second derivatives of slacks below this count as zero: they are accurate to about 1e-4.
 const NO_CURVATURE: f64 = 2e-3;
-/// A rate beyond this, per unit of that time, is told by one step: second derivatives, which one step counts
-/// as rates, are of the order of one in that unit, and would have to be 200 times that.
+/// A rate beyond this, per unit of that time, is decided by one step: second derivatives, which one step
+/// counts as rates, are of order one in that unit, and would have to be 200 times that.
 const CLEAR_RATE: f64 = 1e-2;
 
 /// Accelerations of bodies and coordinates.
@@ -28,16 +28,16 @@ struct Accelerations {
     coordinates: Vec<f64>,
 }
 
-/// How a phase stands to its bounds; else those that it violates at once, or none if its equations contradict
-/// each other a little later.
+/// How a phase stands to its bounds; otherwise the bounds that it violates at once, or none if its equations
+/// contradict each other a little later.
 ///
-/// Something of the motion can change in the time in which accelerations or velocities go through the whole
-/// mechanism, or in that over which four samples show what the loads do.
+/// The time in which the motion can change is that in which accelerations or velocities carry the mechanism
+/// through its own length, or that over which four samples show what the loads do.
 ///
-/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase: by the
-/// difference over one step where all rates are clear, else by one-sided differences over two steps, with
-/// constant accelerations, which tells rates as well as any, and by Heun's method where a rate is zero and
-/// the curvature is asked for.
+/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase. Where
+/// all rates are clear, the difference over one step suffices. Otherwise one-sided differences over two steps
+/// are used: with constant accelerations, which give rates as well as any, and by Heun's method where a rate
+/// is zero and the curvature is needed.
 pub(super) fn standing(
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
@@ -80,19 +80,19 @@ struct Bounds<'b> {
     at_zero: &'b [usize],
 }
 
-/// What becomes of slacks that are zero.
+/// How slacks that are zero develop.
 #[derive(Default)]
 struct Judged {
-    /// Those that fall.
+    /// Those that decrease.
     violated: Vec<Decisive>,
-    /// Those of which neither is told that they rise nor that they fall.
+    /// Those that are known neither to increase nor to decrease.
     constant: Vec<usize>,
-    /// Whether a curvature decides.
+    /// Whether a curvature is decisive.
     wants_curvature: bool,
 }
 
 impl Bounds<'_> {
-    /// Judges by the difference over one step; nothing where a rate is not clear.
+    /// Judges by the difference over one step; `None` if a rate is not clear.
     fn after_one(self, first: &[Slack]) -> Option<Judged> {
         let mut judged = Judged::default();
         for &index in self.at_zero {
@@ -145,12 +145,12 @@ fn limit(instant: &Instant<'_>, subject: Decisive) -> PhaseBound {
     }
 }
 
-/// The shortest time (s) ahead that steps can tell from now.
+/// The shortest time ahead (s) that steps can resolve from now.
 fn least_step(configuration: &Configuration) -> f64 {
     f64::EPSILON / STEP.powi(2) * configuration.time.abs()
 }
 
-/// The time in which accelerations or velocities go through the whole mechanism (s).
+/// The time in which accelerations or velocities carry the mechanism through its own length (s).
 fn time_scale(instant: &Instant<'_>, configuration: &Configuration) -> f64 {
     let length = instant.units.length;
     let speeds = configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * length));
@@ -165,7 +165,7 @@ struct Flow<'f> {
     stopped: &'f [bool],
 }
 
-/// What becomes of a phase along its own motion.
+/// What happens to a phase along its own motion.
 enum Later<T> {
     Lasts(T),
     /// Its equations contradict each other.
@@ -185,14 +185,14 @@ impl<T> Later<T> {
 }
 
 impl Flow<'_> {
-    /// What becomes of slacks that are zero.
+    /// How slacks that are zero develop.
     fn judged(
         &self,
         (from, start): (&Configuration, Accelerations),
         step: f64,
         bounds: Bounds<'_>,
     ) -> Result<Later<Judged>, Faults> {
-        // Errors are of second order in the step, as the differences for rates take them out.
+        // Errors are of second order in the step, because the differences for rates remove them.
         let after = |time: f64| self.at(&advanced(from, &start, &start, time));
         after(step)?.and_then(|(_, first)| {
             if let Some(judged) = bounds.after_one(&first) {
@@ -209,7 +209,7 @@ impl Flow<'_> {
         })
     }
 
-    /// The same with errors of third order, which leave curvatures.
+    /// The same with errors of third order, which preserve curvatures.
     fn curved(
         &self,
         (from, start): (&Configuration, &Accelerations),
@@ -254,7 +254,7 @@ fn accelerations(instant: &Instant<'_>, assessment: &Assessment) -> Acceleration
     Accelerations { bodies, coordinates: state.coordinate_accelerations }
 }
 
-/// The configuration after a step in which accelerations go from `start` to `end` in proportion to time.
+/// The configuration after a step in which accelerations vary linearly in time from `start` to `end`.
 fn advanced(from: &Configuration, start: &Accelerations, end: &Accelerations, step: f64) -> Configuration {
     let way = |velocity: f64, a: f64, b: f64| step * (velocity + step * (2.0 * a + b) / 6.0);
     let gain = |a: f64, b: f64| step * f64::midpoint(a, b);

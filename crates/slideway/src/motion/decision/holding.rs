@@ -1,4 +1,4 @@
-//! What stands still while only its loads change.
+//! Bodies that stand still while only their loads change.
 
 use super::BOUNDARY;
 use super::assessment::{Assessment, assess_group};
@@ -18,21 +18,20 @@ use nalgebra::DVector;
 /// Bodies that stand still in a phase: equations and influence coefficients are computed once.
 pub(crate) struct Holding<'m> {
     instant: Instant<'m>,
-    /// With the sides of the last margin.
+    /// With the sides of the latest margin.
     phase: Phase,
     stopped: Vec<bool>,
     amounts: Amounts<'m>,
-    /// The amounts at the time of the instant, and what one of each adds to what is asked of forces and
-    /// accelerations.
+    /// The amounts of the loads at the time of the instant, and what one unit of each adds to the outputs.
     first: Vec<f64>,
     responses: Vec<DVector<f64>>,
     base: DVector<f64>,
-    /// The groups of joints between these bodies, with forces with which they can stick.
+    /// The groups of joints between these bodies, with forces that let them stick.
     plans: Vec<(Group, Option<Plan>)>,
 }
 
 impl<'m> Holding<'m> {
-    /// Those bodies of a mechanism that stand still, in the configuration in which they stay.
+    /// The bodies of a mechanism that stand still, in the configuration in which they stay.
     ///
     /// # Errors
     /// As [`sticking_margin`](super::sticking_margin).
@@ -67,10 +66,10 @@ impl<'m> Holding<'m> {
     }
 
     /// [`sticking_margin`](super::sticking_margin) at a time, in the units of the first instant; sides that
-    /// have left enough at the last time are tried first.
+    /// left enough friction at the latest time are tried first.
     ///
     /// # Errors
-    /// Loads without a value.
+    /// Loads have no value.
     pub(crate) fn margin(&mut self, time: f64) -> Result<f64, Faults> {
         let amounts = self.amounts.at(time)?;
         let mut margin = f64::INFINITY;
@@ -81,16 +80,16 @@ impl<'m> Holding<'m> {
         Ok(margin)
     }
 
-    /// The unit of force of its margins (N), where all joints belong together.
+    /// The unit of force of its margins (N), if all joints belong together.
     #[cfg(test)]
     pub(crate) fn unit(&self) -> f64 {
         self.instant.joints[0].units.force
     }
 
-    /// What is known of a span of time.
+    /// What is known about a span of time.
     ///
     /// # Errors
-    /// Loads without a value.
+    /// Loads have no value.
     pub(crate) fn outlook(&mut self, [from, until]: [f64; 2]) -> Result<Outlook, Faults> {
         let mut outlook = Outlook { proven: until, slips: false };
         for index in 0..self.plans.len() {
@@ -104,8 +103,8 @@ impl<'m> Holding<'m> {
         Ok(outlook)
     }
 
-    /// The same of a group of joints: a plan is followed as far as it goes, and replaced by the one that
-    /// leaves most there.
+    /// The same for a group of joints: a plan is followed as far as it is valid, then replaced by the one
+    /// that leaves the most slack there.
     fn outlook_of(
         &mut self,
         group: &Group,
@@ -136,9 +135,9 @@ impl<'m> Holding<'m> {
         }
     }
 
-    /// Where the margin has fallen through zero before it was found to be negative: on the supporting plane
-    /// of the margin, which is a concave function of the amounts for given sides, and from there on if that
-    /// was not enough.
+    /// Where the margin fell through zero before it was found to be negative: on the supporting plane of the
+    /// margin, which for given sides is a concave function of the amounts, and onwards from there if that was
+    /// not enough.
     fn zero_before(&mut self, group: &Group, plan: Plan, [from, end]: [f64; 2]) -> Result<f64, Faults> {
         let (mut plan, mut end) = (plan, end);
         loop {
@@ -152,8 +151,8 @@ impl<'m> Holding<'m> {
         }
     }
 
-    /// Forces of a group at a time, and how they go with the amounts; nothing if there are none, or a linear
-    /// program was not solved.
+    /// Forces of a group at a time, and how they vary with the amounts; `None` if there are none, or if a
+    /// linear program was not solved.
     fn plan(&mut self, group: &Group, time: f64) -> Result<Option<Plan>, Faults> {
         let amounts = self.amounts.at(time)?;
         Ok(self.assess(group, &amounts).and_then(|found| {
@@ -162,7 +161,7 @@ impl<'m> Holding<'m> {
         }))
     }
 
-    /// The sides of a group that leave most, or enough, with these amounts of the loads.
+    /// The sides of a group that leave the most slack, or enough, with these amounts of the loads.
     fn assess(&mut self, group: &Group, amounts: &[f64]) -> Option<Assessment> {
         self.instant.outputs.base.copy_from(&self.base);
         for ((amount, first), response) in amounts.iter().zip(&self.first).zip(&self.responses) {

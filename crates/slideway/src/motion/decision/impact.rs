@@ -14,12 +14,12 @@ use crate::motion::moving::energy::kinetic;
 use crate::pattern::{ContactPhase, JointPhase};
 use nalgebra::DVector;
 
-/// What an impact on end stops does.
+/// The effect of an impact on end stops.
 #[derive(Debug, Clone)]
 pub struct Impact {
     /// The mechanism afterwards: the same positions, new velocities.
     pub after: Configuration,
-    /// The blows of joints that act on one another; others do not know of each other.
+    /// The blows, one for each set of joints that act on one another; they are independent.
     pub blows: Vec<Blow>,
 }
 
@@ -28,36 +28,36 @@ pub struct Impact {
 pub struct Blow {
     /// The joints, each with the impulse with which its stop pushes (N s).
     pub stops: Vec<(JointId, f64)>,
-    /// Kinetic energy before less kinetic energy afterwards (J).
+    /// Kinetic energy before minus kinetic energy afterwards (J).
     pub energy_lost: f64,
 }
 
 /// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution
-/// `e`: its sliding velocity `v` becomes `-e v`.
+/// `e`: its sliding velocity changes from `v` to `-e v`.
 ///
-/// A stop pushes along the centre line of the guide, block against guide, with an impulse `P` that grows
+/// A stop pushes along the centre line of the guide, between block and guide, with an impulse `P` that grows
 /// during the impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary Part, chapter IV). Loads
-/// and preloads are too small to count; on the way velocities change by
+/// and preloads are negligible; meanwhile velocities change according to
 ///
 /// ```text
 /// M v' - G^T Lambda' - B U' - sum_k W_k Phi_k' = sum_i W_stop,i P_i'      G v' = 0      C v' = 0      P_i' >= 0
 /// Phi_k' = mu_k |Lambda_k'| s_k of joints that slide,    |Phi_k'| <= mu_static_k |Lambda_k'| of those at rest that stay so
 /// ```
 ///
-/// which is the mode problem of impulses. It is constant until a sliding velocity reaches zero; there it is
-/// decided anew. A joint slides against its stop first, and then away from it, so that its friction turns
-/// round within the impact. Of several possible answers the one with the greatest margin is taken.
-/// Coefficients of friction are those of the velocities before.
+/// which is the mode problem of impulses. It is constant until a sliding velocity reaches zero, and is then
+/// decided anew. A joint slides first against its stop and then away from it, so its friction reverses within
+/// the impact. If there are several possible answers, the one with the greatest margin is used. Coefficients
+/// of friction are those at the velocities before the impact.
 ///
-/// Stops that are reached together act together: the velocities `v_i` towards them go to `-e_i v_i` in
-/// proportion. A stop may also be without impulse, if the others take its joint away from it at least as
-/// fast: `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau).
-/// Without friction that is a linear complementarity problem with one outcome, which takes
-/// `sum_i P_i (1 - e_i) v_i/2` of kinetic energy. Every choice of the stops that push is tried.
+/// Stops that are reached together act together: the velocities `v_i` towards them change to `-e_i v_i` in
+/// proportion. A stop may also exert no impulse, if the others move its joint away from it at least as fast:
+/// `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau).
+/// Without friction this is a linear complementarity problem with a unique outcome, which removes a kinetic
+/// energy of `sum_i P_i (1 - e_i) v_i/2`. All choices of the stops that push are tried.
 ///
 /// # Errors
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are
-/// tried, an impact in which friction leaves the stops no impulse, and one that can have several outcomes.
+/// tried, an impact in which friction leaves the stops no impulse, and one with several possible outcomes.
 pub fn impact(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -66,7 +66,7 @@ pub fn impact(
     let instant = Instant::new(mechanism, configuration)?;
     let place = |id: JointId| instant.joints.iter().position(|joint| joint.id == id);
     let hits = stops.iter().filter_map(|&(id, restitution)| Some(Hit { joint: place(id)?, restitution }));
-    // What stands at its stop stays or leaves as any joint at rest does.
+    // A joint that rests at its stop stays or leaves like any joint at rest.
     let velocities = Impulses::new(&instant).velocities();
     let hits: Vec<Hit> = hits.filter(|hit| velocities[hit.joint] != 0.0).collect();
     let mut found = Impact { after: configuration.clone(), blows: Vec::new() };
@@ -92,7 +92,7 @@ struct Hit {
     restitution: f64,
 }
 
-/// How far an impact has gone.
+/// The progress of an impact.
 #[derive(Debug, Clone)]
 struct AfterImpact {
     /// The sliding velocities (m/s), exactly zero where a joint has stopped.
@@ -103,10 +103,10 @@ struct AfterImpact {
     impulses: Vec<f64>,
 }
 
-/// The only outcome of an impact in a group.
+/// The unique outcome of an impact in a group.
 ///
 /// # Errors
-/// None, or several.
+/// There is no outcome, or there are several.
 fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<AfterImpact, Faults> {
     let joints = || {
         hits.iter().map(|hit| instant.mechanism.joints[instant.joints[hit.joint].id.index()].name.to_string())
@@ -118,7 +118,7 @@ fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<AfterIm
     }
     let mut found: Option<AfterImpact> = None;
     let mut unsolved = 0;
-    // All of them first.
+    // All stops together are tried first.
     for choice in (1..choices).rev() {
         let pushes: Vec<bool> = (0..hits.len()).map(|hit| choice >> hit & 1 == 1).collect();
         let instant = touching(instant, hits, &pushes);
@@ -140,7 +140,7 @@ fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<AfterIm
     found.ok_or_else(|| Fault::general(kind).into())
 }
 
-/// The instant at which those joints touch their stops whose stops push.
+/// The instant at which the joints whose stops push touch them.
 fn touching<'m>(instant: &Instant<'m>, hits: &[Hit], pushes: &[bool]) -> Instant<'m> {
     let mut instant = instant.clone();
     for (hit, pushes) in hits.iter().zip(pushes) {
@@ -155,12 +155,12 @@ struct Process<'s> {
     impulses: &'s Impulses<'s>,
     group: &'s Group,
     hits: &'s [Hit],
-    /// Whether the stop of each pushes.
+    /// For each, whether its stop pushes.
     pushes: &'s [bool],
 }
 
 impl Process<'_> {
-    /// What the impact comes to; nothing if these stops cannot push and the others not.
+    /// The outcome of the impact; `None` unless exactly these stops can push.
     fn outcome(&self, unsolved: &mut usize) -> Result<Option<AfterImpact>, Faults> {
         let instant = self.impulses.instant;
         let mut course = AfterImpact {
@@ -181,8 +181,8 @@ impl Process<'_> {
         Ok(self.hits.iter().all(leaves).then_some(course))
     }
 
-    /// Follows an impact until joints have their velocities, in proportion; `false` if no impulse leads
-    /// there. Every part but the last brings another joint to rest.
+    /// Follows an impact until the joints have reached their velocities, in proportion; `false` if no impulse
+    /// leads there. Every part except the last brings another joint to rest.
     fn follow(
         &self,
         course: &mut AfterImpact,
@@ -216,8 +216,8 @@ impl Process<'_> {
         Ok(true)
     }
 
-    /// The state in which the whole way from these sliding velocities to the targets could go; nothing if
-    /// none is admissible.
+    /// The state in which the whole change from these sliding velocities to the targets could take place;
+    /// `None` if none is admissible.
     fn state(
         &self,
         velocities: &[f64],
@@ -243,7 +243,7 @@ impl Process<'_> {
         Ok(found.list.into_iter().reduce(better))
     }
 
-    /// How every sliding velocity changes; exactly not where the joint sticks.
+    /// The change of every sliding velocity; exactly zero where the joint sticks.
     fn changes(&self, state: &Assessment, jumps: &DVector<f64>) -> Vec<f64> {
         let joints = self.impulses.instant.joints.iter().zip(&state.phase.joints);
         joints
@@ -254,7 +254,7 @@ impl Process<'_> {
             .collect()
     }
 
-    /// The part of the way until another joint stops, and which; the whole if none does.
+    /// The fraction of the change until another joint stops, and which joint; the whole if none does.
     fn until_one_stops(
         &self,
         velocities: &[f64],
@@ -273,8 +273,8 @@ impl Process<'_> {
         first
     }
 
-    /// The impulse with which the stop of a joint pushes in a state (N s): at the face that is not pressed it
-    /// is half of that alone.
+    /// The impulse with which the stop of a joint pushes in a state (N s): half of it acts at the
+    /// face that is not pressed, where nothing else acts.
     fn push(&self, state: &Assessment, joint: usize) -> f64 {
         let joint = &self.impulses.instant.joints[joint];
         let k = joint.contacts[0];

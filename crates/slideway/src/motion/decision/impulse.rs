@@ -1,4 +1,4 @@
-//! Impulses: what jams and impacts have in common. Positions, loads and preloads do not count while
+//! Impulses: what jams and impacts have in common. Positions stay, and loads and preloads do not count, while
 //! velocities jump.
 
 use super::assessment::{Assessment, PRESSED, assess_group};
@@ -13,7 +13,7 @@ use crate::influence::ContactFriction;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DVector, Vector2};
 
-/// Sliding velocities below this multiple of the greatest are zero.
+/// Sliding velocities below this multiple of the greatest count as zero.
 pub(super) const AT_REST: f64 = 1e-9;
 
 /// A mechanism at an instant at which velocities jump.
@@ -24,7 +24,7 @@ pub(super) struct Impulses<'s> {
     pub(super) speed: f64,
 }
 
-/// Admissible states of a group, and how many patterns were not decided.
+/// Admissible states of a group, and the number of undecided patterns.
 #[derive(Default)]
 pub(super) struct Admissible {
     pub(super) list: Vec<Assessment>,
@@ -37,7 +37,7 @@ impl<'s> Impulses<'s> {
         Self { instant, outputs: instant.impulse_outputs(), speed }
     }
 
-    /// The sliding velocities (m/s), exactly zero where they are rounding.
+    /// The sliding velocities (m/s), exactly zero where they are only rounding.
     pub(super) fn velocities(&self) -> Vec<f64> {
         let velocities = self.instant.joints.iter().map(|joint| joint.velocity);
         velocities.map(|velocity| self.without_rounding(velocity)).collect()
@@ -47,13 +47,13 @@ impl<'s> Impulses<'s> {
         if velocity.abs() <= AT_REST * self.speed { 0.0 } else { velocity }
     }
 
-    /// The time in which the unit of acceleration gives the greatest sliding velocity (s).
+    /// The time in which the unit of acceleration produces the greatest sliding velocity (s).
     fn time(&self) -> f64 {
         self.speed / self.instant.units.acceleration
     }
 
-    /// What is asked of a state in which sliding velocities jump by so much (m/s) where joints stick or are
-    /// pushed by their stops.
+    /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick or
+    /// are pushed by their stops.
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
         let joints = self.instant.joints.iter().zip(jumps);
         Question {
@@ -67,8 +67,8 @@ impl<'s> Impulses<'s> {
         }
     }
 
-    /// What a joint with this sliding velocity can do during an impulse: what slides goes on, what rests may
-    /// stay.
+    /// What a joint with this sliding velocity can do during an impulse: a sliding joint continues, a resting
+    /// one may stay.
     pub(super) fn options(&self, joint: usize, velocity: f64) -> Vec<JointPhase> {
         if velocity != 0.0 {
             vec![JointPhase::Sliding(velocity.signum())]
@@ -79,7 +79,7 @@ impl<'s> Impulses<'s> {
         }
     }
 
-    /// The admissible states of a group in which its joints do one of these things each.
+    /// The admissible states of a group in which each joint does one of the given things.
     ///
     /// # Errors
     /// More states than are tried.
@@ -100,8 +100,8 @@ impl<'s> Impulses<'s> {
         Ok(found)
     }
 
-    /// All states of a group in which its joints do one of these things each, with all sides of the contacts
-    /// that slide; the sides of contacts that stick are found later, and other groups do not matter.
+    /// All states of a group in which each joint does one of the given things, with all sides of the sliding
+    /// contacts; the sides of sticking contacts are found later, and other groups do not matter.
     fn states(&self, options: &[Vec<JointPhase>], group: &Group) -> Result<Vec<Phase>, Faults> {
         let inside = |joint: usize| group.joints.contains(&joint);
         let joints: Vec<Vec<JointPhase>> = options
@@ -141,13 +141,14 @@ impl<'s> Impulses<'s> {
         self.instant.units_of(k).force * self.time()
     }
 
-    /// The impulses of friction, and of stops, in a state (N s).
+    /// The impulses of friction and of stops in a state (N s).
     pub(super) fn frictions(&self, state: &Assessment) -> Vec<ContactFriction> {
         let frictions = state.forces.frictions.iter().enumerate();
         frictions.map(|(k, friction)| friction.times(self.unit(k))).collect()
     }
 
-    /// The configuration with these jumps of the velocities; what is left of a velocity by rounding is zero.
+    /// The configuration with these jumps of the velocities; what rounding leaves of a velocity is set to
+    /// zero.
     pub(super) fn moved(&self, configuration: &Configuration, jumps: &DVector<f64>) -> Configuration {
         let mut after = configuration.clone();
         for (body, velocity) in after.velocities.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! A mechanism at one instant: how normal forces, sliding accelerations and couples answer to friction.
+//! A mechanism at one instant: how normal forces, sliding accelerations and couples respond to friction.
 
 use super::joints::{SlidingJoint, set_units, sliding_joints};
 use super::outputs::{Group, Outputs, groups, outputs};
@@ -19,32 +19,32 @@ use std::borrow::Cow;
 pub(super) struct Instant<'m> {
     /// The mechanism.
     pub(super) mechanism: &'m Mechanism,
-    /// Its contacts, with the friction of their sliding speeds.
+    /// Its contacts, with the friction at their sliding speeds.
     contacts: Cow<'m, [Contact]>,
     /// Its kinetic equations.
     pub(super) equations: KineticEquations,
-    /// How its unknowns answer to friction.
+    /// How its unknowns respond to friction.
     pub(super) influence: Influence,
     /// Its sliding joints.
     pub(super) joints: Vec<SlidingJoint>,
-    /// Units of the whole.
+    /// Units of the whole mechanism.
     pub(super) units: Units,
-    /// The least units of force (N), of the whole and of what is connected with each joint.
+    /// The least units of force (N), for the whole mechanism and for what is connected with each joint.
     least_forces: Vec<f64>,
-    /// What is asked of forces and accelerations.
+    /// The outputs on which decisions are based.
     pub(super) outputs: Outputs,
-    /// By how much these differ from the loads, see [`Self::vanish`].
+    /// The difference of these from what the loads give, see [`Self::vanish`].
     pub(super) shift: DVector<f64>,
-    /// The sliding joints in groups that are decided separately.
+    /// The sliding joints, in groups that are decided separately.
     pub(super) groups: Vec<Group>,
 }
 
-/// Where the least units of force come from.
+/// The source of the least units of force.
 #[derive(Clone, Copy)]
 enum Least<'l> {
-    /// They are found in the configuration.
+    /// Determined from the configuration.
     Now(Scale),
-    /// They are those of an earlier instant.
+    /// Taken from an earlier instant.
     Before(&'l [f64]),
 }
 
@@ -52,14 +52,14 @@ impl<'m> Instant<'m> {
     /// A mechanism in a configuration, in units of its forces there.
     ///
     /// # Errors
-    /// Whatever [`KineticEquations::new`] refuses, friction without a value.
+    /// Whatever [`KineticEquations::new`] refuses, and friction without a value.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         Self::of(mechanism, (configuration, equations), Least::Now(rounding))
     }
 
-    /// The same in units of what the forces come to: those of the instant may vanish, and what they do next
-    /// decides.
+    /// The same in units of the forces that will arise: those of the instant may vanish, and then their
+    /// development decides.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -72,7 +72,7 @@ impl<'m> Instant<'m> {
     }
 
     /// The same in units of at least this force (N): where all forces vanish at once, as at a dead centre
-    /// without loads, what rounding has left of them does not count.
+    /// without loads, what rounding leaves of them does not count.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -88,7 +88,8 @@ impl<'m> Instant<'m> {
         Self::of(self.mechanism, (configuration, self.equations), Least::Before(&least))
     }
 
-    /// The mechanism a little later, with the same least units and the same difference from the loads.
+    /// The mechanism a little later, with the same least units and the same difference from what the loads
+    /// give.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -143,12 +144,12 @@ impl<'m> Instant<'m> {
         wrong_count("contacts", self.mechanism.contacts.len(), phase.contacts.len())
     }
 
-    /// The answer to friction impulses alone, without loads.
+    /// The response to friction impulses alone, without loads.
     pub(super) fn impulse_outputs(&self) -> Outputs {
         Outputs { base: DVector::zeros(self.outputs.base.len()), columns: self.outputs.columns.clone() }
     }
 
-    /// What is asked of forces and accelerations, of changes of all unknowns.
+    /// The outputs for changes of all unknowns.
     pub(super) fn response(&self, unknowns: &DVector<f64>) -> DVector<f64> {
         let normals = self.influence.normal_part(unknowns);
         let normals = normals.iter().enumerate().map(|(k, normal)| normal / self.units_of(k).force);
@@ -164,7 +165,7 @@ impl<'m> Instant<'m> {
         self.joint_of(k).map_or(self.units, |joint| self.joints[joint].units)
     }
 
-    /// Adds to what there is without friction, in units.
+    /// Adds to the frictionless outputs, in units.
     pub(super) fn change_base(&mut self, shift: &DVector<f64>) {
         self.outputs.base += shift;
         self.shift += shift;
@@ -182,7 +183,7 @@ impl<'m> Instant<'m> {
         Law::new(self.mechanism, (k, contact), (self.units_of(k).force, has_preload), holds)
     }
 
-    /// The mechanism with the friction of the sliding speeds.
+    /// The mechanism with the friction at the sliding speeds.
     pub(super) fn mechanism_at_speeds(&self) -> Mechanism {
         let mut mechanism = self.mechanism.clone();
         mechanism.contacts = self.contacts.to_vec();
@@ -194,12 +195,12 @@ impl<'m> Instant<'m> {
         self.joints.iter().position(|joint| joint.contacts.contains(&k))
     }
 
-    /// Where the acceleration of a sliding joint stands among the outputs.
+    /// The index of a sliding joint's acceleration among the outputs.
     pub(super) fn sliding_output(&self, joint: usize) -> usize {
         self.mechanism.contacts.len() + joint
     }
 
-    /// Where the couple of each guided slider stands among the outputs.
+    /// The index of each guided slider's couple among the outputs.
     pub(super) fn couple_outputs(&self) -> impl Iterator<Item = (usize, &SlidingJoint)> {
         let first = self.mechanism.contacts.len() + self.joints.len();
         let guided = self.joints.iter().filter(|joint| joint.couple.is_some());
@@ -214,7 +215,7 @@ fn wrong_count(what: &'static str, expected: usize, found: usize) -> Result<(), 
     Err(Fault::general(FaultKind::WrongCount { what, expected, found }).into())
 }
 
-/// The contacts with the friction of their sliding speeds.
+/// The contacts with the friction at their sliding speeds.
 fn contacts<'m>(
     mechanism: &'m Mechanism,
     configuration: &Configuration,

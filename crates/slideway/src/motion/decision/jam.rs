@@ -1,4 +1,4 @@
-//! Dynamic jamming: the impulse that stops a mechanism which has no admissible acceleration (theory, section
+//! Dynamic jamming: the impulse that stops a mechanism that has no admissible acceleration (theory, section
 //! 8).
 
 use super::assessment::Assessment;
@@ -13,13 +13,13 @@ use crate::motion::moving::energy::kinetic;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::DVector;
 
-/// What an impulse that ends a jam does.
+/// The effect of an impulse that ends a jam.
 #[derive(Debug, Clone)]
 pub struct Impulse {
     /// The joint that wedges; its tangential impulse is a reaction.
     pub wedged: JointId,
     /// The sliding joints without velocity afterwards: those that stopped first, and those that were at rest
-    /// and stay so.
+    /// and stay at rest.
     pub at_rest: Vec<JointId>,
     /// The sides at which the contacts are pressed during the impulse.
     pub sides: Vec<ContactPhase>,
@@ -31,9 +31,9 @@ pub struct Impulse {
     pub after: Configuration,
     /// Velocity of each sliding joint afterwards (m/s), exactly zero where it has stopped.
     pub sliding_velocities: Vec<f64>,
-    /// Kinetic energy before less kinetic energy afterwards (J).
+    /// Kinetic energy before minus kinetic energy afterwards (J).
     pub energy_lost: f64,
-    /// The least slack of the inequalities, as a part of the greatest impulse of the state.
+    /// The least slack of the inequalities, as a fraction of the greatest impulse of the state.
     pub margin: f64,
 }
 
@@ -42,22 +42,22 @@ pub struct Impulse {
 pub enum Jam {
     /// These impulses, the one with the greatest margin first.
     Stops(Vec<Impulse>),
-    /// No impulse is consistent: whichever joint wedges, its friction would not be great enough, or a guided
+    /// No impulse is consistent: whichever joint wedges, its friction would be insufficient, or a guided
     /// slider would tip.
     NoImpulse {
-        /// Patterns of which a linear program was not solved.
+        /// The number of patterns for which a linear program was not solved.
         unsolved: usize,
     },
-    /// No joint with friction slides: nothing can jam dynamically. A mechanism at rest that cannot be started
-    /// is held by self-locking, which is another thing.
+    /// No joint with friction slides, so nothing can jam dynamically. A mechanism at rest that cannot be
+    /// started is held by self-locking, which is a different phenomenon.
     AtRest,
 }
 
-/// The impulses that can act when there is no admissible acceleration though joints slide: dynamic jamming.
+/// The impulses that can act when joints slide but no acceleration is admissible: dynamic jamming.
 ///
-/// Reactions grow beyond all bounds for a short time, until the first sliding velocity reaches zero. They do
-/// so because some joint `j` wedges: for every joint that slides the mode problem of impulses is solved,
-/// without loads and preloads, as if it stopped:
+/// Reactions grow without bound for a short time, until the first sliding velocity reaches zero. They do so
+/// because some joint `j` wedges: for every sliding joint, the mode problem of impulses, without loads and
+/// preloads, is solved as if this joint stopped:
 ///
 /// ```text
 /// M dv - G^T Lambda - B U - sum_k W_k Phi_k = 0      G dv = 0      C dv = 0      jump of the sliding velocity of j = -ds_j
@@ -65,16 +65,16 @@ pub enum Jam {
 /// 0 <= Phi_k s_k <= mu_static_k |Lambda_k| of joint j
 /// ```
 ///
-/// If another sliding velocity would reverse before that, the impulse ends where it is zero, in proportion.
-/// Joints that were at rest stay so within static friction, or are set going against kinetic friction. With
-/// one degree of freedom everything stops. The distribution between the contacts of joint `j` is
-/// indeterminate; the one with the greatest margin is told. Whether the mechanism is jammed is not asked:
-/// that is an empty list of [`successors`](super::successors). Afterwards ask for them again, with the joints
-/// that have stopped; if there are none, it is still jammed.
+/// If another sliding velocity would reverse first, the impulse is scaled back so that it ends where that
+/// velocity is zero. Joints at rest either stay at rest within static friction or are set in motion against
+/// kinetic friction. With one degree of freedom, everything stops. The distribution between the contacts of
+/// joint `j` is indeterminate; the one with the greatest margin is reported. This function does not check
+/// whether the mechanism is jammed: it is if [`successors`](super::successors) is empty. Afterwards, ask for
+/// the successors again, with the joints that have stopped; if there are none, the mechanism is still jammed.
 ///
 /// # Errors
-/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are
-/// tried.
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and more states than
+/// are tried.
 pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
     let impulses = Impulses::new(&instant);
@@ -105,7 +105,7 @@ struct ImpulsesFound {
 struct ImpulseSearch<'s> {
     configuration: &'s Configuration,
     impulses: &'s Impulses<'s>,
-    /// The sliding velocities (m/s), exactly zero where they are rounding.
+    /// The sliding velocities (m/s), exactly zero where they are only rounding.
     velocities: &'s [f64],
 }
 
@@ -132,8 +132,8 @@ impl ImpulseSearch<'_> {
         Ok(())
     }
 
-    /// The impulse of an admissible state, as far as the first sliding velocity reaches zero; nothing if a
-    /// joint that was at rest would slide against its friction's sense.
+    /// The impulse of an admissible state, up to where the first sliding velocity reaches zero; `None` if a
+    /// joint that was at rest would slide in the direction of its friction.
     fn impulse(&self, joint: usize, state: &Assessment) -> Option<Impulse> {
         let instant = self.impulses.instant;
         let whole = self.impulses.frictions(state);
@@ -158,8 +158,8 @@ impl ImpulseSearch<'_> {
         })
     }
 
-    /// The part of an impulse after which the first sliding velocity is zero; nothing if a joint that was at
-    /// rest would slide the other way.
+    /// The fraction of an impulse after which the first sliding velocity is zero; `None` if a joint that was
+    /// at rest would slide the other way.
     fn part(&self, phase: &Phase, jumps: &DVector<f64>) -> Option<f64> {
         let mut part = 1.0_f64;
         for (index, joint) in self.impulses.instant.joints.iter().enumerate() {

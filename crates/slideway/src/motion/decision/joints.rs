@@ -11,9 +11,10 @@ use crate::model::Stop;
 use crate::motion::moving::connected::connected;
 use crate::pattern::GuidedCouple;
 
-/// A joint nearer to its end stop than this, in sizes of the mechanism, touches it: rounding of places.
+/// A joint nearer to its end stop than this, in sizes of the mechanism, touches it; positions have rounding
+/// errors.
 pub(in crate::motion) const TOUCHES: f64 = 1e-11;
-/// A sliding joint at the instant.
+/// A sliding joint at an instant.
 #[derive(Debug, Clone)]
 pub(super) struct SlidingJoint {
     /// Which joint it is.
@@ -22,15 +23,15 @@ pub(super) struct SlidingJoint {
     pub(super) contacts: Vec<usize>,
     /// The couple of a guided slider.
     pub(super) couple: Option<GuidedCouple>,
-    /// Its acceleration of sliding.
+    /// Its sliding acceleration.
     pub(super) row: SlidingRow,
     /// Its sliding velocity (m/s).
     pub(super) velocity: f64,
-    /// Whether any friction, or an end stop, could hold it.
+    /// Whether friction or an end stop could hold it.
     pub(super) has_friction: bool,
-    /// The end stop that it touches: 1 at its greatest displacement, -1 at its least one, else 0.
+    /// The end stop that it touches: 1 at its greatest displacement, -1 at its least, otherwise 0.
     pub(super) stop: f64,
-    /// Units of the bodies that joints connect with it.
+    /// Units of the bodies that joints connect to it.
     pub(super) units: Units,
 }
 
@@ -66,7 +67,7 @@ pub(super) fn sliding_joints(
     mechanism.joints.iter().enumerate().filter_map(one).collect()
 }
 
-/// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least one, else 0.
+/// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.
 fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
     let Some([least, greatest]) = slider.travel.filter(|_| slider.stops != [None; 2]) else {
         return 0.0;
@@ -85,8 +86,9 @@ fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &S
     }
 }
 
-/// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a
-/// part in what is small; the units of the whole. Their least forces are found anew or remain.
+/// Gives each joint the units of the bodies that joints connect to it, so that distant bodies do not affect
+/// small quantities, and returns the units of the whole mechanism. Their least forces are determined anew or
+/// kept.
 pub(super) fn set_units(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),

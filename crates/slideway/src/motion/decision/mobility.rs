@@ -1,21 +1,21 @@
-//! How joints accelerate under forces along their guides: whether others hold them, and in which senses they
-//! can begin to slide.
+//! How joints accelerate under forces along their guides: whether other joints hold them, and in which
+//! directions they can begin to slide.
 
 use super::instant::Instant;
 use nalgebra::DMatrix;
 
-/// Mobilities that cancel to within this multiple of themselves are zero.
+/// Mobilities that cancel to within this multiple of themselves count as zero.
 const DEPENDENT: f64 = 1e-10;
-/// Accelerations below this, in units, are zero.
+/// Accelerations below this, in units, count as zero.
 const NO_ACCELERATION: f64 = 1e-10;
 
 /// A joint that only a force greater than this, in units, could keep from sliding cannot stick.
 const GREATEST_FORCE: f64 = 1e8;
 
 impl Instant<'_> {
-    /// The sign of the acceleration of a joint that has no sliding velocity but passes: near a dead centre
-    /// its acceleration comes from the geometry of the motion (or from a drive), and no force along its guide
-    /// that could occur would change it.
+    /// The sign of the acceleration of a joint that has no sliding velocity but only passes through this
+    /// state: near a dead centre its acceleration comes from the geometry of the motion (or from a drive),
+    /// and no realistic force along its guide would change it.
     pub(super) fn passes(&self, joint: usize) -> Option<f64> {
         let acceleration = self.outputs.base[self.sliding_output(joint)];
         let holding_force = acceleration.abs() / self.mobility(joint, joint).abs();
@@ -26,7 +26,7 @@ impl Instant<'_> {
     /// Whether a joint does not accelerate while others are held, whatever forces act.
     ///
     /// With `A_ij` the acceleration of joint i under a unit force along the guide of joint j (in the middle
-    /// of the block) and `a` those without friction this is `A_jj - A_jH A_HH^-1 A_Hj = 0` and
+    /// of the block) and `a` the accelerations without friction, this is `A_jj - A_jH A_HH^-1 A_Hj = 0` and
     /// `a_j - A_jH A_HH^-1 a_H = 0`, by elimination with complete pivoting among the held joints H.
     pub(super) fn is_held(&self, joint: usize, held: &[usize]) -> bool {
         let joints: Vec<usize> = held.iter().copied().chain([joint]).collect();
@@ -39,21 +39,21 @@ impl Instant<'_> {
         rest <= DEPENDENT * own.max(DEPENDENT * greatest) && matrix[(last, last + 1)].abs() <= NO_ACCELERATION
     }
 
-    /// The number of joints whose motion depends on that of the others among them.
+    /// The number of these joints whose motion depends on that of the others.
     pub(super) fn dependent(&self, joints: &[usize]) -> usize {
         let mut matrix = self.mobilities(joints);
         let greatest = matrix.columns(0, joints.len()).amax();
         joints.len() - eliminate(&mut matrix, joints.len(), DEPENDENT * greatest)
     }
 
-    /// Whether two joints that begin to slide can do so with these signs: where the motion of one depends on
-    /// that of the other the signs must agree.
+    /// Whether two joints can begin to slide with these signs: if the motion of one depends on that of the
+    /// other, the signs must agree.
     pub(super) fn can_begin_together(&self, [one, other]: [(usize, f64); 2]) -> bool {
         let ratio = self.mobility(other.0, one.0) * self.mobility(one.0, one.0);
         !self.is_held(other.0, &[one.0]) || ratio * one.1 * other.1 >= 0.0
     }
 
-    /// Mobilities between joints, and in the last column their accelerations without friction.
+    /// Mobilities between joints and, in the last column, their accelerations without friction.
     fn mobilities(&self, joints: &[usize]) -> DMatrix<f64> {
         DMatrix::from_fn(joints.len(), joints.len() + 1, |i, j| match joints.get(j) {
             Some(pushed) => self.mobility(joints[i], *pushed),
@@ -61,7 +61,7 @@ impl Instant<'_> {
         })
     }
 
-    /// Acceleration of a sliding joint under a unit force along the guide of another one, in units.
+    /// Acceleration of a sliding joint under a unit force along the guide of another joint, in units.
     fn mobility(&self, joint: usize, pushed: usize) -> f64 {
         let Some(&k) = self.joints[pushed].contacts.first() else { return 0.0 };
         let row = self.sliding_output(joint);
@@ -70,7 +70,7 @@ impl Instant<'_> {
     }
 }
 
-/// Eliminates the leading square block of so many rows from all rows, with complete pivoting; its rank.
+/// Eliminates a leading square block of this size from all rows, with complete pivoting; returns its rank.
 fn eliminate(matrix: &mut DMatrix<f64>, block: usize, zero: f64) -> usize {
     for step in 0..block {
         let rest = matrix.view((step, step), (block - step, block - step));

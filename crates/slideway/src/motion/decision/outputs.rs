@@ -1,4 +1,4 @@
-//! How normal forces, sliding accelerations and couples answer to friction, and which joints act on one
+//! How normal forces, sliding accelerations and couples respond to friction, and which joints act on one
 //! another.
 
 use super::joints::SlidingJoint;
@@ -9,7 +9,7 @@ use crate::motion::moving::connected::join;
 use crate::solve::{NO_INFLUENCE, SAME_COLUMN};
 use nalgebra::{DMatrix, DVector};
 
-/// Sliding joints that act on one another; no friction of another joint has any influence on them.
+/// Sliding joints that act on one another; friction of other joints has no influence on them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Group {
     /// The joints.
@@ -18,14 +18,14 @@ pub(super) struct Group {
     pub(super) contacts: Vec<usize>,
 }
 
-/// What is asked of all unknowns, as it answers to the friction forces: normal forces of the contacts,
-/// accelerations of the sliding joints, couples of the guided sliders, in units.
+/// The outputs on which decisions are based, as functions of the friction forces: normal forces of the
+/// contacts, accelerations of the sliding joints, couples of the guided sliders, in units.
 #[derive(Debug, Clone)]
 pub(super) struct Outputs {
     /// Without friction.
     pub(super) base: DVector<f64>,
-    /// Added by a unit of friction at the faces of positive and of negative normal force; a column for each
-    /// contact.
+    /// The change caused by one unit of friction at the face of positive and at the face of negative normal
+    /// force; one column for each contact.
     pub(super) columns: [DMatrix<f64>; 2],
 }
 
@@ -106,8 +106,8 @@ pub(super) fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[Sl
     Outputs { base, columns }
 }
 
-/// Makes both versions of a column equal where they are so in theory: for guided sliders, whose couple takes
-/// up the moment of friction, and wherever that has no influence.
+/// Makes both versions of a column equal where they are equal in theory: for guided sliders, whose couple
+/// takes up the moment of friction, and wherever that moment has no influence.
 fn make_equal(mechanism: &Mechanism, columns: &mut [DMatrix<f64>; 2]) {
     let [positive, negative] = columns;
     for (k, contact) in mechanism.contacts.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a group of joints can do at an instant, decided without the others.
+//! What a group of joints can do at an instant, decided independently of the others.
 
 use super::assessment::{Assessment, Decisive, assess_group, with_sides};
 use super::elastic::verdict;
@@ -16,21 +16,22 @@ use crate::pattern::{ContactPhase, JointPhase, Phase, Unsolved};
 use crate::report::Verdict;
 use std::cmp::Reverse;
 
-/// Accelerations and forces that differ by less than this, in units, are the same.
+/// Accelerations and forces that differ by less than this, in units, count as equal.
 const SAME: f64 = 1e-6;
-/// When a state has been found, no more than so many are tried in all, ...
+/// Once a state has been found, at most this many are tried in all, ...
 const FURTHER_STATES: u64 = 10_000;
-/// ... and where more joints are at rest, none in which fewer stick than in one that is at no boundary.
+/// ... and with more joints at rest than this, no state in which fewer stick than in one that is at no
+/// boundary.
 const FEW_RESTING: usize = 4;
-/// Of more joints at rest in one group the others only stick.
+/// If more joints of one group are at rest than this, the rest only stick.
 const MOST_RESTING: usize = 60;
 
-/// How much is told of the phases.
+/// How much is to be determined about the phases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Detail {
     /// Everything.
     Everything,
-    /// What decides their order.
+    /// Only what decides their order.
     Order,
 }
 
@@ -41,10 +42,10 @@ pub(super) struct GroupPhase {
     pub(super) assessment: Assessment,
     /// Whether it is what the group did before.
     pub(super) is_present: bool,
-    /// Whether accelerations and normal forces are what they were.
+    /// Whether accelerations and normal forces stay the same.
     pub(super) continues: bool,
-    /// Whether it is attainable if all other groups are locked; not computed before its place in the order is
-    /// asked for.
+    /// Whether it is attainable if all other groups are locked; computed only when its place in the order is
+    /// needed.
     pub(super) verdict: Verdict,
 }
 
@@ -57,7 +58,7 @@ pub(super) struct PhaseSearch<'s> {
 }
 
 impl PhaseSearch<'_> {
-    /// For each group of joints what it can do, not yet in order.
+    /// For each group of joints, what it can do, not yet in order.
     ///
     /// # Errors
     /// More states than are tried.
@@ -87,7 +88,7 @@ impl PhaseSearch<'_> {
             .collect())
     }
 
-    /// A phase with the joints that certainly slide.
+    /// A phase with those joints sliding that certainly slide.
     pub(super) fn any_phase(&self) -> Phase {
         let joint = |joint: usize| match self.event.signs[joint] {
             0.0 if self.instant.joints[joint].has_friction => JointPhase::Sticking,
@@ -99,7 +100,7 @@ impl PhaseSearch<'_> {
         }
     }
 
-    /// What a group did before, at this instant.
+    /// What a group did before, assessed at this instant.
     fn before(&self, group: &Group) -> Option<Assessment> {
         let previous = self.event.previous?;
         self.assess(previous, group).ok()?
@@ -110,8 +111,8 @@ impl PhaseSearch<'_> {
         assess_group(self.instant, self.question, (phase, group), enough)
     }
 
-    /// Whether nothing happens in a group: no joint of it has just stopped or turned, and what it did is at
-    /// no boundary.
+    /// Whether nothing happens in a group: none of its joints has just stopped or reversed, and what it did
+    /// is at no boundary.
     fn is_undisturbed(&self, group: &Group, before: &Assessment) -> bool {
         let keeps = |joint: &usize| match before.phase.joints[*joint] {
             JointPhase::Sticking => self.event.signs[*joint] == 0.0,
@@ -122,7 +123,7 @@ impl PhaseSearch<'_> {
         group.joints.iter().all(keeps) && before.least() > BOUNDARY && !before.redundant
     }
 
-    /// All admissible states of a group, or those in which most joints stick, which are tried first.
+    /// All admissible states of a group, or only those in which most joints stick, which are tried first.
     fn admissible(&self, group: &Group, found: &mut Successors) -> Result<Vec<Assessment>, Faults> {
         let mut list: Vec<Assessment> = Vec::new();
         let mut sieve =
@@ -163,8 +164,8 @@ impl PhaseSearch<'_> {
         Ok(list)
     }
 
-    /// All states of the joints of a group with all sides of the contacts that slide, those in which most
-    /// joints stick first; contacts that stick have any side.
+    /// All states of the joints of a group with all sides of the sliding contacts, those with most joints
+    /// sticking first; sticking contacts have any side.
     fn patterns<'p>(&'p self, group: &'p Group) -> impl Iterator<Item = Phase> + 'p {
         let rests =
             |joint: &usize| self.event.signs[*joint] == 0.0 && self.instant.joints[*joint].has_friction;
@@ -195,8 +196,8 @@ impl PhaseSearch<'_> {
         })
     }
 
-    /// Whether the joints that begin to slip can do so: none depends on joints that stick, and those that
-    /// depend on one another slip in the senses that belong together.
+    /// Whether the joints that begin to slip can do so: none depends on sticking joints, and joints that
+    /// depend on one another slip in matching directions.
     fn can_begin(&self, group: &Group, joints: &[JointPhase]) -> bool {
         let of_group = || group.joints.iter().copied();
         let held: Vec<usize> = of_group().filter(|&joint| joints[joint] == JointPhase::Sticking).collect();
@@ -215,7 +216,7 @@ impl PhaseSearch<'_> {
             && pairs.all(|pair| self.instant.can_begin_together(pair))
     }
 
-    /// The guided sliders that would tip in a phase that violates nothing but these inequalities.
+    /// The guided sliders that would tip in a phase that violates only these inequalities.
     pub(super) fn tipping(
         &self,
         phase: &Phase,
@@ -232,8 +233,8 @@ impl PhaseSearch<'_> {
         (!joints.is_empty()).then(|| TippingPhase { phase: phase.clone(), joints })
     }
 
-    /// What a group can do beside what it did before; what is continued is left out where a single phase can
-    /// follow.
+    /// What a group can do compared with what it did before; whether motions are continued is not determined
+    /// if only one phase can follow.
     fn compared(
         &self,
         group: &Group,
@@ -252,8 +253,8 @@ impl PhaseSearch<'_> {
         list.into_iter().map(part).collect()
     }
 
-    /// Passes verdicts on what each group can do; for each group the places of its parts in the order of
-    /// preference.
+    /// Determines the verdict on what each group can do; returns for each group the place of each of its
+    /// parts in the order of preference.
     pub(super) fn order(&self, parts: &mut [Vec<GroupPhase>]) -> Vec<Vec<usize>> {
         let groups = self.instant.groups.iter().zip(parts);
         groups.map(|(group, parts)| self.order_of(group, parts)).collect()
@@ -277,7 +278,7 @@ impl PhaseSearch<'_> {
         places
     }
 
-    /// The verdict about what a group does, all others being locked.
+    /// The verdict on what a group does while all others are locked.
     fn verdict(&self, group: &Group, phase: &Phase) -> Verdict {
         let mut phase = phase.clone();
         for (joint, found) in phase.joints.iter_mut().enumerate() {
@@ -288,7 +289,7 @@ impl PhaseSearch<'_> {
         verdict(self.instant, self.event.configuration, &phase)
     }
 
-    /// Whether accelerations and the normal forces of joints that go on sliding are what they were.
+    /// Whether accelerations and the normal forces of joints that continue to slide stay the same.
     fn is_continued(&self, group: &Group, before: &PhaseState, assessment: &Assessment) -> bool {
         let previous = self.event.previous.map(|previous| &previous.joints[..]).unwrap_or_default();
         let slides = |joint: usize| {
@@ -304,7 +305,7 @@ impl PhaseSearch<'_> {
         self.is_same_motion(group, [&state, before]) && contacts.all(small)
     }
 
-    /// Whether accelerations do not differ.
+    /// Whether accelerations are the same.
     pub(super) fn is_same_motion(&self, group: &Group, [one, other]: [&PhaseState; 2]) -> bool {
         let Some(&joint) = group.joints.first() else { return true };
         let units = self.instant.joints[joint].units;
@@ -341,11 +342,11 @@ impl PhaseSearch<'_> {
     }
 }
 
-/// All sets of so many of the first numbers, as bits.
+/// All subsets with this many of the first numbers, as bits.
 fn subsets(of: u32, count: u32) -> impl Iterator<Item = u64> {
     let first = (1_u64 << count) - 1;
-    // R. W. Gosper: the next number with as many bits (M. Beeler, R. W. Gosper, R. Schroeppel, HAKMEM, item
-    // 175, 1972).
+    // R. W. Gosper: the next number with the same number of bits (M. Beeler, R. W. Gosper, R. Schroeppel,
+    // HAKMEM, item 175, 1972).
     let next = |set: &u64| {
         let lowest = set & set.wrapping_neg();
         let carried = set + lowest;

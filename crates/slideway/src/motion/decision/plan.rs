@@ -1,12 +1,12 @@
-//! Forces with which joints stick while loads change: how long they are admissible.
+//! Forces with which joints stick while loads change, and how long these forces are admissible.
 //!
 //! At rest, and with given sides of the contacts, all slacks are affine in the amounts of the loads and in
-//! what statics leaves open. The linear program of the greatest least slack has one solution at each amount,
-//! and near it what is open goes affinely with the amounts, as the slacks that are least there stay equal.
-//! With this *plan* every slack is an affine function of the amounts, so a function of time alone, whose sign
-//! interval arithmetic decides over spans of time: by the bounds of the amounts, by the mean value theorem,
-//! and by monotony where it falls. Where one of them falls below zero another plan is asked for; where no
-//! plan is admissible something slips.
+//! what statics leaves open. The linear program that maximizes the least slack has one solution for each
+//! amount; near it, the open quantities are affine in the amounts, because the slacks that are least there
+//! stay equal. With this *plan*, every slack is an affine function of the amounts, and thus a function of
+//! time alone. Interval arithmetic decides its sign over spans of time: by the bounds of the amounts, by the
+//! mean value theorem, and by monotonicity where it falls. Where a slack falls below zero, a new plan is
+//! requested; where no plan is admissible, something slips.
 
 use super::BOUNDARY;
 use super::assessment::concerns_sticking;
@@ -20,40 +20,40 @@ use crate::motion::moving::root::{NARROWEST, falling_root};
 use crate::pattern::{Affine, AffineSet, Phase, Region};
 use nalgebra::{DMatrix, DVector};
 
-/// A plan ends where a slack falls to this below zero: so what is admissible at the boundary where it begins
-/// lasts.
+/// A plan ends where a slack falls this far below zero, so that whatever is admissible at the boundary where
+/// it begins lasts.
 const ENDS: f64 = 2.0 * BOUNDARY;
-/// Slacks that are so near to the least one are equal.
+/// Slacks this close to the least one count as equal.
 const EQUAL: f64 = 1e-9;
-/// So many cells of time are looked at in one go.
+/// At most this many cells of time are examined at once.
 const MOST_CELLS: usize = 1000;
 
 /// A pattern of a group of joints.
 pub(super) struct GroupPattern<'s> {
-    /// With the sides of the contacts.
+    /// The phase, with the sides of the contacts.
     pub(super) phase: &'s Phase,
     /// The joints.
     pub(super) group: &'s Group,
-    /// Joints whose velocity is zero and that slide from then on.
+    /// Joints whose velocity is zero; those of them that slide have just begun to.
     pub(super) stopped: &'s [bool],
 }
 
 /// An affine function of the amounts of the loads.
 #[derive(Debug, Clone)]
 struct AffineInAmounts {
-    /// Its value where the plan was made.
+    /// Its value where the plan was computed.
     value: f64,
     slopes: Vec<f64>,
 }
 
-/// Forces that go affinely with the amounts of the loads.
+/// Forces that are affine in the amounts of the loads.
 #[derive(Debug, Clone)]
 pub(super) struct Plan {
-    /// The amounts where it was made.
+    /// The amounts for which it was computed.
     at: Vec<f64>,
-    /// The slacks of what concerns the joints that stick.
+    /// The slacks of the inequalities that concern sticking joints.
     slacks: Vec<AffineInAmounts>,
-    /// The greatest least of them.
+    /// The maximized least slack.
     margin: AffineInAmounts,
 }
 
@@ -64,13 +64,13 @@ pub(super) enum Fall {
     None,
     /// At this time.
     At(f64),
-    /// Not before this time; what follows was not decided.
+    /// Not before this time; after it, nothing was decided.
     Unknown(f64),
 }
 
 impl Plan {
-    /// The plan of a pattern with these amounts, of each of which one unit adds a response to the outputs;
-    /// nothing where its equations contradict each other, or a linear program was not solved.
+    /// The plan of a pattern with these amounts, one unit of each of which adds a response to the outputs;
+    /// `None` if its equations contradict each other, or if a linear program was not solved.
     pub(super) fn new(
         instant: &mut Instant<'_>,
         system: &GroupPattern<'_>,
@@ -93,7 +93,7 @@ impl Plan {
         Self::of(amounts.to_vec(), &now, &slopes)
     }
 
-    /// The plan for slacks, and what a unit of each amount adds to each of them.
+    /// The plan for slacks, given what a unit of each amount adds to each of them.
     fn of(at: Vec<f64>, now: &[Affine], slopes: &[Vec<f64>]) -> Option<Self> {
         let dimension = now.first().map_or(0, |slack| slack.coefficients.len());
         let open = |slack: &Affine| slack.coefficients.iter().any(|a| *a != 0.0);
@@ -130,13 +130,13 @@ impl Plan {
         Some(Self { at, slacks, margin })
     }
 
-    /// The least slack where the plan was made.
+    /// The least slack where the plan was computed.
     pub(super) fn margin(&self) -> f64 {
         self.margin.value
     }
 
-    /// Where in a span, at whose start it is admissible, the first slack falls below zero; cells of time that
-    /// are looked at are counted.
+    /// Where the first slack falls below zero in a span at whose start the plan is admissible; counts the
+    /// cells of time that are examined.
     pub(super) fn first_fall(
         &self,
         amounts: &Amounts<'_>,
@@ -160,7 +160,7 @@ impl Plan {
         Fall::None
     }
 
-    /// The same in a cell; nothing where it has to be divided.
+    /// The same in a cell; `None` if the cell must be divided.
     fn within(&self, amounts: &Amounts<'_>, [from, until]: [f64; 2]) -> Option<Fall> {
         let span = Interval::new(from, until)?;
         let middle = Interval::point(span.middle());
@@ -196,10 +196,10 @@ impl Plan {
         Some(first)
     }
 
-    /// Where the margin, which is negative at the end of a span, was zero last; at the start if nowhere.
+    /// Where the margin, which is negative at the end of a span, was last zero; the start if nowhere.
     ///
     /// # Errors
-    /// Loads without a value.
+    /// Loads have no value.
     pub(super) fn zero_before(&self, amounts: &Amounts<'_>, [from, until]: [f64; 2]) -> Result<f64, Fault> {
         let value = |time: f64| Ok::<_, Fault>(self.value(&self.margin, &amounts.at(time)?));
         let (mut end, mut at_end) = (until, value(until)?);
@@ -230,8 +230,8 @@ impl Plan {
     }
 }
 
-/// The slacks of what concerns the joints that stick in a pattern, and of all that hangs together with them;
-/// nothing where the equations contradict each other.
+/// The slacks of the inequalities of a pattern that concern sticking joints, and of all inequalities linked
+/// with them; `None` if the equations contradict each other.
 fn slacks(instant: &Instant<'_>, system: &GroupPattern<'_>) -> Option<Vec<Affine>> {
     let question = Question {
         outputs: &instant.outputs,
@@ -250,14 +250,14 @@ fn slacks(instant: &Instant<'_>, system: &GroupPattern<'_>) -> Option<Vec<Affine
     Some(equations.inequalities().into_iter().filter(counts).map(|inequality| inequality.slack).collect())
 }
 
-/// How what is open goes with an amount so that the least slacks stay equal, and their common slope behind
-/// it:
+/// How the open quantities vary with an amount so that the least slacks stay equal, followed by their common
+/// slope:
 ///
 /// ```text
 /// a_i z' + slope_i = t'
 /// ```
 ///
-/// of as many of them as do not contradict each other; nothing moves where none is least.
+/// for as many of them as do not contradict each other; zero if no slack is least.
 fn direction(now: &[Affine], slopes: &[Vec<f64>], (least, amount): (&[usize], usize)) -> DVector<f64> {
     let dimension = now.first().map_or(0, |slack| slack.coefficients.len());
     for count in (1..=least.len()).rev() {

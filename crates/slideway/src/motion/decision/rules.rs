@@ -1,4 +1,4 @@
-//! What the simulation asks at an event: how the motion can go on.
+//! What the simulation asks at an event: how the motion can continue.
 
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
@@ -14,33 +14,33 @@ pub struct EventInstant<'a> {
     pub mechanism: &'a Mechanism,
     /// Its state.
     pub configuration: &'a Configuration,
-    /// For each sliding joint the sign of its sliding velocity from now on: 1, -1, or 0 where it has stopped.
+    /// For each sliding joint, the sign of its sliding velocity from now on: 1, -1, or 0 if it has stopped.
     pub signs: &'a [f64],
-    /// Contacts whose normal force has just reached zero, or whose preload gap ends: that is exactly so.
+    /// Contacts whose normal force has just reached zero or whose preload gap ends; it is exactly zero.
     pub zero: &'a [ContactId],
     /// What rounding leaves of the greatest forces so far where they vanish (N).
     pub rounding: f64,
-    /// The phase that has just ended; nothing at the start and after an impulse.
+    /// The phase that has just ended; `None` at the start and after an impulse.
     pub previous: Option<&'a Phase>,
 }
 
-/// A phase in which the motion can go on.
+/// A phase in which the motion can continue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Continuation {
     /// The phase.
     pub phase: Phase,
-    /// Whether a real mechanism can take it (theory, section 7).
+    /// Whether a real mechanism can follow it (theory, section 7).
     pub verdict: Verdict,
-    /// Whether it continues the present motion without a jump of forces.
+    /// Whether it continues the present motion without a jump in the forces.
     pub continues: bool,
 }
 
-/// The phases in which the motion can go on.
+/// The phases in which the motion can continue.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Continuations {
-    /// The one to be taken first, and so on; none if there is none.
+    /// The phases in order of preference; empty if there are none.
     pub list: Vec<Continuation>,
-    /// Whether some in which fewer joints stick may be missing.
+    /// Whether some phases in which fewer joints stick may be missing.
     pub left_out: bool,
 }
 
@@ -53,32 +53,32 @@ pub struct HaltingImpulse {
     pub energy_lost: f64,
 }
 
-/// Decides how a motion goes on (theory, section 8).
+/// Decides how a motion continues (theory, section 8).
 pub trait Decisions {
-    /// The phases in which the motion can go on.
+    /// The phases in which the motion can continue.
     ///
     /// # Errors
-    /// Whatever keeps the forces at the instant from being computed.
+    /// Whatever prevents computing the forces at the instant.
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults>;
 
-    /// Where nothing can follow, the guided sliders that would tip.
+    /// If nothing can follow, the guided sliders that would tip.
     ///
     /// # Errors
-    /// Whatever keeps the forces at the instant from being computed.
+    /// Whatever prevents computing the forces at the instant.
     fn tipping(&mut self, _instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
         Ok(Vec::new())
     }
 
-    /// The impulse of a mechanism that cannot go on moving; nothing if there is none.
+    /// The impulse of a mechanism that cannot continue to move; `None` if there is none.
     ///
     /// # Errors
-    /// Whatever keeps the impulse from being computed.
+    /// Whatever prevents computing the impulse.
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults>;
 
-    /// At least zero while the joints that stick in the phase can stick.
+    /// At least zero as long as the sticking joints of the phase can stick.
     ///
     /// # Errors
-    /// Whatever keeps the forces at the instant from being computed.
+    /// Whatever prevents computing the forces at the instant.
     fn sticking_margin(
         &mut self,
         mechanism: &Mechanism,
@@ -86,11 +86,11 @@ pub trait Decisions {
         phase: &Phase,
     ) -> Result<f64, Faults>;
 
-    /// The normal force of each contact in a phase in which joints stick (N), nothing where statics does not
+    /// The normal force of each contact in a phase in which joints stick (N); `None` where statics does not
     /// determine it.
     ///
     /// # Errors
-    /// Whatever keeps the forces at the instant from being computed.
+    /// Whatever prevents computing the forces at the instant.
     fn normal_forces(
         &mut self,
         mechanism: &Mechanism,
@@ -100,11 +100,11 @@ pub trait Decisions {
         Ok(vec![None; mechanism.contacts.len()])
     }
 
-    /// What looks ahead in time for the bodies that stand still and stay as long as joints stick; nothing if
-    /// nothing does.
+    /// Looks ahead in time for the bodies that stand still and stay so as long as joints stick; `None` if
+    /// there are none.
     ///
     /// # Errors
-    /// Whatever keeps the forces at the instant from being computed.
+    /// Whatever prevents computing the forces at the instant.
     fn hold<'m>(
         &mut self,
         _mechanism: &'m Mechanism,
@@ -115,35 +115,35 @@ pub trait Decisions {
     }
 }
 
-/// What stands still.
+/// Bodies that stand still.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting<'a> {
-    /// What all joints and contacts do.
+    /// The states of all joints and contacts.
     pub phase: &'a Phase,
-    /// For each body whether it stands still and stays as long as joints stick.
+    /// For each body, whether it stands still and stays so as long as joints stick.
     pub bodies: &'a [bool],
 }
 
-/// What is known of the time ahead of what stands still.
+/// What is known about the future of bodies that stand still.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlook {
-    /// Until this time (s) it is proven that nothing slips.
+    /// It is proven that nothing slips until this time (s).
     pub proven: f64,
     /// Whether something slips then.
     pub slips: bool,
 }
 
-/// What stands still while its loads change.
+/// Bodies that stand still while their loads change.
 pub trait Hold {
-    /// When the joints that stick cannot any longer, and until when that is proven, in a span of time.
+    /// When the sticking joints can no longer stick, and until when that is proven, in a span of time.
     ///
     /// # Errors
-    /// Whatever keeps the forces from being computed.
+    /// Whatever prevents computing the forces.
     fn outlook(&mut self, span: [f64; 2]) -> Result<Outlook, Faults>;
 
-    /// What [`Decisions::sticking_margin`] is of the joints between these bodies at a time.
+    /// The [`Decisions::sticking_margin`] of the joints between these bodies at a time.
     ///
     /// # Errors
-    /// Whatever keeps the forces from being computed.
+    /// Whatever prevents computing the forces.
     fn margin(&mut self, time: f64) -> Result<f64, Faults>;
 }

@@ -1,4 +1,5 @@
-//! The least units of forces where those of the instant vanish: what the loads come to, and what rounding is.
+//! The least units of force where the forces of the instant vanish: what the loads will reach, and what
+//! counts as rounding.
 
 use crate::configuration::{Configuration, Pose};
 use crate::ids::{BodyId, Frame};
@@ -8,16 +9,16 @@ use nalgebra::Vector2;
 
 /// Times ahead are powers of this number (s), ...
 const FARTHER: f64 = 4.0;
-/// ... with exponents up to this one either way: 1e-18 s to 1e18 s.
+/// ... with exponents up to this one in either direction: 1e-18 s to 1e18 s.
 const FARTHEST: i32 = 30;
 
-/// What has a part in a scale.
+/// What contributes to a scale.
 #[derive(Clone, Copy)]
 pub(super) struct Share<'s> {
-    /// The bodies.
+    /// The bodies that count.
     pub(super) counts: &'s dyn Fn(BodyId) -> bool,
-    /// The greatest of their masses (kg), moments of inertia divided by the square of the size of the
-    /// mechanism.
+    /// The greatest of their masses (kg), with moments of inertia divided by the square of the mechanism's
+    /// size.
     pub(super) mass: f64,
     /// The greatest force of the instant (N).
     pub(super) force: f64,
@@ -26,21 +27,21 @@ pub(super) struct Share<'s> {
 /// The least unit of force (N).
 pub(super) type Scale = fn(&Mechanism, &Configuration, Share<'_>) -> f64;
 
-/// The greatest force that the loads and drives come to while they could take the greatest mass through the
-/// size `L` of the mechanism (N):
+/// The greatest force that the loads and drives reach while they could still take the greatest mass through
+/// the size `L` of the mechanism (N):
 ///
 /// ```text
 /// max over s of min(F(s), m L/s^2)        F(s): the greatest load a time s ahead, the bodies going on as they move
 /// ```
 ///
-/// at powers of 4 s. Where the force of the instant is not at the boundary beside that, it is the scale
+/// at powers of 4 s. If the force of the instant is not negligible beside that, the scale is this force
 /// itself, or what the rounding of positions makes of springs.
 pub(super) fn scale(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
     let greatest_work = share.mass * mechanism.size;
     let now = share.force.max(rounding(mechanism, configuration, share));
     let mut greatest = now;
     let mut ahead = configuration.clone();
-    // Relations are on the pieces of their arguments there.
+    // Relations are then on the pieces of their arguments at that time.
     ahead.pieces = None;
     let mut applied = Applied::new();
     for exponent in (-FARTHEST..=FARTHEST).rev() {
@@ -50,7 +51,7 @@ pub(super) fn scale(mechanism: &Mechanism, configuration: &Configuration, share:
             continue;
         }
         advance(&mut ahead, configuration, step);
-        // Loads without a value there do not count.
+        // Loads without a value at that time do not count.
         let is_known = applied.fill(mechanism, &ahead).is_ok();
         let loads = if is_known { greatest_load(mechanism, &applied, share) } else { 0.0 };
         let force = loads.max(force_of_drives(mechanism, &ahead, share));
@@ -62,7 +63,7 @@ pub(super) fn scale(mechanism: &Mechanism, configuration: &Configuration, share:
     if share.force > super::BOUNDARY * greatest { now } else { greatest }
 }
 
-/// The greatest of the loads on what counts (N), couples divided by the size of the mechanism.
+/// The greatest of the loads on the bodies that count (N), with couples divided by the size of the mechanism.
 fn greatest_load(mechanism: &Mechanism, applied: &Applied, share: Share<'_>) -> f64 {
     let wrenches = applied.wrenches.iter().filter(|wrench| belongs(share, wrench.frame));
     let forces = wrenches.map(|wrench| wrench.force.norm().max(wrench.couple.abs() / mechanism.size));
@@ -73,7 +74,7 @@ fn belongs(share: Share<'_>, frame: Frame) -> bool {
     frame.body().is_some_and(share.counts)
 }
 
-/// The force of inertia that the drives ask for (N).
+/// The force of inertia that the drives require (N).
 fn force_of_drives(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
     let one = |drive: &crate::mechanism::Drive| {
         let (Effort::Force { at: crate::mechanism::Attachment { frame, .. }, .. }
@@ -87,7 +88,7 @@ fn force_of_drives(mechanism: &Mechanism, configuration: &Configuration, share: 
     forces.filter(|force| force.is_finite()).fold(0.0, f64::max)
 }
 
-/// The scale beside which forces of springs that come from the rounding of positions are at the boundary (N).
+/// The scale beside which spring forces that come from rounded positions are negligible (N).
 pub(super) fn rounding(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
     let length = mechanism.size;
     let stiffness = |load: &crate::mechanism::Load| {
@@ -110,7 +111,7 @@ pub(super) fn rounding(mechanism: &Mechanism, configuration: &Configuration, sha
     greatest * length * f64::EPSILON / super::BOUNDARY
 }
 
-/// Puts everything where it would be a time ahead if it went on as it moves.
+/// Puts everything where it would be a time ahead at constant velocities.
 fn advance(ahead: &mut Configuration, from: &Configuration, step: f64) {
     let moves = from.poses.iter().zip(&from.velocities);
     for (to, (pose, velocity)) in ahead.poses.iter_mut().zip(moves) {

@@ -1,30 +1,31 @@
-//! A fast test of patterns in which everything slides: most of them are far from any state.
+//! A fast test of patterns in which every joint slides: most of them are far from any state.
 
 use super::instant::Instant;
 use super::outputs::Group;
 use super::system::Question;
 use crate::pattern::{ContactPhase, JointPhase, Law, Phase};
 
-/// Patterns are excluded only by slacks below this part of the greatest normal force, far beyond rounding ...
+/// Patterns are excluded only by slacks below this fraction of the greatest normal force, far beyond rounding
+/// ...
 const CLEAR: f64 = 1e-6;
-/// ... and by equations of which no pivot is below this part of the greatest entry.
+/// ... and by equations in which no pivot is below this fraction of the greatest entry.
 const REGULAR: f64 = 1e-6;
 
 /// The equations `sigma_j p_j - sum_k eta_jk mu_k s_k p_k = N_j(0) + sum_k eta_jk F_k0 s_k` of a pattern
-/// without preload gaps, with `p_k = |N_k|`, solved by elimination in memory that is kept.
+/// without preload gaps, with `p_k = |N_k|`, solved by elimination in reused memory.
 pub(super) struct SlidingSieve<'s> {
     question: &'s Question<'s>,
     instant: &'s Instant<'s>,
     group: &'s Group,
     joint: Vec<Option<usize>>,
     laws: Vec<Law>,
-    /// Row by row, the right-hand side last.
+    /// Row by row, with the right-hand side last.
     matrix: Vec<f64>,
     pressure: Vec<f64>,
 }
 
 impl<'s> SlidingSieve<'s> {
-    /// A sieve for a question about accelerations of a group of joints.
+    /// A sieve for a question about the accelerations of a group of joints.
     pub(super) fn new(question: &'s Question<'s>, instant: &'s Instant<'s>, group: &'s Group) -> Self {
         let contacts = group.contacts.len();
         Self {
@@ -38,14 +39,14 @@ impl<'s> SlidingSieve<'s> {
         }
     }
 
-    /// Whether a pattern is certainly no state: a normal force has the wrong sign, or a joint that begins to
-    /// slip accelerates against its direction. Patterns in which something sticks or is in a preload gap are
-    /// not judged.
+    /// Whether a pattern is certainly not a state: a normal force has the wrong sign, or a joint that begins
+    /// to slip accelerates against its direction. Patterns in which something sticks or is in a preload gap
+    /// are not tested.
     pub(super) fn excludes(&mut self, phase: &Phase) -> bool {
         self.fill(phase).is_some() && self.solve() && (self.is_lifted() || self.is_pushed_back(phase))
     }
 
-    /// Friction of a contact that slides and is pressed: at both faces the factor of |N_k| and the constant.
+    /// Friction of a contact that slides and is pressed: at both faces, the factor of |N_k| and the constant.
     fn friction(&self, phase: &Phase, index: usize) -> Option<[[f64; 2]; 2]> {
         let k = self.group.contacts[index];
         let (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) =
@@ -56,7 +57,7 @@ impl<'s> SlidingSieve<'s> {
         Some(self.laws[index].kinetic(side, sign))
     }
 
-    /// What a friction adds to an output, by its own force and by the preload, for a unit of pressure.
+    /// What friction adds to an output, by the contact's own force for a unit of pressure and by the preload.
     fn effect(&self, row: usize, index: usize, [plus, minus]: [[f64; 2]; 2]) -> [f64; 2] {
         let k = self.group.contacts[index];
         let [at_plus, at_minus] = [0, 1].map(|side| self.question.outputs.columns[side][(row, k)]);
@@ -82,7 +83,7 @@ impl<'s> SlidingSieve<'s> {
         Some(())
     }
 
-    /// Elimination with partial pivoting; whether the equations are clearly regular.
+    /// Elimination with partial pivoting; returns whether the equations are clearly regular.
     fn solve(&mut self) -> bool {
         let contacts = self.pressure.len();
         let width = contacts + 1;
@@ -92,7 +93,7 @@ impl<'s> SlidingSieve<'s> {
             let size = |row: usize| self.matrix[row * width + step].abs();
             let best =
                 (step..contacts).fold(step, |best, row| if size(row) > size(best) { row } else { best });
-            // Not `<`, so that what is not a number is not regular.
+            // Not `<`, so that NaN does not count as regular.
             if !(size(best) >= REGULAR * greatest && greatest.is_finite()) {
                 return false;
             }

@@ -13,7 +13,7 @@ use nalgebra::DVector;
 pub struct PhaseState {
     /// All unknowns of the kinetic equations: accelerations, reactions, efforts of the drives.
     pub unknowns: DVector<f64>,
-    /// Where they stand.
+    /// The layout of these unknowns.
     pub layout: Layout,
     /// Accelerations of the chosen coordinates (m/s^2, rad/s^2).
     pub coordinate_accelerations: Vec<f64>,
@@ -25,18 +25,18 @@ pub struct PhaseState {
     pub frictions: Vec<ContactFriction>,
     /// For each contact that slides in its preload gap, the share of the positive face.
     pub shares: Vec<Option<f64>>,
-    /// Number of reactions that statics leaves open; those of greatest margin are told. Zero where no joint
-    /// sticks, unless the mode is singular (D = 0).
+    /// Number of reactions that statics leaves open; those with the greatest margin are given. Zero if no
+    /// joint sticks, unless the mode is singular (D = 0).
     pub indeterminate: usize,
-    /// How much friction is left to the joints that stick, see [`sticking_margin`](super::sticking_margin);
-    /// nothing where none sticks.
+    /// How much friction is left to the sticking joints, see [`sticking_margin`](super::sticking_margin);
+    /// `None` if no joint sticks.
     pub margin: Option<f64>,
-    /// The least slack of everything that bounds the phase, likewise in units of the greatest force or
-    /// acceleration; negative if the phase is not admissible.
+    /// The least slack of all bounds of the phase, also in units of the greatest force or acceleration;
+    /// negative if the phase is not admissible.
     pub least_slack: f64,
 }
 
-/// What a phase does to a mechanism.
+/// The state of a mechanism in a phase.
 pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseState {
     let forces = &assessment.forces;
     let unit = |k: usize| instant.units_of(k).force;
@@ -62,7 +62,7 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
     }
 }
 
-/// Whether a group does the same in two phases, but for the sides of contacts that stick and the signs of
+/// Whether a group does the same in two phases, apart from the sides of sticking contacts and the signs of
 /// joints without friction, which have no effect.
 pub(super) fn is_same_phase(instant: &Instant<'_>, group: &Group, [one, other]: [&Phase; 2]) -> bool {
     let slides = |phase: &Phase, joint: usize| matches!(phase.joints[joint], JointPhase::Sliding(_));

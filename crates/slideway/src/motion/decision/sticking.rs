@@ -1,4 +1,4 @@
-//! How much friction is left to joints that stick.
+//! How much friction is left to sticking joints.
 
 use super::assessment::assess;
 use super::instant::Instant;
@@ -8,24 +8,24 @@ use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::pattern::Phase;
 
-/// The margin where no distribution of forces is admissible whatever the friction, or none was found.
+/// The margin if no distribution of forces is admissible whatever the friction, or if none was found.
 pub(super) const NONE: f64 = -1.0;
-/// A margin from which on other sides of the contacts that stick are not tried.
+/// From this margin on, other sides of the sticking contacts are not tried.
 pub(super) const ENOUGH: f64 = 0.01;
 
-/// A phase with joints that stick.
+/// A phase with sticking joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sticking {
     /// The margin, see [`sticking_margin`].
     pub margin: f64,
-    /// The phase with the sides at which its sticking contacts are pressed; to be passed on next time, so
-    /// that these are tried first.
+    /// The phase with the sides to which its sticking contacts are pressed; pass it on next time, so that
+    /// these are tried first.
     pub phase: Phase,
     /// Accelerations and the reactions that attain the margin.
     pub state: PhaseState,
 }
 
-/// How much friction is left to the joints that stick in a phase: not negative as long as they can stick.
+/// How much friction is left to the sticking joints of a phase: not negative as long as they can stick.
 ///
 /// It is the greatest `t` for which forces exist with
 ///
@@ -33,14 +33,14 @@ pub struct Sticking {
 /// mu_static_k |N_k| + F_k0 - |F_k| >= t f,    |N_k| >= t f,    |N| L/2 - |C| >= t f L_mechanism    and    t <= 1
 /// ```
 ///
-/// at every contact of the joints that stick, `f` being the greatest force of the instant (load, preload or
-/// inertia), but at least so great that what the rounding of positions makes of springs counts as zero beside
+/// at every contact of the sticking joints, where `f` is the greatest force of the instant (load, preload or
+/// inertia), but at least so large that what the rounding of positions makes of springs is negligible beside
 /// it. It is the greatest over all sides of these contacts and varies continuously with the state, as long as
-/// the sides of contacts that slide do not change; but if the sides of `phase` leave at least 0.01, others,
-/// which could leave more, are not tried. At an instant at which a contact of a joint that sticks is without
-/// load and preload the margin is zero without becoming negative. It is infinite where no joint sticks, and
-/// -1 where the joints cannot all stick at their velocities, or a linear program was not solved. When it
-/// reaches zero, [`successors`](super::successors) says which joint slips which way.
+/// the sides of sliding contacts do not change. If the sides of `phase` leave at least 0.01, however, other
+/// sides, which could leave more, are not tried. At an instant at which a contact of a sticking joint has no
+/// load and no preload, the margin is zero without becoming negative. It is infinite if no joint sticks, and
+/// -1 if the joints cannot all stick at their velocities or a linear program was not solved. When it reaches
+/// zero, [`successors`](super::successors) determines which joint slips in which direction.
 ///
 /// # Errors
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and a phase of another
@@ -57,8 +57,8 @@ pub fn sticking_margin(
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
 
-/// [`sticking_margin`] with the accelerations and reactions that attain it; nothing where the joints cannot
-/// all stick at their velocities.
+/// [`sticking_margin`] with the accelerations and reactions that attain it; `None` if the joints cannot all
+/// stick at their velocities.
 ///
 /// # Errors
 /// As [`sticking_margin`].
@@ -78,8 +78,8 @@ pub fn sticking(
     Ok(Some(Sticking { margin: assessment.margin, phase: assessment.phase, state }))
 }
 
-/// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; nothing where its
-/// equations contradict each other (a mode with D = 0, joints that cannot all stick at their velocities).
+/// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; `None` if its
+/// equations contradict each other (a mode with D = 0, or joints that cannot all stick at their velocities).
 ///
 /// # Errors
 /// As [`sticking_margin`].

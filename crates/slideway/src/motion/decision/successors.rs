@@ -16,44 +16,44 @@ use crate::mechanism::Mechanism;
 use crate::pattern::{JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 
-/// More combinations of what independent groups of joints can do are not listed.
+/// If there are more combinations of what independent groups of joints can do, they are not all listed.
 const MOST_COMBINATIONS: usize = 256;
 const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
 #[derive(Debug, Clone, Default)]
 pub struct Successors {
-    /// The phases, the one to be followed first.
+    /// The phases, in order of preference.
     pub list: Vec<Successor>,
-    /// Phases that would be admissible but that a guided slider would tip: it has no state of its own for
-    /// that, a block slider has.
+    /// Phases that would be admissible except that a guided slider would tip: unlike a block slider, it has
+    /// no state of its own for that.
     pub tipping: Vec<TippingPhase>,
-    /// Phases of which a linear program was not solved.
+    /// Phases for which a linear program was not solved.
     pub unsolved: Vec<Phase>,
-    /// Whether these are all; else there are so many states that some in which fewer joints stick were left
-    /// out.
+    /// Whether the list is complete; otherwise there are so many states that some in which fewer joints stick
+    /// were omitted.
     pub complete: bool,
 }
 
 /// A phase that can follow.
 #[derive(Debug, Clone)]
 pub struct Successor {
-    /// The phase. Contacts of joints that stick have the sides of `state`; nothing hangs on them.
+    /// The phase. Contacts of sticking joints have the sides of `state`; nothing depends on them.
     pub phase: Phase,
     /// Its accelerations and reactions at the instant.
     pub state: PhaseState,
     /// Whether it is the previous phase.
     pub is_present: bool,
-    /// Whether accelerations and the normal forces of joints that go on sliding are those of the previous
+    /// Whether accelerations and the normal forces of joints that continue to slide are those of the previous
     /// phase.
     pub continues: bool,
     /// How it stands to its bounds.
     pub standing: Standing,
-    /// What becomes of it if the guides are slightly elastic; joints that stick count as locked.
+    /// Whether it is attainable if the guides are slightly elastic; sticking joints count as locked.
     pub attainability: Attainability,
 }
 
-/// A phase that is none because a guided slider would tip.
+/// A phase that is excluded because a guided slider would tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TippingPhase {
     /// The phase.
@@ -62,32 +62,32 @@ pub struct TippingPhase {
     pub joints: Vec<JointId>,
 }
 
-/// The phases that can follow at an instant, in the order in which they are to be preferred. Groups of joints
-/// without influence on one another are decided separately; in each of them come
+/// The phases that can follow at an instant, in order of preference. Groups of joints without influence on
+/// one another are decided separately; within each group the order is
 ///
 /// 1. what rests, stays: phases in which more of the joints stick that stuck before, then those in which more
-///    joints stick. So a phase comes before those in which fewer of its joints stick. The other rules decide
-///    only between phases with equally many.
+///    joints stick. So a phase comes before those in which only some of its joints stick. The other rules
+///    decide only between phases with equal numbers.
 /// 2. the present phase, if it still exists;
-/// 3. one that continues it: accelerations and reactions do not jump;
-/// 4. attainable ones before those with flutter or without a verdict;
-/// 5. unattainable ones, unless they are the present phase or continue one that is unattainable itself.
+/// 3. a phase that continues it: accelerations and reactions do not jump;
+/// 4. attainable phases, before those with flutter or without a verdict;
+/// 5. unattainable phases, unless they are the present phase or continue one that is itself unattainable.
 ///
-/// A group in which nothing happens, because no joint of it has just stopped and its part of the previous
-/// phase is admissible and at no boundary, goes on as before, unless that is so of all groups.
+/// A group in which nothing happens, because none of its joints has just stopped and its part of the previous
+/// phase is admissible and at no boundary, continues as before, unless this is true of all groups.
 ///
-/// `stopped` says of every sliding joint, in the order of the mechanism's joints, whether its velocity is
-/// zero; the others slide with the sign of their velocity. Bodies may move in any case. Of `previous` only
-/// what it does matters, not whether it was admissible. Joints without friction and preload always slide; the
-/// sign of one at rest is that of its acceleration. A joint whose motion depends on that of joints that stick
-/// sticks with them.
+/// `stopped` states for every sliding joint, in the order of the mechanism's joints, whether its velocity is
+/// zero; the others slide with the sign of their velocity. Bodies may move in either case. Only what happens
+/// in `previous` matters, not whether it was admissible. Joints without friction and preload always slide;
+/// the sign of such a joint at rest is that of its acceleration. A joint whose motion depends on that of
+/// sticking joints sticks with them.
 ///
-/// An empty list while something moves is dynamic jamming, see [`jam`](super::jam), unless guided sliders
+/// An empty list while something moves means dynamic jamming, see [`jam`](super::jam), unless guided sliders
 /// would tip.
 ///
 /// # Errors
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, lists of the wrong
-/// length, more states than are tried.
+/// length, and more states than are tried.
 ///
 /// ```
 /// use slideway::configuration::Configuration;
@@ -124,10 +124,10 @@ pub fn successors(
     at(instant, &event, Detail::Everything)
 }
 
-/// The phases of [`successors`], with no more than it takes to put them in their order: patterns of sliding
-/// that are far from any state are not assessed, sides of sticking contacts are those of the first state with
-/// a margin, and of attainability there is the verdict alone. Where a single phase can follow, nothing is
-/// said about its attainability, and of its being continued only whether it is the previous phase.
+/// The phases of [`successors`], with only what is needed to order them: patterns of sliding that are far
+/// from any state are not assessed, sticking contacts have the sides of the first state with a margin, and
+/// attainability is reduced to the verdict. If only one phase can follow, its attainability is not
+/// determined, and `continues` only says whether it is the previous phase.
 ///
 /// # Errors
 /// As [`successors`].
@@ -167,7 +167,7 @@ fn at(
         .into_iter()
         .map(|chosen| outcome(&search, &parts, chosen))
         .collect();
-    // Verdicts take time, and so the order is asked for only where several phases can follow, or none.
+    // Verdicts take time, so the order is determined only if several phases can follow, or none.
     let following = outcomes.iter().filter(|outcome| outcome.standing.is_ok()).count();
     if is_few && outcomes.len() > 1 && following != 1 {
         let order = search.order(&mut parts);
@@ -183,7 +183,7 @@ fn at(
             Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
         }
     }
-    // What has fallen to zero goes on to fall where nothing else is seen.
+    // Unless there is evidence to the contrary, what has fallen to zero continues to fall.
     found.list.sort_by_key(|successor| {
         let ends = |limit: &PhaseBound| matches!(limit, PhaseBound::NormalForce(k) | PhaseBound::PreloadShare(k) if event.zero.contains(k));
         let undecided = matches!(&successor.standing, Standing::Undecided(limits) if limits.iter().any(ends));
@@ -201,7 +201,7 @@ fn at(
     Ok(found)
 }
 
-/// What becomes of a choice of one part for each group.
+/// The outcome of a choice of one part for each group.
 struct CombinedPhase {
     chosen: Vec<usize>,
     whole: Assessment,
@@ -218,8 +218,8 @@ fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usiz
     CombinedPhase { chosen, whole, standing }
 }
 
-/// Every way to choose one part for each group; if there are so many that their places in the order of
-/// preference are given, those in which all groups but one take the preferred one.
+/// Every way to choose one part for each group; if there are so many that an order of preference is given,
+/// only those in which all groups but at most one take their preferred part.
 fn choices(parts: &[Vec<GroupPhase>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
     let Some(order) = order else {
         let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
@@ -264,7 +264,7 @@ fn successor(
     Successor { phase, state, is_present, continues, standing, attainability }
 }
 
-/// What the verdict about several independent groups comes to: the greatest of all.
+/// Rank of a verdict: the verdict for several independent groups is the one of highest rank.
 fn severity(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::NotComputed => 0,
@@ -275,9 +275,9 @@ fn severity(verdict: Verdict) -> u8 {
     }
 }
 
-/// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as
-/// far as can be seen, or in joints that stick in the one and do not begin to move in the other. Beside the
-/// previous phase, which may be at its end, those are left.
+/// Keeps only one of several phases that differ only in the sides of contacts at which no force acts, now or
+/// in the foreseeable future, or in joints that stick in one phase and do not begin to move in the other.
+/// Phases of the second kind are kept beside the previous phase, which may be at its end.
 fn without_copies(search: &PhaseSearch<'_>, list: &mut Vec<Successor>) {
     let stays = |one: &Successor, limit: PhaseBound| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&limit));
     let instant = search.instant;
@@ -308,7 +308,7 @@ fn without_copies(search: &PhaseSearch<'_>, list: &mut Vec<Successor>) {
     }
 }
 
-/// Every way to choose one of each list, the last list changing fastest.
+/// Every way to choose one element of each list, with the last list changing fastest.
 pub(super) fn combinations<T: Clone>(options: &[Vec<T>]) -> Vec<Vec<T>> {
     let start = vec![Vec::new()];
     options.iter().fold(start, |all, options| {

@@ -1,4 +1,4 @@
-//! One pattern of sticking and slipping joints and of sides as linear equations and inequalities.
+//! One pattern of sticking and slipping joints and of sides, as linear equations and inequalities.
 
 use super::instant::Instant;
 use super::joints::SlidingJoint;
@@ -20,7 +20,7 @@ pub(super) enum Subject {
     Couple(usize),
     /// |F_k| <= mu_static_k |N_k| + F_k0 of a contact that sticks.
     Friction(usize),
-    /// A joint that begins to slip does so in the direction against which its friction acts.
+    /// A joint that begins to slip moves against its friction.
     Slip(usize),
 }
 
@@ -29,31 +29,31 @@ pub(super) enum Subject {
 pub(super) struct Inequality {
     /// What it is about.
     pub(super) subject: Subject,
-    /// Its slack, as a function of what the equations leave open, in units.
+    /// Its slack, in units, as a function of what the equations leave open.
     pub(super) slack: Affine,
 }
 
-/// What is asked for: accelerations, or the impulses that stop a joint.
+/// The question: accelerations, or the impulses that stop a joint.
 #[derive(Debug, Clone)]
 pub(super) struct Question<'q> {
-    /// How normal forces, sliding accelerations and couples answer to friction.
+    /// How normal forces, sliding accelerations and couples respond to friction.
     pub(super) outputs: &'q Outputs,
-    /// The sliding acceleration (or jump of the sliding velocity) of every joint that sticks, in units.
+    /// The required sliding acceleration (or jump of the sliding velocity) of every sticking joint, in units.
     pub(super) wanted: Vec<f64>,
     /// Whether preloads count.
     pub(super) has_preload: bool,
     /// The sides that each contact may take.
     pub(super) sides: Vec<Vec<ContactPhase>>,
-    /// Joints whose velocity is zero: those of them that slide have just begun to.
+    /// Joints whose velocity is zero; those of them that slide have just begun to.
     pub(super) stopped: &'q [bool],
-    /// A joint that sticks only at the end, and the sign of the sliding velocity that its friction opposes.
+    /// A joint that sticks only at the end, with the sign of the sliding velocity that its friction opposes.
     pub(super) opposes: Option<(usize, f64)>,
-    /// Joints that slide and are pushed by the stops that they touch, so that they have the wanted
-    /// acceleration, too.
+    /// Sliding joints that are pushed by the stops that they touch, so that they, too, have the required
+    /// acceleration.
     pub(super) pushed: Vec<usize>,
 }
 
-/// A pattern with its equations solved as far as they go.
+/// A pattern with its equations solved as far as possible.
 pub(super) struct System<'s> {
     pub(super) instant: &'s Instant<'s>,
     question: &'s Question<'s>,
@@ -61,15 +61,14 @@ pub(super) struct System<'s> {
     pub(super) group: &'s Group,
     /// Friction of each contact of the group.
     friction: Vec<Option<Friction>>,
-    /// Forces of the end stops at which joints rest: the joint, and the unknown.
+    /// Forces of the end stops at which joints rest: each joint, with its unknown.
     stops: Vec<(usize, usize)>,
     unknowns: usize,
     solutions: AffineSet,
 }
 
 impl<'s> System<'s> {
-    /// The pattern of a group of joints in a phase, with its equations; nothing where they contradict each
-    /// other.
+    /// The pattern of a group of joints in a phase, with its equations; `None` if they contradict each other.
     pub(super) fn new(
         instant: &'s Instant<'s>,
         question: &'s Question<'s>,
@@ -103,8 +102,8 @@ impl<'s> System<'s> {
         self.solutions.dimension()
     }
 
-    /// Whether some equations follow from others by chance, so that they could contradict each other at
-    /// another instant: not because joints that stick depend on one another.
+    /// Whether some equations follow from others by coincidence, so that they could contradict each other at
+    /// another instant: not because sticking joints depend on one another.
     pub(super) fn is_redundant(&self) -> bool {
         let bound = self.bound_joints();
         let excess = self.group.contacts.len() + bound.len() - (self.unknowns - self.dimension());
@@ -148,8 +147,7 @@ impl<'s> System<'s> {
             }
         }
         for &(joint, force) in &self.stops {
-            // It pushes the block away from the stop, along the centre line as friction in the middle between
-            // both faces does.
+            // The stop pushes the block away along the centre line, like friction midway between both faces.
             let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
             let [plus, minus] = [0, 1].map(|face| outputs.columns[face][(row, contacts[0])]);
             expression =
@@ -158,8 +156,8 @@ impl<'s> System<'s> {
         expression
     }
 
-    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that is
-    /// bound to one.
+    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint for
+    /// which it is prescribed.
     fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
         let bound = self.bound_joints();
         let contacts = self.group.contacts.len();
@@ -177,7 +175,7 @@ impl<'s> System<'s> {
         (matrix, right_hand_side)
     }
 
-    /// The joints whose acceleration is wanted: those that stick, and those that are pushed.
+    /// The joints whose acceleration is prescribed: those that stick, and those that are pushed.
     fn bound_joints(&self) -> Vec<usize> {
         let is_bound = |joint: &usize| {
             self.phase.joints[*joint] == JointPhase::Sticking || self.question.pushed.contains(joint)
@@ -185,7 +183,7 @@ impl<'s> System<'s> {
         self.group.joints.iter().copied().filter(is_bound).collect()
     }
 
-    /// The normal force of a contact, in units; nothing where the equations leave it open.
+    /// The normal force of a contact, in units; `None` if the equations leave it open.
     pub(super) fn determined_normal_force(&self, k: usize) -> Option<f64> {
         let normal = self.solutions.function(&self.friction[k].as_ref()?.normal_force());
         (!normal.varies()).then_some(normal.constant)
@@ -268,11 +266,11 @@ pub(super) struct Forces {
     pub(super) frictions: Vec<ContactFriction>,
     /// Normal forces, exactly zero in a preload gap.
     pub(super) normal: Vec<f64>,
-    /// Shares of the positive faces of contacts in their preload gaps that slide.
+    /// Shares of the positive faces, for contacts that slide in their preload gaps.
     pub(super) shares: Vec<Option<f64>>,
 }
 
-/// Puts the equation `expression = 0` into a row, scaled to a greatest coefficient of one.
+/// Writes the equation `expression = 0` into a row, scaled so that its greatest coefficient is one.
 fn write(
     row: usize,
     expression: &AffineExpression,

@@ -1,4 +1,4 @@
-//! Units in which the numbers of a decision are of order one: of the whole mechanism, and of what joints
+//! Units in which the numbers of a decision are of order one: for the whole mechanism, and for what joints
 //! connect.
 
 use super::scale::{Share, scale};
@@ -19,8 +19,8 @@ pub(super) struct Units {
     pub(super) acceleration: f64,
 }
 
-/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N where
-/// there never is any.
+/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N if
+/// there are never any.
 pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
     let length = mechanism.size;
     let masses = mechanism.bodies.iter();
@@ -30,8 +30,8 @@ pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &
     units(length, (force, mass), 1.0).force
 }
 
-/// The greatest of the loads, preloads and forces of inertia of some bodies (N), and the greatest of their
-/// masses (kg).
+/// The greatest of the loads, preloads and forces of inertia of some bodies (N), and their greatest mass
+/// (kg).
 pub(super) fn greatest(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),
@@ -55,7 +55,7 @@ pub(super) fn greatest(
     (loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max), mass)
 }
 
-/// Units in which the given force is one; where there is none, the other one.
+/// Units in which the given force is one; if there is no force, the fallback is one.
 pub(super) fn units(length: f64, (force, mass): (f64, f64), otherwise: f64) -> Units {
     let force = if force > 0.0 && force.is_finite() { force } else { otherwise };
     Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }

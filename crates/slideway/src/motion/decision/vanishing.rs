@@ -7,11 +7,11 @@ use super::sticking::ENOUGH;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::DVector;
 
-/// What is left of a normal force, in units, or of a share, where an event has found it to be zero; it is
-/// greater only where it has no bounds.
+/// What may be left of a normal force, in units, or of a share, that an event has found to be zero; more is
+/// left only if the value has no bounds.
 const NEARLY_ZERO: f64 = 1e-4;
 
-/// Makes exactly zero in the previous phase what the event has found to be zero.
+/// Sets to exactly zero in the previous phase what the event has found to be zero.
 pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>, previous: &Phase) {
     if event.zero.is_empty() {
         return;
@@ -25,9 +25,9 @@ pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>,
 }
 
 impl Instant<'_> {
-    /// Makes normal forces, or what is left of preload gaps, exactly zero in a state: its equations hold
-    /// again with loads that differ by no more than what is left of them, and so do those of its neighbours,
-    /// in which the contacts press on the other side.
+    /// Sets normal forces, or what is left of preload gaps, to exactly zero in a state: its equations hold
+    /// again with loads changed by no more than this remainder, and so do those of its neighbours, in which
+    /// the contacts press on the other side.
     fn vanish(&mut self, contacts: &[usize], state: &Assessment) {
         let mut shift = DVector::zeros(self.outputs.base.len());
         for &k in contacts {

@@ -1,4 +1,4 @@
-//! What is told of a motion: a report (`report.rs`) and its text (`text.rs`), a table (`series.rs`), and the
+//! How a motion is reported: a report (`report.rs`) and its text (`text.rs`), a table (`series.rs`), and the
 //! tree of all branches (`tree.rs`).
 
 pub(in crate::motion) mod report;

@@ -1,4 +1,4 @@
-//! What is told of a motion: plain data, which are the JSON output.
+//! The report of a motion: plain data, which are the JSON output.
 
 use super::series::Series;
 use crate::configuration::{Configuration, unit};
@@ -13,7 +13,7 @@ use crate::report::number::number;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
 
-/// Version of the layout of a [`SimulateReport`]; changes whenever a field is renamed or removed.
+/// Version of the layout of a [`SimulateReport`]; it changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/simulate/1";
 
 /// A motion in time.
@@ -22,44 +22,44 @@ pub const SCHEMA: &str = "slideway/simulate/1";
 pub struct SimulateReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
-    /// What the model is.
+    /// Summary of the model.
     pub model: ModelSummary,
     /// The names of the contacts, in the order of their signs in modes.
     pub contacts: Vec<String>,
-    /// Relative error that each step was permitted.
+    /// Relative error permitted for each step.
     pub tolerance: f64,
     /// When it begins (s).
     pub start: f64,
-    /// When it was to end (s).
+    /// When it was requested to end (s).
     pub until: f64,
-    /// When it ends (s).
+    /// When it actually ends (s).
     pub stop: f64,
     /// Coordinates and rates at the start.
     pub initial: Vec<CoordinateState>,
-    /// In how many steps the positions at the start were followed from the drawing, each proven to stay on
-    /// its assembly branch; absent where they are those of the drawing.
+    /// Number of steps in which the initial positions were followed from the drawing, each step proven to
+    /// stay on its assembly branch; absent if the positions are those of the drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
     /// Coordinates and rates at the end.
     pub last: Vec<CoordinateState>,
-    /// What happened, in its order.
+    /// What happened, in chronological order.
     pub events: Vec<EventReport>,
-    /// The phases, one after the other.
+    /// The phases, in chronological order.
     pub phases: Vec<PhaseReport>,
     /// How it ends.
     pub end: EndReport,
-    /// What could be modelled better, in words.
+    /// Suggestions for a better model, in words.
     pub hints: Vec<String>,
     /// Where the energy went.
     pub energy: EnergyReport,
-    /// How far the joints were violated before each projection: of positions, in sizes of the mechanism or
-    /// rad.
+    /// The greatest violation of the joints before each projection: of positions, in sizes of the mechanism
+    /// or rad.
     pub position_drift: f64,
-    /// Likewise, of velocities, per second.
+    /// The same for velocities, per second.
     pub velocity_drift: f64,
-    /// What it cost.
+    /// Computational cost.
     pub statistics: StatisticsReport,
-    /// The motion as a table, if it was asked for.
+    /// The motion as a table, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<Series>,
 }
@@ -70,13 +70,13 @@ pub struct SimulateReport {
 pub struct EventReport {
     /// When (s).
     pub time: f64,
-    /// Everything that came together.
+    /// All simultaneous causes.
     pub causes: Vec<CauseReport>,
     /// What happened, in words.
     pub words: String,
-    /// The mode that follows; nothing where the motion ends.
+    /// The mode that follows; absent if the motion ends.
     pub mode: Option<String>,
-    /// All modes that were possible, in the order of preference, if there were several.
+    /// All possible modes, in order of preference, if there were several.
     pub branches: Vec<BranchReport>,
     /// Whether further modes, in which fewer joints stick, may be possible: there are too many states to try
     /// all.
@@ -86,17 +86,17 @@ pub struct EventReport {
     pub energy_lost: f64,
 }
 
-/// Why a phase ended, or what was told.
+/// Why a phase ended, or what is to be reported.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CauseReport {
-    /// What it was.
+    /// The kind of cause.
     pub kind: CauseKind,
     /// The joint, contact or function.
     pub of: Option<String>,
 }
 
-/// A mode in which the motion could go on.
+/// A mode in which the motion could continue.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct BranchReport {
@@ -106,13 +106,13 @@ pub struct BranchReport {
     pub mode: String,
     /// Whether it was taken.
     pub taken: bool,
-    /// Whether it continues the motion without a jump of forces.
+    /// Whether it continues the motion without a jump in the forces.
     pub continues: bool,
-    /// Whether a real mechanism can take it.
+    /// Whether a real mechanism can follow it.
     pub attainable: Verdict,
 }
 
-/// A phase and when it holds.
+/// A phase and its time span.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PhaseReport {
@@ -131,29 +131,29 @@ pub struct PhaseReport {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum EndKind {
-    /// The time is over.
+    /// The requested time has been reached.
     Finished,
     /// A joint reaches a limit of its travel.
     TravelLimit,
     /// A block leaves its guide.
     OverlapVanished,
-    /// A normal force has reached its limit.
+    /// A normal force reaches its limit.
     ReactionLimit,
-    /// An event that stops it.
+    /// An event of the model that stops the motion.
     UserEvent,
-    /// The branch that was wanted does not exist.
+    /// The requested branch does not exist.
     NoSuchBranch,
     /// A guided slider tips.
     Tips,
-    /// At rest neither sticking nor sliding is possible.
+    /// At rest, neither sticking nor sliding is possible.
     NoContinuation,
-    /// It jams, and no impulse leads to a state in which it can go on.
+    /// It jams, and no impulse leads to a state from which it can continue.
     Jammed,
     /// Events come closer and closer together.
     Accumulation,
-    /// As many steps as were permitted.
+    /// The permitted number of steps is reached.
     StepLimit,
-    /// As many events as were permitted.
+    /// The permitted number of events is reached.
     EventLimit,
     /// A load or drive has no value.
     NoValue,
@@ -171,7 +171,7 @@ pub struct EndReport {
     pub kind: EndKind,
     /// In words.
     pub words: String,
-    /// Whether the mechanism cannot move on: friction locks it.
+    /// Whether friction locks the mechanism, so that it cannot continue to move.
     pub locked: bool,
 }
 
@@ -185,16 +185,16 @@ pub struct EnergyReport {
     pub potential: [f64; 2],
     /// Dissipated by the friction of each contact.
     pub friction: Vec<Named>,
-    /// Work of each load that is no constant spring.
+    /// Work of each load other than constant springs.
     pub loads: Vec<Named>,
     /// Work of each drive.
     pub drives: Vec<Named>,
     /// Lost in impulses.
     pub impulses: f64,
-    /// The greatest error of the balance at any step.
+    /// The greatest error of the energy balance at any step.
     pub error: f64,
-    /// That error in relation to the greatest kinetic energy, work or dissipation; null where these are no
-    /// greater than the error, because nothing but rounding is moved.
+    /// That error relative to the greatest kinetic energy, work or dissipation; null if these are no greater
+    /// than the error, because they are only rounding.
     pub relative_error: Option<f64>,
 }
 
@@ -208,7 +208,7 @@ pub struct Named {
     pub value: f64,
 }
 
-/// What a simulation cost.
+/// Cost of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StatisticsReport {
@@ -220,22 +220,22 @@ pub struct StatisticsReport {
     pub evaluations: u64,
     /// Events.
     pub events: usize,
-    /// Rest under loads that change with time that was not proven, if there is any.
+    /// Unproven rest under loads that vary with time, if there is any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampled: Option<SampledReport>,
 }
 
-/// Rest that was not proven, but looked at at four times in each step.
+/// Rest that was not proven, but checked at four times in each step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SampledReport {
-    /// How long in all (s).
+    /// Total duration (s).
     pub time: f64,
-    /// The longest of the steps (s).
+    /// The longest step (s).
     pub longest_step: f64,
 }
 
-/// What is told of a motion that was simulated with these options.
+/// The report of a motion that was simulated with these options.
 pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     let mechanism = &history.mechanism;
     SimulateReport {
@@ -246,6 +246,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             bodies: mechanism.bodies.len(),
             contacts: mechanism.contacts.len(),
             drives: mechanism.drives.len(),
+            units: mechanism.units.clone(),
         },
         contacts: mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),
         tolerance: options.tolerance,
@@ -281,8 +282,8 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     }
 }
 
-/// A load that jumps with a rate is friction without a state of rest; a limit of normal forces does not see
-/// those that are not determined.
+/// A load that jumps with a rate is friction without a state of rest; a limit on normal forces does not
+/// detect those that are not determined.
 fn hints(history: &History) -> Vec<String> {
     let mechanism = &history.mechanism;
     let relations = mechanism.relations().into_iter();
@@ -321,7 +322,7 @@ fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateStat
         .collect()
 }
 
-/// A normal force may touch zero once more within rounding: nothing follows, and nothing is told.
+/// A normal force may touch zero once more within rounding: then nothing changes, and nothing is reported.
 fn is_told(event: &Event) -> bool {
     event.words != NOTHING
 }
@@ -389,7 +390,7 @@ fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
     EndReport { kind, words, locked }
 }
 
-/// The name of the end in reports, and a sentence.
+/// The kind of the end for reports, and a sentence.
 fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, String) {
     let mechanism = &history.mechanism;
     let time = number(history.stop());
@@ -462,7 +463,7 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, Strin
     }
 }
 
-/// The end of a motion that was followed to the end: whether it is at rest, and for how long.
+/// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
     let at_rest = |interval: &PhaseInterval| {
         let joints = &interval.phase.joints;

@@ -8,9 +8,9 @@ use crate::motion::record::history::{History, Sample};
 use crate::pattern::phase::JointPhase;
 use serde::Serialize;
 
-/// What tables hold besides the columns: a coordinate of such a name bears the prefix `coordinate.` there.
+/// Names that tables use themselves: a coordinate with such a name gets the prefix `coordinate.` there.
 const RESERVED: [&str; 5] = ["mode", "units", "model", "command", "program"];
-/// Times closer to the end than this part of the step are the end.
+/// Times closer to the end than this fraction of the step count as the end.
 const AT_END: f64 = 1e-9;
 
 /// A motion as a table.
@@ -25,12 +25,13 @@ pub struct Series {
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Column {
-    /// What it is, such as `phi.rate` or `upper.normal_force`.
+    /// Name of the quantity, such as `phi.rate` or `upper.normal_force`.
     pub name: String,
     /// Its unit; empty for pure numbers.
     pub unit: &'static str,
-    /// One for each row; nothing where the quantity is not defined: friction forces of joints that stick, and
-    /// normal forces that statics leaves open there, as they hang on how the contacts share the friction.
+    /// One for each row; `None` where the quantity is undefined: friction forces of sticking joints, and
+    /// normal forces that statics leaves open there, because they depend on how the contacts share the
+    /// friction.
     pub values: Vec<Option<f64>>,
 }
 
@@ -42,7 +43,7 @@ impl Series {
 }
 
 impl History {
-    /// Times from the start in this step (s), and the end.
+    /// Times from the start in steps of this length (s), and the end.
     pub fn times_in_steps(&self, step: f64) -> Vec<f64> {
         let (start, stop) = (self.start(), self.stop());
         let multiples = (0_u32..).map(|index| start + f64::from(index) * step);
@@ -51,7 +52,7 @@ impl History {
         times
     }
 
-    /// The motion at these times; those outside of it are left out. At an event it is what follows.
+    /// The motion at these times; times outside of it are omitted. At an event, the row shows what follows.
     ///
     /// Columns are `t`, then for each coordinate its value (`coordinate.NAME` where the name alone is taken:
     /// `mode`, `units`, `model`, `command`, `program`), rate and acceleration, for each contact its normal
@@ -88,7 +89,7 @@ impl History {
         Series { columns, modes }
     }
 
-    /// The normal forces at a sample, as far as they are determined.
+    /// The normal forces at a sample, where they are determined.
     fn normal_forces(&self, sample: &Sample) -> Vec<Option<f64>> {
         let all = || sample.contacts.iter().map(|contact| Some(contact.normal_force)).collect();
         let phase = self.phases.get(sample.phase).map(|interval| &interval.phase);

@@ -1,4 +1,4 @@
-//! A motion as text for people: a log of what happened, and how good it is.
+//! A motion as readable text: a log of events, and the accuracy.
 
 use super::report::{EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
@@ -7,14 +7,14 @@ use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Report, Style, Verdict, count, followed, spaced};
 
-/// Energies below this part of the greatest are rounding.
+/// Energies below this fraction of the greatest are rounding.
 const LITTLE: f64 = 1e-13;
-/// Of longer logs so many events are told from the beginning, ...
+/// From a longer log, this many events are shown at the beginning, ...
 const FIRST: usize = 40;
-/// ... and so many from the end.
+/// ... and this many at the end.
 const LAST: usize = 10;
 
-/// The start, the events, the end, the energies. Of a long log the beginning and the end are told.
+/// The start, the events, the end, the energies. Of a long log, only the beginning and the end are shown.
 impl Report for SimulateReport {
     fn text(&self, style: Style) -> String {
         page(self, style, false).text()
@@ -22,7 +22,7 @@ impl Report for SimulateReport {
 }
 
 impl SimulateReport {
-    /// As text for people, with all events of a long log.
+    /// As readable text, with all events of a long log.
     pub fn text_with_all_events(&self, style: Style) -> String {
         page(self, style, true).text()
     }
@@ -41,7 +41,7 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
     text
 }
 
-/// How each of the motions ends, then their logs.
+/// How each motion ends, then the logs.
 impl Report for TreeReport {
     fn text(&self, style: Style) -> String {
         all_motions(self, style, false)
@@ -49,7 +49,7 @@ impl Report for TreeReport {
 }
 
 impl TreeReport {
-    /// As text for people, with all events of long logs.
+    /// As readable text, with all events of long logs.
     pub fn text_with_all_events(&self, style: Style) -> String {
         all_motions(self, style, true)
     }
@@ -112,10 +112,9 @@ impl Page<'_, SimulateReport> {
             self.report.initial.iter().chain(&self.report.last).map(|coordinate| coordinate.rate.abs());
         let greatest = rates.fold(1e-6, f64::max);
         let one = |coordinate: &crate::report::CoordinateState| {
-            let crate::report::CoordinateState { name, unit, value, rate } = coordinate;
-            // What is left of a velocity at rest is rounding.
-            let rate = against(*rate, greatest);
-            format!("{name} = {} {unit}, rate {rate} {unit}/s", number(*value))
+            // What is left of a velocity at rest is only rounding.
+            let rate = if against(coordinate.rate, greatest) == "0" { 0.0 } else { coordinate.rate };
+            crate::report::CoordinateState { rate, ..coordinate.clone() }.in_words(&self.report.model.units)
         };
         let parts: Vec<String> = state.iter().map(one).collect();
         self.line(&format!("{when}: {}", parts.join("; ")));

@@ -1,4 +1,4 @@
-//! All motions that are possible where several phases can follow an event.
+//! All possible motions where several phases can follow an event.
 
 use super::report::{SimulateReport, report};
 use crate::configuration::Configuration;
@@ -14,7 +14,7 @@ use crate::progress::{Callback, Progress};
 use serde::Serialize;
 use std::collections::VecDeque;
 
-/// Version of the layout of a [`TreeReport`]; changes whenever a field is renamed or removed.
+/// Version of the layout of a [`TreeReport`]; it changes whenever a field is renamed or removed.
 const SCHEMA: &str = "slideway/simulate-tree/1";
 
 /// All motions from a state.
@@ -22,20 +22,20 @@ const SCHEMA: &str = "slideway/simulate-tree/1";
 pub struct Tree {
     /// The motions; the first takes the preferred branch everywhere.
     pub histories: Vec<Branching>,
-    /// Whether these are all.
+    /// Whether the list is complete.
     pub complete: bool,
 }
 
-/// A motion, and which branch it takes.
+/// A motion, and the branches that it takes.
 #[derive(Debug, Clone)]
 pub struct Branching {
-    /// At each event with several possible phases the number of the one that is taken, counted from 0.
+    /// The number of the phase taken at each event with several possible phases, counted from 0.
     pub branches: Vec<usize>,
     /// The motion.
     pub history: History,
 }
 
-/// All motions, told.
+/// The report of all motions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TreeReport {
@@ -47,21 +47,21 @@ pub struct TreeReport {
     pub histories: Vec<BranchingReport>,
 }
 
-/// A motion, told.
+/// The report of one motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct BranchingReport {
-    /// At each event with several possible phases the number of the one that is taken, counted from 1.
+    /// The number of the phase taken at each event with several possible phases, counted from 1.
     pub branches: Vec<usize>,
     /// The motion.
     pub motion: SimulateReport,
 }
 
-/// All motions of a mechanism from a state on, `most` of them at most, those first that differ earliest from
-/// the motion along the preferred branches. Branches that the options prescribe are kept.
+/// All motions of a mechanism from a state on, at most `most` of them, first those that branch off earliest
+/// from the motion along the preferred branches. Branches prescribed by the options are kept.
 ///
 /// # Errors
-/// As [`simulate_with`]; a progress function that breaks ends the search.
+/// As [`simulate_with`]; a progress callback that breaks ends the search.
 pub fn simulate_all(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -100,7 +100,7 @@ pub fn simulate_all(
     Ok(tree)
 }
 
-/// At each branching the phase that was taken, and how many there were.
+/// The number of the phase taken at each branching, and the number of possible phases.
 fn branchings(history: &History, has_initial: bool) -> (Vec<usize>, Vec<usize>) {
     let chosen =
         |event: &&Event| event.successors.len() > 1 && !(has_initial && event.causes.contains(&Cause::Start));
@@ -108,7 +108,7 @@ fn branchings(history: &History, has_initial: bool) -> (Vec<usize>, Vec<usize>) 
     events.filter_map(|event| Some((event.taken?, event.successors.len()))).unzip()
 }
 
-/// What is told of all motions.
+/// The report of all motions.
 pub fn tree_report(tree: &Tree, options: &SimulateOptions) -> TreeReport {
     let one = |branching: &Branching| BranchingReport {
         branches: branching.branches.iter().map(|branch| branch + 1).collect(),

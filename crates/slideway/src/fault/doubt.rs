@@ -1,0 +1,56 @@
+//! What makes sense, but is perhaps not what was meant: warnings.
+
+/// What is perhaps not meant.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the message above each variant says what it and its values mean")]
+pub enum Doubt {
+    #[error("{what} is {value} rad, more than a full turn: a number without a unit is in radians")]
+    BareAngle { what: String, value: f64 },
+    #[error(
+        "{what} is {value} {si}, while the model has it in {unit}: a number without a unit is in SI units"
+    )]
+    BareNumber { what: String, value: f64, si: String, unit: String },
+    #[error("the lengths of the model differ by a factor of {factor}: from {least} to {greatest}")]
+    LengthsFarApart { factor: String, least: String, greatest: String },
+    #[error(
+        "the drawing leaves {joint} open by {gap}: to close it, the bodies were moved out of their places"
+    )]
+    GapClosed { joint: String, gap: String },
+    #[error("{body} is {distance} from its place in the drawing, {sizes} times the size of the mechanism")]
+    FarFromDrawing { body: String, distance: String, sizes: String },
+    #[error("{what} is {value}: dry friction rarely exceeds 1")]
+    GreatFriction { what: String, value: String },
+}
+
+impl Doubt {
+    /// Its kind in one word, for programs.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::BareAngle { .. } => "bare_angle",
+            Self::BareNumber { .. } => "bare_number",
+            Self::LengthsFarApart { .. } => "lengths_far_apart",
+            Self::GapClosed { .. } => "gap_closed",
+            Self::FarFromDrawing { .. } => "far_from_drawing",
+            Self::GreatFriction { .. } => "great_friction",
+        }
+    }
+
+    /// What to do about it.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::BareAngle { value, .. } => {
+                format!("write `{value} deg`, or `{value} rad` if that is meant")
+            }
+            Self::BareNumber { value, unit, si, .. } => {
+                format!("write `{value} {unit}`, or `{value} {si}` if that is meant")
+            }
+            Self::LengthsFarApart { .. } => "look for a wrong or missing unit".to_owned(),
+            Self::GapClosed { .. } => {
+                "draw both points of the joint at the same place, for instance with one name".to_owned()
+            }
+            Self::FarFromDrawing { .. } => "look for a wrong or missing unit in the coordinates".to_owned(),
+            Self::GreatFriction { .. } => "look for a percentage without its sign: `30 %` is 0.3".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Warnings: what in a model makes sense, but is perhaps not what was meant.
+//!
+//! Stands beside [`mod@crate::check`]. A model with warnings is solved like any other; `--strict` of the
+//! command line takes them for errors. What counts as too far apart is a matter of experience: the constants
+//! below are heuristics (tolerances in the book).
+//!
+//! ```
+//! use slideway::{Model, gallery, warning::warnings};
+//!
+//! let text = gallery::find("drawer").expect("in the gallery").text.replace("\"0 deg\"", "90");
+//! let found = warnings(&Model::parse(&text)?);
+//! let messages: Vec<String> = found.sorted().iter().map(|warning| warning.kind.to_string()).collect();
+//! assert_eq!(messages[0], "the direction of guide is 90 rad, more than a full turn: a number without a unit is in radians");
+//! # Ok::<(), slideway::Faults>(())
+//! ```
+
+use crate::configuration::{Configuration, widest_gap_of_drawing};
+use crate::expression::{Dimension, Symbol};
+use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
+use crate::ids::FormulaId;
+use crate::mechanism::Mechanism;
+use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
+use crate::report::number::number;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Bare angles beyond this (rad) are taken for degrees.
+const FULL_TURN: f64 = TAU;
+/// Lengths of one model that differ by more than this factor hint at a wrong unit.
+const FAR_APART: f64 = 1e4;
+/// Gaps of the drawing beyond this part of the mechanism's size are no rounding of what was typed.
+const OPEN: f64 = 1e-3;
+/// A body this many sizes of the mechanism from its place in the drawing is far from it.
+const FAR: f64 = 3.0;
+/// Coefficients of friction above this are rare.
+const GREAT_FRICTION: f64 = 2.0;
+
+/// A warning as a report tells it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Warning {
+    /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing" or
+    /// "great_friction".
+    pub kind: &'static str,
+    /// Where it lies; null where it concerns the input as a whole.
+    pub place: Option<WarningPlace>,
+    /// What is perhaps not meant.
+    pub message: String,
+    /// What to do about it.
+    pub hint: String,
+}
+
+/// Where a warning lies.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct WarningPlace {
+    /// "model" for the model file, "setting" for a setting such as `--set`.
+    pub source: &'static str,
+    /// Its first byte in that text.
+    pub from: usize,
+    /// The byte behind it.
+    pub to: usize,
+}
+
+impl Warning {
+    /// The warnings among these faults, as reports tell them.
+    pub(crate) fn list(faults: &Faults) -> Vec<Self> {
+        let one = |fault: &&Fault| {
+            let FaultKind::Doubt(doubt) = &fault.kind else { return None };
+            let place = fault.place.as_ref().map(|place| WarningPlace {
+                source: if place.source == Source::Model { "model" } else { "setting" },
+                from: place.span.start,
+                to: place.span.end,
+            });
+            let (message, hint) = (doubt.to_string(), doubt.hint());
+            Some(Self { kind: doubt.name(), place, message, hint })
+        };
+        faults.sorted().iter().filter_map(one).collect()
+    }
+}
+
+/// Everything in a model that is perhaps not meant, each with its place: none of it keeps it from being
+/// solved. Settings that have been applied to the model count.
+pub fn warnings(model: &Model) -> Faults {
+    let mut found = Faults::default();
+    found.extend(model.doubts.iter().cloned());
+    found.extend(angles(model).into_iter().filter_map(|angle| bare_angle(model, angle)));
+    found.extend(lengths_far_apart(model));
+    if let Ok(mechanism) = Mechanism::new(model) {
+        found.extend(great_friction(model));
+        found.extend(gap_closed(&mechanism));
+        found.extend(far_from_drawing(&mechanism));
+    }
+    found
+}
+
+fn warning(doubt: Doubt, place: Place) -> Fault {
+    Fault::new(FaultKind::Doubt(doubt), place)
+}
+
+/// The formulas that are angles.
+fn angles(model: &Model) -> Vec<FormulaId> {
+    let of_along = |along: &Along| if let Along::Angle(angle) = along { Some(*angle) } else { None };
+    let joints = model.joints.iter().filter_map(|joint| match &joint.kind {
+        JointKind::Slider(slider) => of_along(&slider.along),
+        JointKind::Hinge(_) => None,
+    });
+    let loads = model.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Force { force: ForceValue::Along(_, along), .. } => of_along(along),
+        LoadKind::TorsionalSpring { free_angle, .. } => *free_angle,
+        _ => None,
+    });
+    let drives = model.drives.iter().filter_map(|drive| match &drive.effort {
+        Effort::Force { direction, .. } => of_along(direction),
+        Effort::Torque { .. } => None,
+    });
+    let coordinates = model.coordinates.iter().filter(|coordinate| coordinate.kind.is_angle());
+    let values = coordinates.flat_map(|coordinate| [coordinate.drawn_at, coordinate.value]);
+    joints.chain(loads).chain(drives).chain(values.flatten()).collect()
+}
+
+/// A bare number beyond a full turn as an angle, or as the parameter that it is.
+fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
+    let formula = model.formula(angle);
+    let formula = match formula.expression.only_symbol() {
+        Some(Symbol::Parameter(index)) => model.formula(model.parameters[index].value),
+        _ => formula,
+    };
+    let value = formula.expression.bare_number().filter(|value| value.abs() > FULL_TURN)?;
+    let what = formula.what.to_string();
+    Some(warning(Doubt::BareAngle { what, value }, formula.origin.place()))
+}
+
+/// The lengths that were typed, if they differ too much; the place is that of the one which is out of line.
+fn lengths_far_apart(model: &Model) -> Option<Fault> {
+    let typed = |formula: &crate::model::Formula| {
+        let length = formula.expression.only_number(Dimension::LENGTH, formula.wanted)?.abs();
+        (length > 0.0).then(|| (length, formula.origin.place()))
+    };
+    let mut lengths: Vec<(f64, Place)> = model.formulas.iter().filter_map(typed).collect();
+    lengths.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let (least, greatest) = (lengths.first()?, lengths.last()?);
+    let factor = greatest.0 / least.0;
+    if factor <= FAR_APART {
+        return None;
+    }
+    let middle = lengths[lengths.len() / 2].0;
+    let place = if middle / least.0 > greatest.0 / middle { &least.1 } else { &greatest.1 };
+    let unit = model.units.of("m");
+    let doubt = Doubt::LengthsFarApart {
+        factor: number(factor),
+        least: unit.show(least.0),
+        greatest: unit.show(greatest.0),
+    };
+    Some(warning(doubt, place.clone()))
+}
+
+fn great_friction(model: &Model) -> Vec<Fault> {
+    let Ok(values) = model.constants() else { return Vec::new() };
+    let coefficients = model.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
+    let great = coefficients.filter(|id| values[id.index()] > GREAT_FRICTION);
+    let one = |id: FormulaId| {
+        let formula = model.formula(id);
+        let value = values[id.index()];
+        // Of a parameter the place where its number stands.
+        let (what, place) = match formula.expression.only_symbol() {
+            Some(Symbol::Parameter(index)) => {
+                let parameter = model.formula(model.parameters[index].value);
+                (parameter.what.to_string(), parameter.origin.place())
+            }
+            _ => (formula.what.to_string(), formula.origin.place()),
+        };
+        warning(Doubt::GreatFriction { what, value: number(value) }, place)
+    };
+    great.map(one).collect()
+}
+
+/// The joint that the drawing leaves most open, if that is no rounding.
+fn gap_closed(mechanism: &Mechanism) -> Option<Fault> {
+    let gap = widest_gap_of_drawing(mechanism)?;
+    if gap.relative <= OPEN {
+        return None;
+    }
+    let joint = &mechanism.joints[gap.joint.index()];
+    let doubt = Doubt::GapClosed { joint: joint.name.to_string(), gap: gap.in_words(mechanism) };
+    Some(warning(doubt, joint.place.clone()))
+}
+
+/// The body that is farthest from its place in the drawing, if that is far.
+fn far_from_drawing(mechanism: &Mechanism) -> Option<Fault> {
+    if mechanism.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at) {
+        return None;
+    }
+    let state = Configuration::new(mechanism).ok()?;
+    let distance =
+        |index: usize| (state.poses[index].position - mechanism.bodies[index].centre_of_mass).norm();
+    let index = (0..mechanism.bodies.len()).max_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
+    let sizes = distance(index) / mechanism.size;
+    let body = mechanism.bodies[index].name.to_string();
+    let distance = mechanism.units.of("m").show(distance(index));
+    let doubt = Doubt::FarFromDrawing { body, distance, sizes: number(sizes) };
+    (sizes > FAR).then(|| Fault::general(FaultKind::Doubt(doubt)))
+}

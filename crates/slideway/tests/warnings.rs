@@ -1,0 +1,133 @@
+//! Warnings: each at its place, from its threshold on, and none for the gallery.
+
+use slideway::fault::{Doubt, FaultKind, Place, Source};
+use slideway::limits::Vary;
+use slideway::warning::warnings;
+use slideway::{Model, Settings, check, gallery};
+
+fn drawer() -> &'static str {
+    gallery::find("drawer").expect("in the gallery").text
+}
+
+fn of_text(text: &str) -> Vec<(Doubt, Option<Place>)> {
+    of(&Model::parse(text).expect("a sound model"))
+}
+
+fn of(model: &Model) -> Vec<(Doubt, Option<Place>)> {
+    let found = warnings(model);
+    let one = |fault: &&slideway::fault::Fault| match &fault.kind {
+        FaultKind::Doubt(doubt) => (doubt.clone(), fault.place.clone()),
+        other => panic!("{other} is no warning"),
+    };
+    found.sorted().iter().map(one).collect()
+}
+
+fn names(found: &[(Doubt, Option<Place>)]) -> Vec<&'static str> {
+    found.iter().map(|(doubt, _)| doubt.name()).collect()
+}
+
+#[test]
+fn the_gallery_has_none() {
+    for entry in gallery::MODELS {
+        assert_eq!(of_text(entry.text), [], "{}", entry.name);
+    }
+}
+
+#[test]
+fn an_angle_without_a_unit_may_not_exceed_a_full_turn() {
+    let with = |along: &str| drawer().replacen("along = \"0 deg\"", &format!("along = {along}"), 1);
+    assert_eq!(names(&of_text(&with("90"))), ["bare_angle"]);
+    assert_eq!(names(&of_text(&with("\"-90\""))), ["bare_angle"]);
+    for allowed in ["6.28", "\"90 deg\"", "\"90 rad\"", "\"720 deg\""] {
+        assert_eq!(of_text(&with(allowed)), [], "{allowed}");
+    }
+    // The place is that of the number, also where it is a parameter.
+    let text = with("\"alpha\"").replace("[parameters]", "[parameters]\nalpha = 45");
+    let found = of_text(&text);
+    let place = found[0].1.clone().expect("a place");
+    assert_eq!((names(&found), &text[place.span]), (vec!["bare_angle"], "45"));
+}
+
+#[test]
+fn numbers_without_a_unit_are_suspicious_where_the_model_has_another_than_si() {
+    let millimetres = Model::parse(&drawer().replace("0.4 m", "400 mm")).expect("a sound model");
+    let set = |model: &Model, value: &str| {
+        of(&model.with(&Settings::default().parameter("L", value)).expect("a length"))
+    };
+    let found = set(&millimetres, "0.45");
+    let place = Place { source: Source::Setting(0), span: 2..6 };
+    assert_eq!((names(&found), &found[0].1), (vec!["bare_number"], &Some(place)));
+    assert_eq!(set(&millimetres, "450 mm"), []);
+    // In metres as in the model nothing surprises, nor does a program's number.
+    assert_eq!(set(&Model::parse(drawer()).expect("a sound model"), "0.45"), []);
+    assert_eq!(of(&millimetres.with(&Settings::default().parameter("L", 0.45)).expect("a length")), []);
+    // Of a range each end.
+    let ends = |vary: &str| vary.parse::<Vary>().expect("a range").warnings(&millimetres).sorted().len();
+    assert_eq!(["L=0.2..0.5", "L=200 mm..0.5", "L=200 mm..500 mm", "mu=0..1"].map(ends), [2, 1, 0, 0]);
+}
+
+#[test]
+fn lengths_may_not_differ_by_more_than_ten_thousand() {
+    // Beside 0.45 m and 0.7 m of the shape.
+    let with = |length: &str| drawer().replace("\"0.4 m\"", &format!("\"{length}\""));
+    let text = with("0.05 mm");
+    let found = of_text(&text);
+    let place = found[0].1.clone().expect("a place");
+    assert_eq!((names(&found), &text[place.span]), (vec!["lengths_far_apart"], "\"0.05 mm\""));
+    // 0.7 m / 10^4 = 0.07 mm
+    assert_eq!(of_text(&with("0.0701 mm")), []);
+    assert_eq!(names(&of_text(&with("0.0699 mm"))), ["lengths_far_apart"]);
+    // What is computed may be as short as it likes.
+    assert_eq!(of_text(&drawer().replace("h = \"0 m\"", "h = \"L*1e-9\"")), []);
+}
+
+#[test]
+fn friction_above_two_is_rare() {
+    let with = |mu: &str| of_text(&drawer().replace("mu = 0.3 ", &format!("mu = {mu} ")));
+    assert_eq!(names(&with("30")), ["great_friction"]);
+    assert_eq!(with("2"), []);
+    assert_eq!(names(&with("2.001")), ["great_friction"]);
+}
+
+#[test]
+fn a_drawing_with_a_gap_is_told_with_its_joint() {
+    // The crank pin of the rod is drawn `gap` beside that of the crank.
+    let text = gallery::find("slider-crank").expect("in the gallery").text;
+    let with = |gap: &str| {
+        let text = text.replace(
+            "[points]",
+            &format!("[points]\nA_2 = [\"r*cos(phi_drawn) + {gap}\", \"r*sin(phi_drawn)\"]"),
+        );
+        let text = text.replace("points = [\"A\", \"B\"]", "points = [\"A_2\", \"B\"]");
+        of_text(&text.replace("rod.A\"", "rod.A_2\""))
+    };
+    let found = with("12 mm");
+    let [(Doubt::GapClosed { joint, gap }, Some(_))] = found.as_slice() else { panic!("{found:?}") };
+    assert_eq!((joint.as_str(), gap.as_str()), ("A", "12 mm"));
+    assert_eq!(with("0.01 mm"), []);
+}
+
+#[test]
+fn a_state_far_from_the_drawing_is_told_with_its_body() {
+    // Without a carcass that ends: both contacts travel with the drawer.
+    let text = drawer().replace("rear = { carried_by = \"guide\" }", "rear = { carried_by = \"block\" }");
+    let model = Model::parse(&text).expect("a sound model");
+    let at = |x: f64| of(&model.with(&Settings::default().position("x", x)).expect("a position"));
+    assert_eq!(at(0.1), []);
+    let found = at(100.0);
+    let [(Doubt::FarFromDrawing { body, distance, .. }, None)] = found.as_slice() else {
+        panic!("{found:?}")
+    };
+    assert_eq!((body.as_str(), distance.as_str()), ("drawer", "100 m"));
+}
+
+#[test]
+fn check_lists_them_for_programs() {
+    let model = Model::parse(&drawer().replace("mu = 0.3 ", "mu = 30 ")).expect("a sound model");
+    let report = check(&model).expect("a report");
+    assert!(report.sound);
+    let json = serde_json::to_value(&report.warnings).expect("JSON");
+    assert_eq!(json[0]["kind"], "great_friction");
+    assert_eq!(json[0]["place"]["source"], "model");
+    assert!(json[0]["message"].is_string() && json[0]["hint"].is_string());
+}
