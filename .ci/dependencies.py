@@ -17,6 +17,8 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parent.parent
 NOTICES = TOP / "THIRD-PARTY-NOTICES"
 FONT = TOP / "crates/slideway-pictures/fonts/LICENSE"
+# As Debian collects them for its package musl.
+MUSL = TOP / ".ci/musl-copyright"
 HEAD = """\
 Third-party notices of slideway
 
@@ -101,6 +103,8 @@ def notices(packages):
             owners.setdefault(text, []).append(name)
     told.append("DejaVu Sans 2.37 (glyphs): Bitstream Vera and Arev licences, https://dejavu-fonts.github.io")
     owners.setdefault(FONT.read_text().strip(), []).append("DejaVu Sans 2.37")
+    told.append("musl (in binaries that are linked statically): MIT and others, https://musl.libc.org")
+    owners.setdefault(MUSL.read_text().strip(), []).append("musl")
     for text, names in owners.items():
         told += ["", "-" * 80, ", ".join(names), "", text]
     return "\n".join(told) + "\n"

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Motion of the gallery's slider-crank over many turns, integrated apart from slideway: writes slider-crank-motion.toml.
+"""Motion of two slider-cranks over many turns, integrated apart from slideway: writes slider-crank-motion.toml for that of the
+gallery, clearance-crank-motion.toml for that of the tutorial (docs/src/examples/clearance-crank.toml).
 
     python3 -m venv venv && venv/bin/pip install numpy scipy
     venv/bin/python reference/slider_crank_motion.py > reference/slider-crank-motion.toml
+    venv/bin/python reference/slider_crank_motion.py clearance > reference/clearance-crank-motion.toml
 
 The engine coasts: no gas force, no torque on the crank. One coordinate, the crank angle phi; sin(beta) = r sin(phi)/l.
 Newton's and Euler's equations of crank, rod and piston are linear in phi'', the forces A on the rod at the crank pin and B on
@@ -16,15 +18,27 @@ mu |N| s. The sign of N is the one that agrees with itself. Integrated with DOP8
 dead centres, where s changes.
 """
 import math
+import sys
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-# models/slider-crank.toml
-r, l, skirt, bore, mu, g = 0.05, 0.18, 0.06, 0.08, 0.1, 9.81
-m_crank, m_rod, m_piston = 2.0, 0.6, 0.8
-i_crank, i_rod = m_crank * (1.5 * r) ** 2 / 2, m_rod * l**2 / 12
-PHI, OMEGA, END = math.radians(60), 100.0, 3.0
+g = 9.81
+if sys.argv[1:] == ["clearance"]:
+    # docs/src/examples/clearance-crank.toml; e is the distance of the crank's centre of mass, i_crank is about its bearing
+    r, l, skirt, bore, mu, e = 0.153, 0.306, 0.1, 0.05, 0.01, 0.0765
+    m_crank, m_rod, m_piston = 0.038, 0.038, 0.076
+    i_crank, i_rod = 7.4e-5 + m_crank * e**2, 5.9e-4
+    PHI, OMEGA, TIMES = 0.0, 150.0, [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]
+    WHAT = "the slider-crank of the tutorial"
+else:
+    # models/slider-crank.toml
+    r, l, skirt, bore, mu, e = 0.05, 0.18, 0.06, 0.08, 0.1, 0.0
+    m_crank, m_rod, m_piston = 2.0, 0.6, 0.8
+    i_crank, i_rod = m_crank * (1.5 * r) ** 2 / 2, m_rod * l**2 / 12
+    PHI, OMEGA, TIMES = math.radians(60), 100.0, [0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
+    WHAT = "the gallery's slider-crank with gas = 0, T = 0"
+END = TIMES[-1]
 assert bore * mu < skirt
 
 
@@ -55,7 +69,7 @@ def forces(phi, omega, s, sign):
         ([m_rod * sy[0], 0, -1, 0, 1, 0], -m_rod * sy[1] - m_rod * g),
         # moments about the middle of the rod: A at (-cb, sb) l/2, -B at (cb, -sb) l/2
         ([i_rod * alpha[0], l / 2 * sb, l / 2 * cb, l / 2 * sb, l / 2 * cb, 0], -i_rod * alpha[1]),
-        ([i_crank, -r * sp, r * cp, 0, 0, 0], 0.0),
+        ([i_crank, -r * sp, r * cp, 0, 0, 0], -m_crank * g * e * cp),
     ]
     solution = np.linalg.solve(np.array([row for row, _ in rows]), np.array([right for _, right in rows]))
     return solution[0], solution[5]
@@ -67,7 +81,7 @@ def energy(phi, omega):
     vx = (-r * math.sin(phi) * omega + velocity) / 2
     vy = r * math.cos(phi) * omega / 2
     kinetic = (i_crank * omega**2 + m_piston * velocity**2 + m_rod * (vx**2 + vy**2) + i_rod * (beta_1 * omega) ** 2) / 2
-    return kinetic + m_rod * g * r * math.sin(phi) / 2
+    return kinetic + (m_rod * r / 2 + m_crank * e) * g * math.sin(phi)
 
 
 def run(times):
@@ -99,9 +113,8 @@ def run(times):
 
 
 if __name__ == "__main__":
-    times = [0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
-    samples, events = run(times)
-    print("# Written by slider_crank_motion.py, which says how: the gallery's slider-crank with gas = 0, T = 0.")
+    samples, events = run(TIMES)
+    print(f"# Written by slider_crank_motion.py, which says how: {WHAT}.")
     print("# Agreement of runs with relative tolerances 1e-13 and 1e-11 is the accuracy to be expected.")
     print(f"turns = {samples[-1][1] / (2 * math.pi):.3f}")
     print(f"reversals = {sum(word == 'reverses' for _, word in events)}")

@@ -100,7 +100,7 @@ impl Texts {
     fn of(faulty: &FaultyInput) -> Self {
         let settings = faulty.settings.entries().iter().map(|setting| {
             let option = match setting.kind {
-                SettingKind::Parameter => "--set ",
+                SettingKind::Parameter => faulty.parameter_option,
                 SettingKind::Position => "--at ",
                 SettingKind::Rate => "--rate ",
                 // Its text is time=VALUE.
@@ -199,7 +199,11 @@ fn closing_line(faults: &[&Fault], model: &str) -> String {
     let are_warnings = faults.iter().all(|fault| is_warning(fault));
     let [one, several] = if are_warnings { ["warning", "warnings"] } else { ["fault", "faults"] };
     let count = if faults.len() == 1 { format!("1 {one}") } else { format!("{} {several}", faults.len()) };
-    let strict = if are_warnings { ", errors by --strict" } else { "" };
+    let strict = match faults.len() {
+        _ if !are_warnings => "",
+        1 => ", taken for an error",
+        _ => ", taken for errors",
+    };
     let place = match in_settings {
         0 => format!("in {model}"),
         all if all == faults.len() => "on the command line".to_owned(),

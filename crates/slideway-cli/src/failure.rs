@@ -28,6 +28,10 @@ pub(crate) enum Failure {
     Problem { name: String, faults: RawFaults },
     /// The drawing makes no sense.
     Drawing { name: String, fault: ImportFault },
+    /// No template is named, and nobody can be asked.
+    NoTemplate,
+    /// There is no such template.
+    UnknownTemplate { name: String, nearest: Option<String> },
     /// There is no such model in the gallery.
     UnknownModel { name: String, nearest: Option<String> },
     /// Only the telescopic boom has stages.
@@ -36,6 +40,8 @@ pub(crate) enum Failure {
     StageCount { stages: usize, most: usize },
     /// The output file exists.
     OutputExists { path: PathBuf },
+    /// The folder for several files exists.
+    FolderExists { path: PathBuf },
     /// A picture or page could not be made.
     Picture { reason: String },
     /// Two outputs would go to the same file.
@@ -119,12 +125,15 @@ impl Failure {
             }
             Self::Input(_) | Self::Problem { .. } => String::new(),
             Self::Drawing { name, fault } => format!("`{name}` cannot be imported: {fault}"),
+            Self::NoTemplate => "which template? None is named".to_owned(),
+            Self::UnknownTemplate { name, .. } => format!("there is no template `{name}`"),
             Self::UnknownModel { name, .. } => format!("the gallery has no model `{name}`"),
             Self::NoStages { name } => format!("`{name}` has no stages"),
             Self::StageCount { stages, most } => {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
             Self::OutputExists { path } => format!("`{}` already exists", path.display()),
+            Self::FolderExists { path } => format!("`{}` already exists", path.display()),
             Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
             Self::FileFormat { path, .. } => {
@@ -218,13 +227,20 @@ impl Failure {
             }
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
-            Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
+            Self::UnknownModel { nearest: Some(nearest), .. }
+            | Self::UnknownTemplate { nearest: Some(nearest), .. } => {
+                Some(format!("did you mean `{nearest}`?"))
+            }
+            Self::NoTemplate | Self::UnknownTemplate { nearest: None, .. } => {
+                Some("`slideway new --list` lists them".to_owned())
+            }
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
             Self::FileFormat { known, .. } | Self::SeriesFormat { known, .. } => {
                 Some(format!("possible extensions: {}", known.join(", ")))
             }
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            Self::FolderExists { .. } => Some("name a folder that does not exist yet".to_owned()),
             Self::Unfinished { .. } => {
                 Some("continue it with --resume, or start over with --force".to_owned())
             }

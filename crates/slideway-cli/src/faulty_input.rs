@@ -12,6 +12,8 @@ pub(crate) struct FaultyInput {
     pub(crate) text: String,
     /// What the command line changes in it.
     pub(crate) settings: Settings,
+    /// The option of the command line that sets a parameter, as it stands before the name.
+    pub(crate) parameter_option: &'static str,
     /// What is wrong.
     pub(crate) faults: Faults,
 }

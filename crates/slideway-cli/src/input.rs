@@ -141,7 +141,13 @@ impl Input {
     }
 
     fn faulty(&self, settings: Settings, faults: Faults) -> FaultyInput {
-        FaultyInput { name: self.name.clone(), text: self.text(), settings, faults }
+        FaultyInput {
+            name: self.name.clone(),
+            text: self.text(),
+            settings,
+            parameter_option: "--set ",
+            faults,
+        }
     }
 
     /// Refuses warnings if they are to be errors.

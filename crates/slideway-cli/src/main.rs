@@ -38,6 +38,7 @@ fn main() -> ExitCode {
 
 fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
     match command {
+        Command::New(arguments) => commands::new(arguments, output),
         Command::Solve(arguments) => commands::solve(arguments, output),
         Command::Limits(arguments) => commands::limits(arguments, output),
         Command::Size(arguments) => commands::size(arguments, output),
@@ -55,6 +56,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Questions => commands::questions(output),
         Command::Schema => commands::schema(output),
         Command::Completions { shell } => commands::completions(*shell, Arguments::command(), output),
+        Command::Man { folder } => commands::man(folder, Arguments::command()),
     }
 }
 

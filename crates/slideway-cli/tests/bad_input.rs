@@ -48,6 +48,12 @@ const KLEPP: &str = "models/klepp-2002.toml";
 
 refused! {
     absent_file: ["solve", "nowhere/drawing.toml"];
+    new_without_a_name: ["new"];
+    new_unknown_template: ["new", "drower"];
+    new_unknown_parameter: ["new", "drawer", "--LL", "400mm"];
+    new_wrong_units: ["new", "drawer", "--L", "400 kg", "--mu", "-0.3", "--Q", "20 N +"];
+    new_without_units: ["new", "drawer", "--L", "400", "--mu", "0.3"];
+    new_that_cannot_be_assembled: ["new", "slider-crank", "--l", "10mm"];
     name_of_a_gallery_model: ["solve", "drawer"];
     directory: ["solve", "models"];
     massless_bracket: ["solve", "models/bracket-on-pole.toml"];

@@ -71,6 +71,9 @@ golden! {
     help_of_sweep: 0 ["sweep", "--help"];
     help_of_hold: 0 ["hold", "--help"];
     list_of_models: 0 ["models"];
+    list_of_templates: 0 ["new", "--list"];
+    help_of_new: 0 ["new", "--help"];
+    help_of_a_template: 0 ["new", "peg", "-h"];
     help: 0 ["--help"];
     help_of_solve: 0 ["solve", "--help"];
     help_of_check: 0 ["check", "-h"];
@@ -307,7 +310,7 @@ fn short_bodies_and_near_positions_are_not_singular() {
 }
 
 #[test]
-fn schema_and_completions_are_printed() {
+fn schema_completions_and_manual_pages_are_written() {
     let schema: Value = serde_json::from_str(&slideway(&["schema"]).stdout).unwrap();
     assert_eq!(schema["title"], "Slideway model");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
@@ -315,6 +318,23 @@ fn schema_and_completions_are_printed() {
         assert_eq!(run.code, 0);
         assert!(run.stdout.contains("slideway"));
     }
+    let folder = tempfile::tempdir().unwrap();
+    let pages = folder.path().join("man");
+    let pages = pages.to_str().unwrap();
+    let run = slideway(&["man", pages]);
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+    for (page, tells) in [
+        ("slideway.1", "slideway\\-solve(1)"),
+        ("slideway-solve.1", "\\-\\-set"),
+        ("slideway-new-peg.1", "depth to which it is inserted"),
+    ] {
+        let text = std::fs::read_to_string(folder.path().join("man").join(page)).unwrap();
+        assert!(text.contains(tells), "{page}: {text}");
+    }
+    // A folder that is there is left alone.
+    let again = slideway(&["man", pages]);
+    assert_eq!(again.code, 2);
+    assert!(again.stderr.contains("already exists"), "{}", again.stderr);
     assert!(slideway(&["--version"]).stdout.starts_with("slideway "));
 }
 

@@ -7,7 +7,7 @@ mod command;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use slideway::printable;
 use std::fs::{self, File, OpenOptions};
-use std::io::Read;
+use std::io::{Read, Write};
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -19,6 +19,11 @@ const HOSTILE: &str = "A\u{1b}]0;owned\u{7}\u{1b}]8;;http://example.org\u{1b}\\B
 
 /// What a program wrote on a terminal, standard output and standard error together, and its exit code.
 fn on_terminal(command: &mut Command) -> (String, i32) {
+    typing("", command)
+}
+
+/// The same if this is typed, which the terminal shows, too.
+fn typing(typed: &str, command: &mut Command) -> (String, i32) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&master).unwrap();
     unlockpt(&master).unwrap();
@@ -36,9 +41,11 @@ fn on_terminal(command: &mut Command) -> (String, i32) {
     // The command keeps its streams until it is dropped or given others.
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     drop(slave);
+    let mut master = File::from(master);
+    master.write_all(typed.as_bytes()).unwrap();
     let mut bytes = Vec::new();
     // Reading ends with an error once the program has closed the terminal.
-    let _ = File::from(master).read_to_end(&mut bytes);
+    let _ = master.read_to_end(&mut bytes);
     let code = child.wait().unwrap().code().unwrap();
     (String::from_utf8(bytes).unwrap().replace("\r\n", "\n"), code)
 }
@@ -192,12 +199,15 @@ fn names_of_files_and_arguments_are_told_without_their_controls() {
     folder.write("drawer.toml", &titled("drawer.toml", "A drawer"));
     let absent = format!("absent{name}");
     let output = format!("{absent}/x.toml");
-    let commands: [&[&str]; 13] = [
+    let commands: [&[&str]; 16] = [
         &["solve", &name],
         &["check", &absent],
         &["modes", &name],
         &["modes", &absent],
         &["models", &name],
+        &["new", &name],
+        &["new", "wedge", "--mu", &name],
+        &["new", "drawer", "--output", &name],
         &["draw", "drawer.toml", "-o", &name],
         &["solve", "drawer.toml", "-o", &name],
         &["solve", "drawer.toml", "-o", &output],
@@ -255,4 +265,33 @@ fn files_hold_no_controls_and_json_gives_the_title_back() {
             assert!(text.contains("u001b]0;owned"), "{file}");
         }
     }
+}
+
+#[test]
+fn a_new_model_is_asked_for() {
+    let folder = Folder::new("new");
+    // A misspelt name, the L of the template, a wrong unit, and the end of the input (Ctrl-D) before mu.
+    let typed = "drawr\ndrawer\n\n300 kg\n300 mm\n\u{4}";
+    let (told, code) = typing(typed, &mut folder.command(&["new"]));
+    assert_eq!(code, 0, "{told}");
+    let (told, _) = without_styles(&told);
+    for says in [
+        "did you mean `drawer`?",
+        "L, length over which it is guided [400 mm]: ",
+        "a mass where a length is expected",
+        "a, distance of the push from the middle [150 mm]: ",
+        "mu, friction coefficient of the guide [0.3]: ",
+        "Wrote drawer.toml, as in the template: L = 400 mm, mu = 0.3, width = 0 mm,",
+        "$ slideway drive drawer.toml",
+        // P = Q/(1 - 2 mu a/L)
+        "push needs 36.364 N instead of 20 N",
+    ] {
+        assert!(told.contains(says), "{says}: {told}");
+    }
+    let text = fs::read_to_string(folder.0.join("drawer.toml")).unwrap();
+    assert!(text.contains("\na = \"300 mm\" ") && text.contains("\nL = \"400 mm\" "), "{text}");
+    // With a value on the command line nothing is asked.
+    let (told, code) = on_terminal(&mut folder.command(&["new", "peg", "--mu", "0.1"]));
+    assert_eq!(code, 0, "{told}");
+    assert!(told.starts_with("Wrote peg.toml, as in the template: l = 15 mm,"), "{told}");
 }

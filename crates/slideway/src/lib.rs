@@ -78,6 +78,7 @@ pub mod size;
 pub mod solve;
 pub mod standstill;
 pub mod sweep;
+pub mod template;
 pub mod units;
 pub mod warning;
 

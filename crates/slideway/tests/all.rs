@@ -20,5 +20,7 @@ mod mutations;
 mod raw_problem;
 mod settings;
 mod sweep;
+mod templates;
+mod tutorial;
 mod units;
 mod warnings;

@@ -24,6 +24,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("import", &["drawing", "expression", "model", "printable"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
+    ("template", &["configuration", "fault", "mechanism", "model", "printable"]),
 ];
 
 /// Modules of `slideway-modes`, floor by floor: a module knows only those of lower floors.

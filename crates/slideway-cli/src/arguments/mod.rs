@@ -11,6 +11,7 @@ mod map;
 mod model;
 mod models;
 mod modes;
+mod new;
 mod plot;
 mod questions;
 mod report;
@@ -33,6 +34,7 @@ pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
+pub(crate) use new::NewArguments;
 pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use questions::TEXT as QUESTIONS;
 pub(crate) use report::ReportArguments;
@@ -46,6 +48,7 @@ pub(crate) use time::TimeArguments;
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use std::path::PathBuf;
 
 /// All solutions of planar mechanisms with dry friction in sliding joints.
 ///
@@ -64,7 +67,8 @@ pub(crate) struct Arguments {
 
 const AFTER_HELP: &str = "\
 Examples:
-  slideway models                               list the models to start from
+  slideway new drawer --L 400mm --a 150mm       write a model from a template, and ask it
+  slideway models                               list the gallery of models
   slideway models drawer > drawer.toml          write one of them to a file
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
@@ -87,6 +91,9 @@ Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 invalid inpu
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Write a model from a template, and answer its first question
+    #[command(after_help = new::HELP)]
+    New(NewArguments),
     /// Find all solutions of a mechanism in its state
     #[command(after_help = solve::HELP)]
     Solve(SolveArguments),
@@ -140,6 +147,12 @@ pub(crate) enum Command {
     Completions {
         /// The shell.
         shell: Shell,
+    },
+    /// Write the manual pages of all commands, for packages
+    #[command(hide = true)]
+    Man {
+        /// The folder for them, which must not exist.
+        folder: PathBuf,
     },
 }
 

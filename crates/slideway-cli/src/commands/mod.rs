@@ -9,6 +9,7 @@ mod limits;
 mod map;
 mod models;
 mod modes;
+mod new;
 mod report;
 mod simulate;
 mod size;
@@ -24,6 +25,7 @@ pub(crate) use limits::limits;
 pub(crate) use map::map;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
+pub(crate) use new::new;
 pub(crate) use report::report;
 pub(crate) use simulate::simulate;
 pub(crate) use size::size;
@@ -35,6 +37,9 @@ use crate::failure::Failure;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use clap_complete::Shell;
+use std::fs;
+use std::io;
+use std::path::Path;
 
 /// Prints which command and which kind of model answers which question.
 pub(crate) fn questions(output: &Output) -> Result<Outcome, Failure> {
@@ -57,5 +62,15 @@ pub(crate) fn completions(
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut command, "slideway", &mut script);
     output.write(&String::from_utf8_lossy(&script))?;
+    Ok(Outcome::Done)
+}
+
+/// Writes the manual pages of all commands to a new folder.
+pub(crate) fn man(folder: &Path, command: clap::Command) -> Result<Outcome, Failure> {
+    let failure = |error: io::Error| match error.kind() {
+        io::ErrorKind::AlreadyExists => Failure::FolderExists { path: folder.to_owned() },
+        _ => Failure::CannotWrite { path: folder.to_owned(), error },
+    };
+    fs::create_dir(folder).and_then(|()| clap_mangen::generate_to(command, folder)).map_err(failure)?;
     Ok(Outcome::Done)
 }

@@ -15,7 +15,10 @@ const WIDTH: usize = 80;
 pub(crate) fn models(arguments: &ModelsArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, None)?;
     output.write(&match &arguments.name {
-        None => list(),
+        None => {
+            let models = MODELS.iter().map(|model| (model.name, model.summary(), model.shows()));
+            list(models) + "`slideway models NAME > NAME.toml` writes one to start from.\n"
+        }
         Some(name) => model(name, arguments.stages)?,
     })?;
     Ok(Outcome::Done)
@@ -36,20 +39,19 @@ fn model(name: &str, stages: Option<usize>) -> Result<String, Failure> {
     }
 }
 
-/// Name and summary of every model, and below them what it shows.
-fn list() -> String {
-    let width = MODELS.iter().map(|model| model.name.len()).max().unwrap_or(0);
+/// Names, what each of them is, and below that what else is told of it.
+pub(super) fn list<'a>(entries: impl Iterator<Item = (&'a str, &'a str, String)> + Clone) -> String {
+    let width = entries.clone().map(|(name, ..)| name.len()).max().unwrap_or(0);
     let mut text = String::new();
-    for model in MODELS {
-        let summary = wrapped(model.summary(), WIDTH - width - 2);
-        let shows = wrapped(&model.shows(), WIDTH - width - 4).into_iter().map(|line| format!("  {line}"));
+    for (entry, summary, shows) in entries {
+        let summary = wrapped(summary, WIDTH - width - 2);
+        let shows = wrapped(&shows, WIDTH - width - 4).into_iter().map(|line| format!("  {line}"));
         for (index, line) in summary.into_iter().chain(shows).enumerate() {
-            let name = if index == 0 { model.name } else { "" };
+            let name = if index == 0 { entry } else { "" };
             let _ = writeln!(text, "{name:width$}  {line}");
         }
         text.push('\n');
     }
-    text.push_str("`slideway models NAME > NAME.toml` writes one to start from.\n");
     text
 }
 

@@ -15,29 +15,26 @@ const SHOWN: f64 = 2.0;
 pub fn size_figure(report: &SizeReport) -> Figure {
     let shown_in = &report.vary.shown_in;
     let scale = shown_in.scale();
-    let wanted = format!("wanted: {}", precise(report.margin));
+    let limit = &report.limit_shown_in;
+    let told = Told::of(report.against);
+    let wanted = format!("{}: {}", told.wanted, limit.precise(report.margin));
     let branches = vec![
-        Branch { name: "margin".to_owned(), colour: 0, stroke: Stroke::Solid },
+        Branch { name: told.branch.to_owned(), colour: 0, stroke: Stroke::Solid },
         Branch { name: wanted, colour: 1, stroke: Stroke::Dashed },
     ];
     let range = [report.vary.from / scale, report.vary.to / scale];
     let mut curves = margins(report, scale);
-    let wanted = range.map(|at| [at, report.margin]).to_vec();
+    let wanted = range.map(|at| [at, report.margin / limit.scale()]).to_vec();
     curves.push(Curve { branch: 1, quantity: 0, points: wanted, ends: [End::Plain; 2] });
-    let what = match report.against {
-        MarginKind::Locking => "margin against locking",
-        MarginKind::SelfLocking => "margin against self-locking",
-        MarginKind::Hold => "margin of holding",
-    };
-    let model = report
-        .present
-        .margin
-        .map(|margin| MarkedPoint { at: [report.present.at / scale, margin], kind: PointKind::Model });
+    let model = report.present.margin.map(|margin| MarkedPoint {
+        at: [report.present.at / scale, margin / limit.scale()],
+        kind: PointKind::Model,
+    });
     let met = report.met.iter().map(|met| Band {
         from: met.from / scale,
         to: met.to / scale,
         colour: 2,
-        meaning: "the wanted margin is met".to_owned(),
+        meaning: told.met.to_owned(),
     });
     let without = report.without_position.iter().map(|range| Zone {
         from: range.from / scale,
@@ -53,7 +50,8 @@ pub fn size_figure(report: &SizeReport) -> Figure {
             logarithmic: false,
         },
         y: Axis {
-            name: "factor of friction".to_owned(),
+            name: told.axis.to_owned(),
+            unit: limit.name().to_owned(),
             range: range_of(report, &curves),
             ..Axis::default()
         },
@@ -65,15 +63,52 @@ pub fn size_figure(report: &SizeReport) -> Figure {
         ..Panel::default()
     };
     Figure {
-        title: headline(report.title.as_deref(), &format!("{what} over {}", in_words(&report.vary.name))),
+        title: headline(
+            report.title.as_deref(),
+            &format!("{} over {}", told.what, in_words(&report.vary.name)),
+        ),
         subtitle: match &report.load {
-            Some(load) => format!("Load: {load}"),
+            Some(name) => format!("{}: {name}", told.of),
             None if report.both_directions => "The smaller of both directions of motion".to_owned(),
             None => String::new(),
         },
         panels: vec![panel],
         branches,
         quantities: vec![String::new()],
+    }
+}
+
+/// What the figure calls what is sized.
+struct Told {
+    what: &'static str,
+    branch: &'static str,
+    axis: &'static str,
+    wanted: &'static str,
+    met: &'static str,
+    /// What the name in the report is of.
+    of: &'static str,
+}
+
+impl Told {
+    fn of(against: MarginKind) -> Self {
+        let margin = |what, of| Self {
+            what,
+            branch: "margin",
+            axis: "factor of friction",
+            wanted: "wanted",
+            met: "the wanted margin is met",
+            of,
+        };
+        let limit =
+            |what, wanted, of| Self { what, branch: what, axis: what, wanted, met: "the limit is kept", of };
+        match against {
+            MarginKind::Locking => margin("margin against locking", "Load"),
+            MarginKind::SelfLocking => margin("margin against self-locking", "Load"),
+            MarginKind::Hold => margin("margin of holding", "Load"),
+            MarginKind::Effort => limit("greatest effort", "at most", "Drive"),
+            MarginKind::NormalForce => limit("greatest normal force", "at most", "Contact"),
+            MarginKind::Efficiency => limit("least efficiency", "at least", "Drive"),
+        }
     }
 }
 
@@ -90,7 +125,8 @@ fn margins(report: &SizeReport, scale: f64) -> Vec<Curve> {
     });
     let curve = |points: Vec<[f64; 2]>| Curve { branch: 0, quantity: 0, points, ends: [End::Plain; 2] };
     let points = runs.map(|run| {
-        let finite = run.iter().filter_map(|sample| Some([sample.at / scale, sample.margin?]));
+        let limit = report.limit_shown_in.scale();
+        let finite = run.iter().filter_map(|sample| Some([sample.at / scale, sample.margin? / limit]));
         finite.collect::<Vec<[f64; 2]>>()
     });
     points.filter(|points| points.len() > 1).map(curve).collect()
@@ -100,6 +136,7 @@ fn margins(report: &SizeReport, scale: f64) -> Vec<Curve> {
 fn range_of(report: &SizeReport, curves: &[Curve]) -> Option<[f64; 2]> {
     let all = extent(curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]))?;
     let greatest = SHOWN * report.margin.max(report.present.margin.unwrap_or_default());
+    let greatest = greatest / report.limit_shown_in.scale();
     (all[1] > greatest).then(|| range_that_shows([0.0, greatest], all))
 }
 
@@ -108,7 +145,7 @@ fn marked(report: &SizeReport, scale: f64) -> Vec<MarkedValue> {
     let ends = report.met.iter().flat_map(|met| [(met.from, met.from_is), (met.to, met.to_is)]);
     let words = |end| match end {
         MetEnd::Margin => Some("just met"),
-        MetEnd::Jump => Some("the margin jumps"),
+        MetEnd::Jump => Some("it jumps"),
         _ => None,
     };
     ends.filter_map(|(at, end)| {

@@ -73,6 +73,8 @@ impl ColourBy {
             Self::Modes => "contact modes that have a solution",
             Self::Margin => "margin of friction",
             Self::Jam => "directions in which it can move",
+            Self::Motion => "what becomes of the speed",
+            Self::Hold => "whether it can stay at rest",
         }
     }
 }

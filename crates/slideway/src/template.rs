@@ -1,0 +1,150 @@
+//! Templates: commented models of everyday problems to start one's own from, each with the rule of the
+//! textbooks that it must meet.
+//!
+//! A template is a model file whose parameters are to be set. Its opening comment says what it is, the rule with
+//! its source, and commands to try in which `FILE` stands for the file it is written to; the first of them
+//! answers the question that is usually asked of it.
+
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::mechanism::Mechanism;
+use crate::model::{Model, Settings};
+use crate::printable;
+use std::fmt::Write;
+
+/// A model to start from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Template {
+    /// Its name: that of its file without the ending.
+    pub name: &'static str,
+    /// The text of its file.
+    pub text: &'static str,
+}
+
+/// A parameter of a template.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TemplateParameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Its value in the template, with its unit.
+    pub value: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+macro_rules! templates {
+    ($($name:literal),* $(,)?) => {
+        &[$(Template {
+            name: $name,
+            text: include_str!(concat!("../templates/", $name, ".toml")),
+        }),*]
+    };
+}
+
+/// All templates.
+pub const TEMPLATES: &[Template] = templates![
+    "drawer",
+    "carriage",
+    "bushing",
+    "telescope",
+    "cylinder",
+    "bracket",
+    "wedge",
+    "slider-crank",
+    "peg",
+];
+
+/// What stands for the model's file in the commands of a template.
+pub const FILE: &str = "FILE";
+
+/// The template with this name.
+///
+/// ```
+/// assert!(slideway::template::find("peg").is_some());
+/// assert!(slideway::template::find("windmill").is_none());
+/// ```
+pub fn find(name: &str) -> Option<&'static Template> {
+    TEMPLATES.iter().find(|template| template.name == name)
+}
+
+impl Template {
+    /// The first line of its opening comment: what it is.
+    pub fn summary(&self) -> &'static str {
+        self.comment().next().unwrap_or_default()
+    }
+
+    /// The rule that it must meet, without its source.
+    pub fn rule(&self) -> String {
+        let lines = self.comment().skip_while(|line| !line.starts_with("Rule: "));
+        let lines: Vec<&str> = lines.take_while(|line| !line.starts_with("Source: ")).collect();
+        lines.join(" ").trim_start_matches("Rule: ").to_owned()
+    }
+
+    /// Commands to try, [`FILE`] in the place of its file; the first one answers its question.
+    pub fn commands(&self) -> impl Iterator<Item = &'static str> {
+        self.comment().filter(|line| line.starts_with("slideway "))
+    }
+
+    /// Its parameters in the order of the file.
+    pub fn parameters(&self) -> impl Iterator<Item = TemplateParameter> {
+        self.text.lines().skip_while(|line| *line != "[parameters]").skip(1).map_while(parameter)
+    }
+
+    /// The text of its model with other parameters, for a file whose name is written like `file` on a command
+    /// line.
+    ///
+    /// ```
+    /// use slideway::{Settings, template};
+    ///
+    /// let drawer = template::find("drawer").expect("a template");
+    /// let text = drawer.model(&Settings::default().parameter("L", "0.5 m"), "mine.toml")?;
+    /// assert!(text.contains("\nL = \"0.5 m\""));
+    /// # Ok::<(), slideway::Faults>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The faults of the settings, bare texts of numbers where the template has units among them, and of the
+    /// model with them, such as joints that do not close.
+    pub fn model(&self, settings: &Settings, file: &str) -> Result<String, Faults> {
+        let model = Model::parse(self.text)?.with(settings)?;
+        // A bare number for what has a unit in the template is in SI units, which is hardly meant.
+        let mut doubts = Faults::default();
+        doubts.extend(model.doubts.iter().cloned());
+        doubts.or(())?;
+        Configuration::new(&Mechanism::new(&model)?)?;
+        let mut text = String::new();
+        for line in self.text.lines() {
+            let line = match parameter(line).and_then(|parameter| changed(parameter, settings)) {
+                Some(changed) => changed,
+                None if line.starts_with("#   slideway ") => line.replace(FILE, &printable::line(file)),
+                None => line.to_owned(),
+            };
+            let _ = writeln!(text, "{line}");
+        }
+        Ok(text)
+    }
+
+    /// The lines of its opening comment.
+    fn comment(&self) -> impl Iterator<Item = &'static str> {
+        let lines = self.text.lines().take_while(|line| line.starts_with('#'));
+        lines.map(|line| line.trim_start_matches(['#', ' ']))
+    }
+}
+
+/// The parameter of a line: `NAME = VALUE # MEANING`, which no other line of a template looks like.
+fn parameter(line: &'static str) -> Option<TemplateParameter> {
+    let (assignment, meaning) = line.split_once(" # ")?;
+    let (name, value) = assignment.split_once(" = ")?;
+    Some(TemplateParameter { name, value: value.trim().trim_matches('"'), meaning: meaning.trim() })
+}
+
+/// The line of a parameter with the value that the settings give to it, the last one if there are several.
+fn changed(parameter: TemplateParameter, settings: &Settings) -> Option<String> {
+    let setting = settings.entries().iter().rfind(|setting| setting.name == parameter.name)?;
+    let value = setting.value.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    // A number as the language writes it is one of TOML, too.
+    let number = value.parse::<f64>().is_ok_and(|number| number.is_finite() && number.to_string() == value);
+    let value = if number { value } else { format!("{value:?}") };
+    let assignment = format!("{} = {value}", parameter.name);
+    Some(format!("{assignment:26} # {}", parameter.meaning))
+}

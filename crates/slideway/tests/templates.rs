@@ -1,0 +1,241 @@
+//! Every template meets the rule in its opening comment, evaluated here by hand, at its own values and at others.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use slideway::report::{Proof, Status};
+use slideway::standstill::HoldOptions;
+use slideway::template::{FILE, TEMPLATES, find};
+use slideway::{DriveOptions, Model, Settings, drive, hold, solve};
+
+/// A template with other values, as it would be written to a file.
+fn model(name: &str, values: &[(&str, f64)]) -> Model {
+    let set = |settings: Settings, (name, value): &(&str, f64)| settings.parameter(name, *value);
+    let settings = values.iter().fold(Settings::default(), set);
+    let text = find(name).unwrap().model(&settings, "mine.toml").unwrap_or_else(|faults| panic!("{faults}"));
+    Model::parse(&text).unwrap_or_else(|faults| panic!("{text}\n{faults}"))
+}
+
+/// The only effort that the drive of a template needs, moving as in the model.
+fn effort(name: &str, values: &[(&str, f64)]) -> f64 {
+    let report = drive(&model(name, values), &DriveOptions::default()).unwrap();
+    let [solution] = &report.directions[0].solutions[..] else {
+        panic!("{name}: {:?}", report.directions[0])
+    };
+    solution.efforts[0]
+}
+
+fn assert_close(found: f64, expected: f64, what: &str) {
+    assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{what}: {found} is not {expected}");
+}
+
+/// Whether the template has exactly one solution with this friction, or none at all; both proven.
+fn moves(name: &str, values: &[(&str, f64)]) -> bool {
+    let report = solve(&model(name, values)).unwrap();
+    assert_eq!(report.complete, Proof::Proven, "{name} {values:?}");
+    match report.status {
+        Status::One => true,
+        Status::None => false,
+        status => panic!("{name} {values:?}: {status:?}"),
+    }
+}
+
+/// Sees to it that the template moves below this friction and locks above it.
+fn assert_locks_at(name: &str, mu: f64, values: &[(&str, f64)]) {
+    let with = |factor: f64| [values, &[("mu", factor * mu)]].concat();
+    assert!(moves(name, &with(1.0 - 1e-6)), "{name} {values:?}: below {mu}");
+    assert!(!moves(name, &with(1.0 + 1e-6)), "{name} {values:?}: above {mu}");
+}
+
+#[test]
+fn opening_comments_and_parameters_are_read() {
+    for template in TEMPLATES {
+        let model = Model::parse(template.text).unwrap();
+        let found: Vec<&str> = template.parameters().map(|parameter| parameter.name).collect();
+        let expected: Vec<&str> = model.parameters.iter().map(|parameter| &*parameter.name).collect();
+        assert_eq!(found, expected, "{}", template.name);
+        assert!(template.parameters().all(|parameter| !parameter.meaning.is_empty()), "{}", template.name);
+        assert!(
+            template.rule().ends_with('.') && template.text.contains("\n# Source: "),
+            "{}",
+            template.name
+        );
+        assert!(template.commands().count() >= 2, "{}", template.name);
+        assert!(
+            template.commands().all(|command| command.split(' ').nth(2) == Some(FILE)),
+            "{}",
+            template.name
+        );
+    }
+}
+
+#[test]
+fn values_stand_in_the_file_as_they_were_given() {
+    let drawer = find("drawer").unwrap();
+    let settings = Settings::default().parameter("L", "400mm").parameter("mu", "0.35").parameter("a", "L/ 3");
+    let text = drawer.model(&settings, "my drawer.toml").unwrap();
+    for line in [
+        "L = \"400mm\"                # length over which it is guided",
+        "mu = 0.35                  # friction coefficient of the guide",
+        "a = \"L/ 3\"                 # distance of the push from the middle",
+        "#   slideway drive my drawer.toml",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}\n{text}");
+    }
+    assert!(!text.contains(FILE));
+    assert_eq!(text.lines().count(), drawer.text.lines().count());
+}
+
+#[test]
+fn wrong_units_unknown_names_and_what_cannot_be_assembled_are_faults() {
+    for (name, parameter, value, says) in [
+        ("drawer", "L", "400 kg", "a mass where a length is expected"),
+        ("drawer", "L", "400", "without a unit"),
+        ("drawer", "length", "400 mm", "length"),
+        ("wedge", "mu", "-0.1", "must be at least zero"),
+        ("slider-crank", "l", "10 mm", "sqrt"),
+        ("peg", "l", "0 mm", "greater than zero"),
+    ] {
+        let settings = Settings::default().parameter(parameter, value);
+        let faults = find(name).unwrap().model(&settings, "x.toml").unwrap_err();
+        assert!(faults.to_string().contains(says), "{name} {parameter}={value}: {faults}");
+    }
+}
+
+#[test]
+fn drawer() {
+    for (length, offset, mu, width) in [(0.4, 0.15, 0.3, 0.0), (0.3, 0.2, 0.5, 0.6), (0.5, 0.4, 0.1, 0.45)] {
+        let values = [("L", length), ("a", offset), ("width", width)];
+        let expected = 20.0 / (1.0 - 2.0 * mu * offset / length);
+        assert_close(effort("drawer", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        assert_locks_at("drawer", length / (2.0 * offset), &values);
+    }
+}
+
+#[test]
+fn carriage() {
+    for (length, offset, mu, mass) in [(0.06, 0.1, 0.15, 1.5), (0.1, 0.2, 0.2, 3.0), (0.05, 0.03, 0.7, 1.0)] {
+        let values = [("L", length), ("a", offset), ("m", mass)];
+        assert_close(effort("carriage", &[&values[..], &[("mu", mu)]].concat()), mu * mass * 9.81, "P");
+        assert_locks_at("carriage", length / (2.0 * offset), &values);
+    }
+    // The rule of 2 : 1.
+    assert_locks_at("carriage", 0.25, &[("L", 0.06), ("a", 0.12)]);
+}
+
+#[test]
+fn bushing() {
+    for (degrees, bushing, overhang, diameter, mu) in
+        [(30.0, 0.08, 0.05, 0.012, 0.15), (20.0, 0.05, 0.06, 0.0, 0.3), (45.0, 0.1, 0.02, 0.02, 0.2)]
+    {
+        let values = [("phi", f64::to_radians(degrees)), ("B", bushing), ("A", overhang), ("d", diameter)];
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let arm = |mu: f64| 2.0 * overhang + bushing - mu * diameter;
+        let expected = 200.0 / (cos - mu / bushing * sin * arm(mu));
+        assert_close(effort("bushing", &[&values[..], &[("mu", mu)]].concat()), expected, "V");
+        // tan(phi) = B/(mu (2 A + B - mu d)), a quadratic equation of mu: its lesser root.
+        let half = f64::midpoint(2.0 * overhang, bushing);
+        let limit = bushing * cos / sin / (half + (half * half - diameter * bushing * cos / sin).sqrt());
+        assert_close(sin / cos, bushing / (limit * arm(limit)), "tan(phi)");
+        assert_locks_at("bushing", limit, &values);
+    }
+}
+
+#[test]
+fn telescope() {
+    for (overlap, overhang, height, offset, mu) in
+        [(0.2, 0.5, 0.06, 0.04, 0.2), (0.3, 0.4, 0.0, 0.1, 0.4), (0.15, 0.6, 0.1, 0.02, 0.3)]
+    {
+        let values = [("e", overlap), ("x", overhang), ("h", height), ("a", offset)];
+        let expected = mu * 10.0 * 9.81 * (1.0 + (2.0 * overhang + mu * height) / overlap)
+            / (1.0 - 2.0 * mu * offset / overlap);
+        assert_close(effort("telescope", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        assert_locks_at("telescope", overlap / (2.0 * offset), &values);
+    }
+}
+
+#[test]
+fn cylinder() {
+    for (distance, overhang, side, gland, piston, seal) in [
+        (0.15, 0.3, 500.0, 0.1, 0.15, 80.0),
+        (0.05, 0.6, 200.0, 0.2, 0.1, 0.0),
+        (0.3, 0.1, 1e3, 0.05, 0.3, 200.0),
+    ] {
+        let values = [
+            ("e", distance),
+            ("x", overhang),
+            ("S", side),
+            ("mu_gland", gland),
+            ("mu_piston", piston),
+            ("F_seal", seal),
+        ];
+        let expected = 5000.0 + seal + side * (gland * (distance + overhang) + piston * overhang) / distance;
+        assert_close(effort("cylinder", &values), expected, "P");
+        // However great the friction is.
+        assert!(moves("cylinder", &[&values[..], &[("mu_gland", 20.0), ("mu_piston", 30.0)]].concat()));
+    }
+}
+
+#[test]
+fn bracket() {
+    let held = |distance: f64, bearing: f64, mu: f64| {
+        let model = model("bracket", &[("x", distance), ("B", bearing), ("mu_static", mu)]);
+        let report = hold(&model, &HoldOptions::default().load("W").vary("mu_static")).unwrap();
+        let load = report.load.unwrap();
+        (load.self_locking, load.threshold.value.unwrap())
+    };
+    for (bearing, mu) in [(0.12, 0.25), (0.05, 0.15), (0.2, 0.4)] {
+        let least = bearing / (2.0 * mu);
+        assert!(held(1.001 * least, bearing, mu).0);
+        assert!(!held(0.999 * least, bearing, mu).0);
+        assert_close(held(0.8 * least, bearing, mu).1, mu / 0.8, "mu_static");
+    }
+}
+
+#[test]
+fn wedge() {
+    for (degrees, mu, load) in [(10.0, 0.15, 1000.0), (5.0, 0.3, 50.0), (30.0, 0.1, 2e4)] {
+        let alpha = f64::to_radians(degrees);
+        let values = [("alpha", alpha), ("mu", mu), ("Q", load)];
+        assert_close(effort("wedge", &values), load * (alpha + 2.0 * f64::atan(mu)).tan(), "P");
+        let limit = ((f64::to_radians(90.0) - alpha) / 2.0).tan();
+        assert_locks_at("wedge", limit, &[("alpha", alpha)]);
+        // The load does not drive it out from alpha = 2 rho on.
+        let model = model("wedge", &values);
+        let report = hold(&model, &HoldOptions::default().load("Q").vary("mu")).unwrap();
+        let threshold = report.load.unwrap().threshold.value.unwrap();
+        assert_close(threshold, (alpha / 2.0).tan(), "mu");
+    }
+}
+
+#[test]
+fn slider_crank() {
+    for (radius, rod, degrees, mu) in
+        [(0.04, 0.14, 60.0, 0.1), (0.1, 0.15, 90.0, 0.3), (0.05, 0.2, 20.0, 0.0)]
+    {
+        let phi = f64::to_radians(degrees);
+        let psi = f64::asin(radius / rod * phi.sin());
+        let values = [("r", radius), ("l", rod), ("phi", phi)];
+        let expected = 2000.0 * radius * (phi + psi).sin() / (psi.cos() - mu * psi.sin());
+        assert_close(effort("slider-crank", &[&values[..], &[("mu", mu)]].concat()), expected, "T");
+        // A piston without width does not tip: it locks where tan(psi) = 1/mu.
+        assert_locks_at("slider-crank", 1.0 / psi.tan(), &[&values[..], &[("bore", 0.0)]].concat());
+    }
+    // It lies flat up to mu = skirt/bore, and tips beyond it.
+    for (mu, flat) in [(0.624, true), (0.626, false)] {
+        let report = solve(&model("slider-crank", &[("mu", mu)])).unwrap();
+        let [solution] = &report.solutions[..] else { panic!("{mu}: {:?}", report.status) };
+        let [front, rear] = [0, 1].map(|contact| solution.contacts[contact].normal_force);
+        assert_eq!(front * rear > 0.0, flat, "{mu}: {front}, {rear}");
+    }
+}
+
+#[test]
+fn peg() {
+    for (depth, offset, diameter, mu) in
+        [(0.015, 0.006, 0.02, 0.3), (0.04, 0.01, 0.03, 0.5), (0.01, 0.02, 0.0, 0.1)]
+    {
+        let values = [("l", depth), ("e", offset), ("D", diameter)];
+        let expected = 5.0 / (1.0 - 2.0 * mu * offset / depth);
+        assert_close(effort("peg", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        assert_locks_at("peg", depth / (2.0 * offset), &values);
+    }
+}
