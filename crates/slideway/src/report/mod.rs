@@ -114,10 +114,12 @@ pub struct SolveReport {
     pub closest_modes: Vec<ClosestMode>,
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
-    /// By which factors all friction may grow; absent if that was not computed: there are too many modes, or
-    /// a guided slider is between its faces, which is no mode that could be followed.
+    /// By which factors all friction may grow; absent if that was not computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins: Option<Margins>,
+    /// Why there are no margins; absent where there are, and where they were not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margins_missing: Option<MarginsMissing>,
     /// Where some coordinate slows down: what the same loads do from rest in the same position; absent where
     /// it was not asked (margins are not, drives prescribe the motion, there are many states of rest).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -298,6 +300,30 @@ pub struct UndecidedMode {
     pub joints: Vec<JointMode>,
     /// The contacts whose normal force may be zero; none if the determinant may.
     pub contacts: Vec<String>,
+}
+
+/// Why margins of friction were not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum MarginsMissing {
+    /// There are too many modes.
+    TooManyModes,
+    /// A guided slider is between its faces, which is no mode that could be followed.
+    BetweenFaces,
+    /// Nothing presses a contact, so that its preload may rub at either face.
+    NothingPresses,
+}
+
+impl MarginsMissing {
+    /// In words, after "because".
+    pub(crate) fn in_words(self) -> &'static str {
+        match self {
+            Self::TooManyModes => "there are too many modes",
+            Self::BetweenFaces => "a guided slider is between its faces",
+            Self::NothingPresses => "nothing presses a contact whose preload differs by side",
+        }
+    }
 }
 
 /// By which factors all coefficients of friction together may grow before the answer changes.

@@ -222,16 +222,9 @@ impl Text<'_> {
 
     fn margins(&mut self) {
         let Some(margins) = &self.report.margins else {
-            let mut gaps = self.report.preload_gap_states.iter().flat_map(|state| &state.contacts);
-            let mut pressed = self.report.solutions.iter().flat_map(|state| &state.contacts);
-            let reason = if gaps.any(is_guided_in_gap) {
-                "a guided slider is between its faces"
-            } else if pressed.any(|contact| contact.couple.is_some() && contact.normal_force == 0.0) {
-                "nothing presses a guided slider"
-            } else {
-                "there are too many modes"
-            };
-            self.line(&format!("Margins of friction: not computed, {reason}."));
+            if let Some(reason) = self.report.margins_missing {
+                self.line(&format!("Margins of friction: not computed, {}.", reason.in_words()));
+            }
             return;
         };
         let mut parts = Vec::new();

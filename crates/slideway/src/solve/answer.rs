@@ -108,6 +108,7 @@ impl<'a> Answer<'a> {
             }),
             jammed_groups: self.jammed_groups(found),
             margins: None,
+            margins_missing: None,
             from_rest: None,
             uncertainty: None,
             influence: self.influence_summary(),

@@ -7,7 +7,7 @@ use crate::mechanism::Mechanism;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
 };
-use crate::report::{self, CriticalContact, Margins, SolveReport};
+use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport};
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
@@ -18,14 +18,25 @@ pub(crate) const AT_ONCE: f64 = 1e-9;
 
 /// Adds the margins to a report, if there are few enough modes, and each can be followed.
 pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>) {
-    let Some(all) = Growth::along(data, &|_| true) else { return };
+    let Some(all) = Growth::along(data, &|_| true) else {
+        report.margins_missing = Some(MarginsMissing::TooManyModes);
+        return;
+    };
     let mechanism = data.mechanism;
     // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no
     // mode that could be followed.
     let is_free = |k: usize| data.free_face(&all.line.has_jump, k).is_some();
-    let hangs =
-        |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
-    if report.solutions.iter().chain(&report.preload_gap_states).any(hangs) {
+    let hanging = |state: &report::Solution| {
+        let free = (0..state.signs.len()).filter(|&k| state.signs[k] == 0 && is_free(k));
+        let is_between =
+            |k: usize| state.contacts[k].couple.is_some() && state.contacts[k].preload_share.is_some();
+        free.map(
+            |k| if is_between(k) { MarginsMissing::BetweenFaces } else { MarginsMissing::NothingPresses },
+        )
+        .next()
+    };
+    report.margins_missing = report.solutions.iter().chain(&report.preload_gap_states).find_map(hanging);
+    if report.margins_missing.is_some() {
         return;
     }
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {

@@ -5,7 +5,7 @@ use crate::answers::{assert_close, parameters};
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
 use slideway::model::Model;
-use slideway::report::SolveReport;
+use slideway::report::{MarginsMissing, SolveReport};
 use slideway::solve::solve;
 use slideway::sweep::{Rows, Sweep, SweepOptions};
 use std::collections::BTreeMap;
@@ -29,6 +29,8 @@ fn either_face_is_a_solution() {
     let [at_plus, at_minus] = accelerations[..] else { panic!("{accelerations:?}") };
     assert_close(at_plus, 10.0 - 2.0, 10.0, 1e-14);
     assert_close(at_minus, 10.0 - 5.0, 10.0, 1e-14);
+    // What changes the number of solutions is no mode that could be followed.
+    assert_eq!((report.margins, report.margins_missing), (None, Some(MarginsMissing::NothingPresses)));
 }
 
 /// At equal preloads there is one solution, else there are two, at every value of every range.
