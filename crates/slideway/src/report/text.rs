@@ -466,13 +466,16 @@ fn closest_row(mode: &ClosestMode) -> Vec<String> {
 }
 
 fn contact_table(contacts: &[Contact], units: &Units) -> String {
-    let [force, speed, couple] = ["N", "m/s", "N m"].map(|si| units.of(si));
+    let [force, speed, couple, pressure] = ["N", "m/s", "N m", "Pa"].map(|si| units.of(si));
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
+    let has_pad = contacts.iter().any(|contact| contact.pressure.is_some());
     let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
+    let greatest_pressure = contacts.iter().filter_map(|contact| contact.pressure).fold(0.0, f64::max);
     let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];
     header.push(speed.title("sliding"));
     header.extend(has_couple.then(|| couple.title("couple")));
+    header.extend(has_pad.then(|| pressure.title("pressure")));
     header.extend(has_share.then(|| "preload share at +".to_owned()));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let optional =
@@ -485,6 +488,9 @@ fn contact_table(contacts: &[Contact], units: &Units) -> String {
             speed.number(contact.sliding_velocity),
         ];
         row.extend(has_couple.then(|| optional(contact.couple, &couple)));
+        row.extend(has_pad.then(|| {
+            contact.pressure.map_or(String::new(), |value| pressure.against(value, greatest_pressure))
+        }));
         row.extend(has_share.then(|| optional(contact.preload_share, &Unit::default())));
         row
     };
