@@ -137,11 +137,11 @@ mod tests {
         assert_eq!(SpeedChange::of(1.0, None), Undecided);
     }
 
-    /// t = v/a = 0.1/4 s, v^2/(2a) = 0.01/8 m
+    /// t = v/a = 0.5/4 s, v^2/(2a) = 0.25/8 m: numbers without rounding.
     #[test]
     fn a_stop_is_that_of_uniform_deceleration() {
-        let stop = Stop::of(-0.1, 4.0);
-        assert_eq!(stop, Some(Stop { time: 0.025, distance: 0.00125 }));
+        let stop = Stop::of(-0.5, 4.0);
+        assert_eq!(stop, Some(Stop { time: 0.125, distance: 0.03125 }));
         assert_eq!(Stop::of(1.0, -1e-320), None);
     }
 }
