@@ -50,7 +50,9 @@ impl Doubt {
                 "draw both points of the joint at the same place, for instance with one name".to_owned()
             }
             Self::FarFromDrawing { .. } => "look for a wrong or missing unit in the coordinates".to_owned(),
-            Self::GreatFriction { .. } => "if a percentage is meant, write its sign: `30 %` is 0.3".to_owned(),
+            Self::GreatFriction { .. } => {
+                "if a percentage is meant, write its sign: `30 %` is 0.3".to_owned()
+            }
         }
     }
 }

@@ -189,8 +189,8 @@ pub(super) struct GuidedSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
-    /// Area in contact, for the bearing pressure: { width = .. }; its length is that of the pressed face unless
-    /// given.
+    /// Area in contact, for the bearing pressure: { width = .. }; its length is that of the pressed face
+    /// unless given.
     pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
@@ -232,8 +232,8 @@ pub(super) struct PinInSlotTable {
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct PadTable {
-    /// Its length in the direction of sliding (m). Default: the length of a guided slider; for other joints it
-    /// must be given.
+    /// Its length in the direction of sliding (m). Default: the length of a guided slider; for other joints
+    /// it must be given.
     pub(super) length: Option<Quantity>,
     /// Its width across the plane of the mechanism (m).
     pub(super) width: Quantity,

@@ -1,4 +1,5 @@
-//! The greatest effort, normal force or bearing pressure of all solutions at a value, or their least efficiency.
+//! The greatest effort, normal force or bearing pressure of all solutions at a value, or their least
+//! efficiency.
 
 use super::Against;
 use crate::drive::{EfficiencyKind, Efforts};
@@ -14,8 +15,8 @@ struct Forces {
     normal_forces: Vec<f64>,
 }
 
-/// The greatest of an effort, normal force or bearing pressure, or the least efficiency, over all solutions at a
-/// value; none without a solution.
+/// The greatest of an effort, normal force or bearing pressure, or the least efficiency, over all solutions
+/// at a value; none without a solution.
 ///
 /// # Errors
 /// Whatever keeps the mechanism from being assembled or solved there; too many modes; a drive or contact that

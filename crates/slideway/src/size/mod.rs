@@ -21,8 +21,8 @@
 //!
 //! # Files
 //! `size` asks for the margin at one value (`margin.rs`: `modes::existence` in motion, the threshold of
-//! `standstill` at rest; `level.rs`: efforts, normal forces, bearing pressures and efficiency, whose margin is how
-//! many times they keep their limit) and brackets it over what `limits::Varied` varies (`search.rs`).
+//! `standstill` at rest; `level.rs`: efforts, normal forces, bearing pressures and efficiency, whose margin
+//! is how many times they keep their limit) and brackets it over what `limits::Varied` varies (`search.rs`).
 
 mod level;
 mod margin;
@@ -109,8 +109,8 @@ pub struct SizeOptions {
     /// twice its value, but at least to 1, any other parameter that is not zero from a fifth of its value to
     /// five times it.
     pub vary: Vary,
-    /// The wanted margin, positive: a factor of friction. Against an effort, normal force or bearing pressure the
-    /// greatest that is allowed (N, N m or Pa), against the efficiency the least.
+    /// The wanted margin, positive: a factor of friction. Against an effort, normal force or bearing pressure
+    /// the greatest that is allowed (N, N m or Pa), against the efficiency the least.
     pub margin: f64,
     /// Against what.
     pub against: Against,
@@ -156,8 +156,8 @@ impl SizeOptions {
 ///
 /// # Errors
 /// An unknown name, a range that is empty, reversed, or needed and absent; a load that is unknown or zero;
-/// a drive, contact or pad that the limit needs and the model does not have; too many contact modes or states at rest. Values at which the mechanism cannot be assembled or solved are
-/// no error but part of the report.
+/// a drive, contact or pad that the limit needs and the model does not have; too many contact modes or states
+/// at rest. Values at which the mechanism cannot be assembled or solved are no error but part of the report.
 pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> {
     undisturbed(|work| size_of(model, options, work))
 }

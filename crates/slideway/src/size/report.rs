@@ -74,7 +74,8 @@ pub struct SizeReport {
     /// The load, drive or contact that it concerns; absent against locking, and where it concerns all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
-    /// The wanted margin; against an effort, normal force, bearing pressure or efficiency the limit that it has to keep.
+    /// The wanted margin; against an effort, normal force, bearing pressure or efficiency the limit that it
+    /// has to keep.
     pub margin: f64,
     /// SI unit of the limit, empty for a pure number.
     pub unit: &'static str,
