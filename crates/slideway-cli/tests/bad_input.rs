@@ -79,6 +79,8 @@ refused! {
     size_at_rest_in_both_directions: [
         "size", DRAWER, "--vary", "L", "--margin", "2", "--against", "hold", "--load", "push", "--both-directions"
     ];
+    size_pressure_without_a_pad: ["size", DRAWER, "--vary", "L", "--max-pressure", "2 MPa"];
+    size_pressure_without_a_unit: ["size", DRAWER, "--vary", "L", "--max-pressure", "2"];
     size_margin_zero: ["size", DRAWER, "--vary", "L", "--margin", "0"];
     drive_without_drives: ["drive", "models/slider-crank.toml"];
     drive_unknown_parameter: ["drive", DRAWER, "--vary", "nu=0..1"];

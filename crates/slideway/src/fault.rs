@@ -431,6 +431,8 @@ pub enum FaultKind {
     NoDirectionAtRest,
     #[error("the model has no drives, so no effort is unknown")]
     NoDrives { coordinate: Option<String> },
+    #[error("{} `pad`, so there is no bearing pressure", contact.as_ref().map_or("no contact has a".to_owned(), |name| format!("the contact {name} has no")))]
+    NoPad { contact: Option<String>, joint: Option<String> },
 
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be handled")]
@@ -499,6 +501,10 @@ impl FaultKind {
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),
             Self::NoDrives { coordinate } => Some(drive_hint(coordinate.as_deref().unwrap_or("q"))),
+            Self::NoPad { joint, .. } => Some(format!(
+                "add the area in contact to the table [joints.{}]: `pad = {{ length = \"20 mm\", width = \"15 mm\" }}`",
+                joint.as_deref().unwrap_or("NAME")
+            )),
             _ => self.fixed_hint().map(str::to_owned),
         }
     }

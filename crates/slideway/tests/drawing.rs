@@ -197,3 +197,68 @@ fn a_named_corner_is_its_point() {
     });
     assert_eq!(answers[0], answers[1]);
 }
+
+/// A block of 5 kg under 20 m/s^2 on a floor of its own length: p = 100 N / (0.2 m 0.05 m).
+#[test]
+fn pads_give_bearing_pressures() {
+    use slideway::report::{Report, Style};
+    let guided = |pad: &str| {
+        let text = format!(
+            r#"
+            gravity = "20 m/s^2"
+            [bodies.block]
+            mass = "5 kg"
+            centre_of_mass = [0, 0]
+            shape = {{ disc = "0.1 m" }}
+            [joints.floor]
+            type = "guided_slider"
+            block = "block"
+            at = [0, 0]
+            along = "0 deg"
+            length = "0.2 m"
+            mu = 0.1
+            {pad}
+            [coordinates.x]
+            slide = "floor"
+            rate = "1 m/s"
+            "#
+        );
+        solve(&Model::parse(&text).unwrap()).unwrap()
+    };
+    let pressure = |pad: &str| guided(pad).solutions[0].contacts[0].pressure;
+    let close = |found: Option<f64>, expected: f64| {
+        assert!((found.unwrap() / expected - 1.0).abs() < 1e-13, "{found:?} instead of {expected}");
+    };
+    close(pressure(r#"pad = { width = "50 mm" }"#), 1e4);
+    close(pressure(r#"pad = { length = "40 mm", width = "50 mm" }"#), 5e4);
+    assert_eq!(pressure(""), None);
+
+    let [without, with] = ["", r#"pad = { width = "50 mm" }"#].map(guided);
+    assert!(!without.text(Style::Plain).contains("pressure in"));
+    assert!(with.text(Style::Plain).contains("pressure in Pa"), "{}", with.text(Style::Plain));
+    assert!(!without.csv().contains(",pressure,"));
+    assert!(with.csv().contains(",contact,floor,pressure,10000,Pa\n"), "{}", with.csv());
+    assert!(with.json().contains(r#""pressure": 10000.0"#), "{}", with.json());
+}
+
+/// That of one end takes precedence, and the builder writes what the file has.
+#[test]
+fn pads_of_one_end_take_precedence() {
+    let mut d = Drawing::new();
+    d.gravity("20 m/s^2").parameter("w", "50 mm");
+    let block = d.body("block").mass("5 kg").centre([0.0, 0.0]).rectangle(["0.2 m", "0.1 m"]).id();
+    let slider = d.block_slider("rail", block, GROUND).at([0, 0]).length("0.2 m").mu(0.0);
+    let rail = slider
+        .pad(["20 mm", "w"])
+        .rear(|rear| {
+            rear.pad(["10 mm", "w"]);
+        })
+        .id();
+    d.slide("x", rail).rate("1 m/s");
+    let report = solve(&d.build().unwrap()).unwrap();
+    // 50 N at each end.
+    for (contact, expected) in [(rail.front(), 5e4), (rail.rear(), 1e5)] {
+        let found = report.solutions[0].contact(contact).pressure.unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} instead of {expected}");
+    }
+}

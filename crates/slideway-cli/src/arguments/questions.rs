@@ -17,7 +17,8 @@ Is it self-locking?                hold --load W; hold --load W --vary mu_static
     The name gravity stands for all weights.
 How much force does it need?       drive
 How long must the guide be?        size --vary L --margin 2
-    Or with --max-effort, --max-normal-force or --min-efficiency; with a drive.
+    Or with --max-effort, --max-normal-force, --max-pressure or --min-efficiency;
+    with a drive.
 Up to which friction?              limits --vary mu
     With a drive: where it jams. With a load: where it no longer speeds up but slows down.
 How does it move over time?        simulate

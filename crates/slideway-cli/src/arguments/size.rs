@@ -1,10 +1,11 @@
 //! `slideway size`
 
-use super::values::positive;
+use super::values::{Pressure, positive, pressure};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::size;
+use slideway::units::Unit;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -23,7 +24,8 @@ solution. At rest it concerns a load, or the effort of a drive. Against self-loc
 factor by which static friction may grow before the load is held however great it is. With
 `--against hold` the load must be held, and it is the factor by which static friction may be
 divided. Without a range, a coefficient of friction goes from 0 to 1 or twice its value, `friction`
-from 0 to 10, any other parameter from a fifth of its value to five times its value.
+from 0 to 10, any other parameter from a fifth of its value to five times its value. For
+`--max-pressure 2MPa` the sliding joints of the model need a `pad`, their area in contact.
 
 Exit codes:
   0    the margin is met somewhere in the range
@@ -50,7 +52,7 @@ pub(crate) struct SizeArguments {
     against: Against,
 
     /// The load, or the drive whose effort is the load, for a margin at rest; the drive of --max-effort, or the
-    /// contact of --max-normal-force, by default all of them.
+    /// contact of --max-normal-force or --max-pressure, by default all of them.
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
 
@@ -100,6 +102,11 @@ struct Limit {
     #[arg(long, value_name = "N", value_parser = positive, conflicts_with = "against")]
     max_normal_force: Option<f64>,
 
+    /// Instead of a margin: no solution may have a greater bearing pressure than this, such as "2 MPa" or
+    /// "2 N/mm^2": normal force over length times width of the contact's `pad` in the model.
+    #[arg(long, value_name = "PRESSURE", value_parser = pressure, conflicts_with = "against")]
+    max_pressure: Option<Pressure>,
+
     /// Instead of a margin: no solution may have a lower efficiency than this (0.7 is 70 %).
     #[arg(long, value_name = "RATIO", value_parser = positive, conflicts_with = "against")]
     min_efficiency: Option<f64>,
@@ -108,8 +115,15 @@ struct Limit {
 impl SizeArguments {
     /// The wanted margin, or the limit that is to be kept.
     pub(crate) fn wanted(&self) -> f64 {
-        let Limit { margin, max_effort, max_normal_force, min_efficiency } = self.limit;
-        margin.or(max_effort).or(max_normal_force).or(min_efficiency).unwrap_or_default()
+        let Limit { margin, max_effort, max_normal_force, ref max_pressure, min_efficiency } = self.limit;
+        let max_pressure = max_pressure.as_ref().map(|pressure| pressure.value);
+        let limit = max_effort.or(max_normal_force).or(max_pressure).or(min_efficiency);
+        margin.or(limit).unwrap_or_default()
+    }
+
+    /// The unit in which the limit was typed, if it has one.
+    pub(crate) fn typed_in(&self) -> Option<Unit> {
+        self.limit.max_pressure.as_ref().map(|pressure| pressure.unit.clone())
     }
 
     /// Against what, with the load, drive or contact that it concerns.
@@ -122,6 +136,9 @@ impl SizeArguments {
         }
         if self.limit.max_normal_force.is_some() {
             return Ok(size::Against::NormalForce { contact: self.load.clone() });
+        }
+        if self.limit.max_pressure.is_some() {
+            return Ok(size::Against::Pressure { contact: self.load.clone() });
         }
         if self.limit.min_efficiency.is_some() {
             return match &self.load {

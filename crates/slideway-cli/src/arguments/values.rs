@@ -1,5 +1,6 @@
 //! Values of arguments.
 
+use slideway::units::Unit;
 use std::time::Duration;
 
 /// A positive number.
@@ -7,6 +8,24 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
         _ => Err("it must be a positive number".to_owned()),
+    }
+}
+
+/// A pressure and the unit in which it was typed.
+#[derive(Debug, Clone)]
+pub(super) struct Pressure {
+    /// In Pa.
+    pub(super) value: f64,
+    pub(super) unit: Unit,
+}
+
+/// A positive pressure with its unit, such as 2 MPa or 2 N/mm^2.
+pub(super) fn pressure(text: &str) -> Result<Pressure, String> {
+    match Unit::of_quantity(text) {
+        Some((value, unit)) if unit.si() == "Pa" && value > 0.0 && value.is_finite() => {
+            Ok(Pressure { value, unit })
+        }
+        _ => Err("it must be a positive pressure with its unit, such as `2 MPa` or `2 N/mm^2`".to_owned()),
     }
 }
 
@@ -27,6 +46,16 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pressures_have_units() {
+        for (text, pascals) in [("2 MPa", 2e6), ("2 N/mm^2", 2e6), ("350kPa", 3.5e5), ("1e5 Pa", 1e5)] {
+            assert_eq!(pressure(text).map(|pressure| pressure.value), Ok(pascals), "{text}");
+        }
+        for text in ["2", "2 N", "-1 MPa", "0 Pa", "MPa", "1e400 Pa", "nan Pa", ""] {
+            assert!(pressure(text).is_err(), "{text}");
+        }
+    }
 
     #[test]
     fn times_have_units() {

@@ -23,6 +23,7 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let report = arguments.against(names).and_then(|against| {
         let options = SizeOptions::new(vary, arguments.wanted())
             .against(against)
+            .typed_in(arguments.typed_in())
             .both_directions(arguments.both_directions);
         size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });

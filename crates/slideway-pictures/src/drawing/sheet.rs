@@ -206,20 +206,12 @@ fn state_line(state: &[CoordinateState], units: &Units) -> String {
     coordinates.collect::<Vec<_>>().join("; ")
 }
 
-/// How many solutions there are.
+/// What there is, and how much of it is drawn.
 pub(crate) fn answer(report: &SolveReport) -> String {
     let drawn = report.solutions.len() + report.preload_gap_states.len();
-    let words = match report.status {
-        Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
-        Status::One => "One solution.".to_owned(),
-        Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
-        Status::Continuum => "Infinitely many solutions.".to_owned(),
-        Status::PreloadGap => "No solution, but a state in a preload gap.".to_owned(),
-        Status::Unknown => "No solution was found, but not every contact mode could be decided.".to_owned(),
-    };
     let partial = if report.partial { " The search ended early: there may be more." } else { "" };
     let first = if drawn > MOST { format!(" The first {MOST} are drawn.") } else { String::new() };
-    format!("{words}{partial}{first}")
+    format!("{}{partial}{first}", report.verdict_in_words())
 }
 
 fn described(lines: &[String], panels: &[Panel]) -> String {

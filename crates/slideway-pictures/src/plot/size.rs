@@ -107,6 +107,7 @@ impl Told {
             MarginKind::Hold => margin("margin of holding", "Load"),
             MarginKind::Effort => limit("greatest effort", "at most", "Drive"),
             MarginKind::NormalForce => limit("greatest normal force", "at most", "Contact"),
+            MarginKind::Pressure => limit("greatest bearing pressure", "at most", "Contact"),
             MarginKind::Efficiency => limit("least efficiency", "at least", "Drive"),
         }
     }

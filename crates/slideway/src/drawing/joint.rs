@@ -213,6 +213,12 @@ macro_rules! contact_properties {
         pub fn stiffness($self: $receiver, stiffness: impl Into<Quantity>) -> $receiver {
             $self.set("stiffness", stiffness.into())
         }
+
+        /// Length and width of the area in contact at a contact (m), for the bearing pressure.
+        pub fn pad($self: $receiver, [length, width]: [impl Into<Quantity>; 2]) -> $receiver {
+            let sizes = [("length", &length.into()), ("width", &width.into())];
+            $self.set("pad", Quantity::table(sizes.into_iter()))
+        }
     };
 }
 

@@ -6,6 +6,7 @@ use crate::fault::Faults;
 use crate::ids::DriveId;
 use crate::kinetics::effort_forces;
 use crate::limits::Varied;
+use crate::mechanism::Contact;
 use crate::modes::ContactState;
 use crate::modes::existence::{ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::solve::Stages;
@@ -22,8 +23,8 @@ pub(super) const GROWTH: f64 = 30.0;
 pub(crate) struct Efforts {
     line: ModeProblemLine,
     drives: usize,
-    /// Names of the contacts.
-    pub(crate) contacts: Vec<String>,
+    /// The contacts.
+    pub(crate) contacts: Vec<Contact>,
     /// Without friction (N or N m).
     pub(super) frictionless: Vec<f64>,
     /// The velocity at which each effort works (m/s or rad/s).
@@ -40,7 +41,7 @@ impl Efforts {
         Ok(Self {
             line: parts.line_to(&parts),
             drives,
-            contacts: stages.mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),
+            contacts: stages.mechanism.contacts.clone(),
             frictionless: (0..drives)
                 .map(|drive| stages.influence.frictionless[effort(drive)] + 0.0)
                 .collect(),

@@ -195,7 +195,7 @@ fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
     cells.push(match (&row.pattern, &row.frictionless) {
         (Some(pattern), _) => spaced(pattern),
         (None, Some(_)) => "no solution".to_owned(),
-        (None, None) => "no position".to_owned(),
+        (None, None) => "no answer".to_owned(),
     });
     let drives = || units.iter().enumerate();
     cells.extend(drives().map(|(drive, unit)| match (&row.efforts, row.grows.get(drive)) {

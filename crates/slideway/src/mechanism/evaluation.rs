@@ -168,6 +168,9 @@ impl<T: Real> Evaluation<'_, T> {
                     .map(|preload| preload.map_or(T::zero(), |preload| self.value(preload))),
                 preload_line: contact.preload_line,
                 stiffness: contact.stiffness.map(|stiffness| self.value(stiffness)),
+                pad: contact.pad.map(|pad| {
+                    [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
+                }),
             });
         }
         Slider {

@@ -180,6 +180,15 @@ pub struct Contact<T = f64> {
     pub preload_line: PreloadLine,
     /// Stiffness of the guide (N/m), if the model gives it.
     pub stiffness: Option<T>,
+    /// Length and width of the area in contact (m), if the model gives it.
+    pub pad: Option<[T; 2]>,
+}
+
+impl Contact {
+    /// The mean bearing pressure under a normal force, `|N| / (length width)` (Pa); nothing without a pad.
+    pub fn pressure(&self, normal_force: f64) -> Option<f64> {
+        self.pad.map(|[length, width]| normal_force.abs() / length / width)
+    }
 }
 
 impl<T: Real> Contact<T> {

@@ -23,7 +23,7 @@ use std::collections::BTreeSet;
 pub(crate) struct Dependence {
     /// That of its numbers.
     pub(crate) problem: Degree,
-    /// That of what only has to be allowed: static friction above kinetic, travel, stiffness of guides.
+    /// That of what only has to be allowed: static friction above kinetic, travel, stiffness of guides, pads.
     pub(crate) conditions: Degree,
     /// Whether static friction, which counts at rest alone, depends on it.
     pub(crate) at_rest: bool,
@@ -197,6 +197,8 @@ impl Places<'_> {
     fn conditions(&mut self) -> Degree {
         let stiffness: Vec<FormulaId> =
             self.model.contacts().filter_map(|contact| contact.stiffness).collect();
+        let pads = self.model.contacts().filter_map(|contact| contact.pad);
+        let pads: Vec<FormulaId> = pads.flat_map(|pad| pad.length.into_iter().chain([pad.width])).collect();
         let travel = self.model.joints.iter().flat_map(|joint| match &joint.kind {
             JointKind::Slider(slider) => {
                 let stops = slider.stops.into_iter().flatten().filter_map(Stop::restitution);
@@ -206,7 +208,7 @@ impl Places<'_> {
         });
         let travel: Vec<FormulaId> = travel.collect();
         let events = self.model.events.iter().map(|event| event.zero_of);
-        self.greatest(stiffness.into_iter().chain(travel).chain(events).collect::<Vec<_>>())
+        self.greatest(stiffness.into_iter().chain(pads).chain(travel).chain(events).collect::<Vec<_>>())
     }
 
     /// Whatever stands elsewhere; parameters count where they are used, and looks do not count at all.

@@ -128,6 +128,8 @@ pub(super) struct BlockSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at each contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Area in contact at each contact, for the bearing pressure: { length = .., width = .. }.
+    pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
     /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
@@ -155,6 +157,8 @@ pub(super) struct EndTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at this contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Area in contact at this contact, for the bearing pressure: { length = .., width = .. }.
+    pub(super) pad: Option<PadTable>,
 }
 
 /// A slider with one normal force and a couple.
@@ -185,6 +189,9 @@ pub(super) struct GuidedSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Area in contact, for the bearing pressure: { width = .. }; its length is that of the pressed face
+    /// unless given.
+    pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
     /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
@@ -212,11 +219,24 @@ pub(super) struct PinInSlotTable {
     pub(super) preload: Option<PerSide>,
     /// Stiffness of the slot at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Area in contact, for the bearing pressure: { length = .., width = .. }.
+    pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
     /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
     /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
+}
+
+/// The area in contact at a contact.
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
+pub(super) struct PadTable {
+    /// Its length in the direction of sliding (m). Default: the length of a guided slider; for other joints
+    /// it must be given.
+    pub(super) length: Option<Quantity>,
+    /// Its width across the plane of the mechanism (m).
+    pub(super) width: Quantity,
 }
 
 /// What stops a block at both ends of its travel, or at one.

@@ -274,6 +274,17 @@ pub struct Contact {
     pub preload_line: PreloadLine,
     /// Stiffness of the guide.
     pub stiffness: Option<FormulaId>,
+    /// Its area, for the bearing pressure.
+    pub pad: Option<Pad>,
+}
+
+/// The area in contact at a contact.
+#[derive(Debug, Clone, Copy)]
+pub struct Pad {
+    /// Its length; nothing means that of the joint.
+    pub length: Option<FormulaId>,
+    /// Its width.
+    pub width: FormulaId,
 }
 
 impl Contact {

@@ -35,8 +35,8 @@ impl Value {
     pub(crate) fn unit(&self) -> Option<Unit> {
         let Self::Text(text) = self else { return None };
         match text.split_once(TO) {
-            None => Unit::behind(text),
-            Some((from, to)) => Unit::behind(from).filter(|unit| Unit::behind(to).as_ref() == Some(unit)),
+            None => behind(text),
+            Some((from, to)) => behind(from).filter(|unit| behind(to).as_ref() == Some(unit)),
         }
     }
 
@@ -49,6 +49,11 @@ impl Value {
         let (si, unit) = (unit.si().to_owned(), unit.name().to_owned());
         Some(Doubt::BareNumber { what: what.to_owned(), value, si, unit })
     }
+}
+
+/// The unit behind the only number of a text; nothing if there is none, or more than a number.
+fn behind(text: &str) -> Option<Unit> {
+    Unit::of_quantity(text).map(|(_, unit)| unit)
 }
 
 /// The text of a formula in the file, without its quotation marks.

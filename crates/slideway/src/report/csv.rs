@@ -57,6 +57,9 @@ impl Rows {
             if let Some(couple) = contact.couple {
                 row("contact", &contact.name, "couple", couple, "N m");
             }
+            if let Some(pressure) = contact.pressure {
+                row("contact", &contact.name, "pressure", pressure, "Pa");
+            }
             if let Some(share) = contact.preload_share {
                 row("contact", &contact.name, "preload_share", share, "");
             }

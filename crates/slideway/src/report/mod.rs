@@ -457,6 +457,9 @@ pub struct Contact {
     /// Couple of a guided slider about the middle of the pressed face (N m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub couple: Option<f64>,
+    /// Mean bearing pressure, the normal force over length and width of the pad (Pa); absent without a pad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
     /// In a preload gap: the share of the preload friction at the face of positive normal force.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub preload_share: Option<f64>,

@@ -45,6 +45,47 @@ impl Report for SolveReport {
 }
 
 impl SolveReport {
+    /// What there is, in one sentence.
+    pub fn verdict_in_words(&self) -> String {
+        match self.status {
+            Status::None if !self.rejected.is_empty() => {
+                "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
+            }
+            Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
+            Status::One if self.partial => {
+                "One solution found; not every pattern could be decided.".to_owned()
+            }
+            Status::One => match self.only_speed() {
+                Some(change) => format!("One solution: it {}.", change.in_words()),
+                None => "One solution.".to_owned(),
+            },
+            Status::Several if self.partial => {
+                format!("{} solutions found; not every pattern could be decided.", self.count)
+            }
+            Status::Several => format!("{} solutions, each in its own contact mode.", self.count),
+            Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            Status::PreloadGap if self.partial || !self.undecided_modes.is_empty() => {
+                "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
+            }
+            Status::PreloadGap => {
+                "No contact mode has a solution, but there is a state in a preload gap.".to_owned()
+            }
+            Status::Unknown if self.partial => {
+                "Nothing found, but not every pattern could be decided.".to_owned()
+            }
+            Status::Unknown => {
+                "On the boundary: whether there is a solution cannot be decided within rounding.".to_owned()
+            }
+        }
+    }
+
+    /// What becomes of the speed of the only coordinate, in the only solution; none if that is not known.
+    fn only_speed(&self) -> Option<SpeedChange> {
+        let [solution] = self.solutions.as_slice() else { return None };
+        let [coordinate] = solution.coordinates.as_slice() else { return None };
+        coordinate.speed.filter(|change| *change != SpeedChange::Undecided)
+    }
+
     /// How far all friction may grow before the answer changes, in words; empty where there is nothing to tell.
     pub fn margins_in_words(&self) -> String {
         let mut text = Page::new(self, Style::Plain);
@@ -84,37 +125,7 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let verdict = match report.status {
-            Status::None if !report.rejected.is_empty() => {
-                "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
-            }
-            Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
-            Status::One if report.partial => {
-                "One solution found; not every pattern could be decided.".to_owned()
-            }
-            Status::One => match self.only_speed() {
-                Some(change) => format!("One solution: it {}.", change.in_words()),
-                None => "One solution.".to_owned(),
-            },
-            Status::Several if report.partial => {
-                format!("{} solutions found; not every pattern could be decided.", report.count)
-            }
-            Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
-            Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
-            Status::PreloadGap if report.partial || !report.undecided_modes.is_empty() => {
-                "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
-            }
-            Status::PreloadGap => {
-                "No contact mode has a solution, but there is a state in a preload gap.".to_owned()
-            }
-            Status::Unknown if report.partial => {
-                "Nothing found, but not every pattern could be decided.".to_owned()
-            }
-            Status::Unknown => {
-                "On the boundary: whether there is a solution cannot be decided within rounding.".to_owned()
-            }
-        };
-        self.status(report.status, &verdict);
+        self.status(report.status, &report.verdict_in_words());
         let search = match &report.patterns {
             Some(patterns) => tried(patterns),
             None => {
@@ -178,13 +189,6 @@ impl Text<'_> {
             number(solution.determinant),
             power_of_ten_above(solution.residual)
         ));
-    }
-
-    /// What becomes of the speed of the only coordinate, in the only solution; none if that is not known.
-    fn only_speed(&self) -> Option<SpeedChange> {
-        let [solution] = self.report.solutions.as_slice() else { return None };
-        let [coordinate] = solution.coordinates.as_slice() else { return None };
-        coordinate.speed.filter(|change| *change != SpeedChange::Undecided)
     }
 
     /// What becomes of the speeds: "It slows down, and would stop after 0.1 s and 0.2 m if nothing changed".
@@ -459,13 +463,16 @@ fn closest_row(mode: &ClosestMode) -> Vec<String> {
 }
 
 fn contact_table(contacts: &[Contact], units: &Units) -> String {
-    let [force, speed, couple] = ["N", "m/s", "N m"].map(|si| units.of(si));
+    let [force, speed, couple, pressure] = ["N", "m/s", "N m", "Pa"].map(|si| units.of(si));
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
+    let has_pad = contacts.iter().any(|contact| contact.pressure.is_some());
     let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
+    let greatest_pressure = contacts.iter().filter_map(|contact| contact.pressure).fold(0.0, f64::max);
     let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];
     header.push(speed.title("sliding"));
     header.extend(has_couple.then(|| couple.title("couple")));
+    header.extend(has_pad.then(|| pressure.title("pressure")));
     header.extend(has_share.then(|| "preload share at +".to_owned()));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let optional =
@@ -478,6 +485,9 @@ fn contact_table(contacts: &[Contact], units: &Units) -> String {
             speed.number(contact.sliding_velocity),
         ];
         row.extend(has_couple.then(|| optional(contact.couple, &couple)));
+        row.extend(has_pad.then(|| {
+            contact.pressure.map_or(String::new(), |value| pressure.against(value, greatest_pressure))
+        }));
         row.extend(has_share.then(|| optional(contact.preload_share, &Unit::default())));
         row
     };

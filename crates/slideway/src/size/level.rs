@@ -1,4 +1,5 @@
-//! The greatest effort or normal force of all solutions at a value, or their least efficiency.
+//! The greatest effort, normal force or bearing pressure of all solutions at a value, or their least
+//! efficiency.
 
 use super::Against;
 use crate::drive::{EfficiencyKind, Efforts};
@@ -14,8 +15,8 @@ struct Forces {
     normal_forces: Vec<f64>,
 }
 
-/// The greatest of an effort or normal force, or the least efficiency, over all solutions at a value; none
-/// without a solution.
+/// The greatest of an effort, normal force or bearing pressure, or the least efficiency, over all solutions
+/// at a value; none without a solution.
 ///
 /// # Errors
 /// Whatever keeps the mechanism from being assembled or solved there; too many modes; a drive or contact that
@@ -46,7 +47,7 @@ pub(super) fn level(
     Ok(levels.into_iter().reduce(worst))
 }
 
-/// The greatest absolute effort or normal force of a solution, or its efficiency.
+/// The greatest absolute effort, normal force or bearing pressure of a solution, or its efficiency.
 fn of_forces(varied: &Varied, against: &Against, at: &Efforts, forces: &Forces) -> Result<f64, Faults> {
     let named = |name: &Option<String>, values: &[f64], names: &[String], what: &'static str| {
         let Some(name) = name else {
@@ -65,7 +66,20 @@ fn of_forces(varied: &Varied, against: &Against, at: &Efforts, forces: &Forces) 
                 varied.model().drives.iter().map(|drive| drive.name.to_string()).collect();
             named(drive, &forces.efforts, &drives, "drive")
         }
-        Against::NormalForce { contact } => named(contact, &forces.normal_forces, &at.contacts, "contact"),
+        Against::NormalForce { contact } => {
+            let contacts: Vec<String> = at.contacts.iter().map(|contact| contact.name.to_string()).collect();
+            named(contact, &forces.normal_forces, &contacts, "contact")
+        }
+        Against::Pressure { contact } => {
+            let with_pad =
+                at.contacts.iter().zip(&forces.normal_forces).filter_map(|(contact, force)| {
+                    Some((contact.name.to_string(), contact.pressure(*force)?))
+                });
+            let (contacts, pressures): (Vec<String>, Vec<f64>) = with_pad.unzip();
+            let pressure = named(contact, &pressures, &contacts, "contact")?;
+            let overflow = || FaultKind::Overflow { quantity: "the bearing pressure".to_owned() };
+            if pressure.is_finite() { Ok(pressure) } else { Err(Fault::general(overflow()).into()) }
+        }
         _ => {
             let (_, efficiency) = at.power(&forces.efforts);
             match (efficiency.is, efficiency.value) {

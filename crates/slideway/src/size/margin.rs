@@ -67,7 +67,7 @@ pub(super) struct MarginQuestion<'v> {
     /// The same with all rates reversed, if both directions count.
     pub(super) reversed: Option<&'v Varied>,
     pub(super) against: &'v Against,
-    /// What an effort, normal force or efficiency has to keep.
+    /// What an effort, normal force, bearing pressure or efficiency has to keep.
     pub(super) limit: f64,
 }
 
@@ -79,7 +79,10 @@ impl MarginQuestion<'_> {
     pub(super) fn margin(&self, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
         match self.against {
             Against::Locking => self.both(|varied| against_locking(varied, value, work)),
-            Against::Effort { .. } | Against::NormalForce { .. } | Against::Efficiency => {
+            Against::Effort { .. }
+            | Against::NormalForce { .. }
+            | Against::Pressure { .. }
+            | Against::Efficiency => {
                 self.both(|varied| Ok(self.kept(level(varied, self.against, value, work)?)))
             }
             Against::SelfLocking { load } => {

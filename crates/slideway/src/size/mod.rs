@@ -21,8 +21,8 @@
 //!
 //! # Files
 //! `size` asks for the margin at one value (`margin.rs`: `modes::existence` in motion, the threshold of
-//! `standstill` at rest; `level.rs`: efforts, normal forces and efficiency, whose margin is how many times they
-//! keep their limit) and brackets it over what `limits::Varied` varies (`search.rs`).
+//! `standstill` at rest; `level.rs`: efforts, normal forces, bearing pressures and efficiency, whose margin
+//! is how many times they keep their limit) and brackets it over what `limits::Varied` varies (`search.rs`).
 
 mod level;
 mod margin;
@@ -40,6 +40,7 @@ use crate::limits::{Vary, range_around};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
+use crate::units::Unit;
 use margin::{Margin, MarginQuestion};
 use search::MarginSearch;
 
@@ -75,6 +76,12 @@ pub enum Against {
         /// Name of the contact.
         contact: Option<String>,
     },
+    /// The greatest bearing pressure of this contact, or of all that have a pad, in any solution; without a
+    /// solution it is exceeded.
+    Pressure {
+        /// Name of the contact.
+        contact: Option<String>,
+    },
     /// The least efficiency of the drives in any solution; without a solution it is not reached.
     Efficiency,
 }
@@ -82,7 +89,10 @@ pub enum Against {
 impl Against {
     /// Whether it is a limit of a force or of the efficiency rather than a factor of friction.
     pub(crate) fn is_limit(&self) -> bool {
-        matches!(self, Self::Effort { .. } | Self::NormalForce { .. } | Self::Efficiency)
+        matches!(
+            self,
+            Self::Effort { .. } | Self::NormalForce { .. } | Self::Pressure { .. } | Self::Efficiency
+        )
     }
 
     /// Whether it concerns rest.
@@ -99,19 +109,21 @@ pub struct SizeOptions {
     /// twice its value, but at least to 1, any other parameter that is not zero from a fifth of its value to
     /// five times it.
     pub vary: Vary,
-    /// The wanted margin, positive: a factor of friction. Against an effort or normal force the greatest that
-    /// is allowed (N or N m), against the efficiency the least.
+    /// The wanted margin, positive: a factor of friction. Against an effort, normal force or bearing pressure
+    /// the greatest that is allowed (N, N m or Pa), against the efficiency the least.
     pub margin: f64,
     /// Against what.
     pub against: Against,
     /// Whether motion in the opposite direction counts, too: the smaller margin of both.
     pub both_directions: bool,
+    /// The unit in which the limit was typed, which texts show it in; without, that of the model.
+    pub typed_in: Option<Unit>,
 }
 
 impl SizeOptions {
     /// A margin against locking in the direction of the model.
     pub fn new(vary: Vary, margin: f64) -> Self {
-        Self { vary, margin, against: Against::Locking, both_directions: false }
+        Self { vary, margin, against: Against::Locking, both_directions: false, typed_in: None }
     }
 
     /// A margin against something else.
@@ -127,6 +139,13 @@ impl SizeOptions {
         self.both_directions = both;
         self
     }
+
+    /// The unit in which the limit was typed.
+    #[must_use]
+    pub fn typed_in(mut self, unit: Option<Unit>) -> Self {
+        self.typed_in = unit;
+        self
+    }
 }
 
 /// The values of a parameter at which a wanted margin is just met, and the intervals in which it is met.
@@ -137,8 +156,8 @@ impl SizeOptions {
 ///
 /// # Errors
 /// An unknown name, a range that is empty, reversed, or needed and absent; a load that is unknown or zero;
-/// too many contact modes or states at rest. Values at which the mechanism cannot be assembled or solved are
-/// no error but part of the report.
+/// a drive, contact or pad that the limit needs and the model does not have; too many contact modes or states
+/// at rest. Values at which the mechanism cannot be assembled or solved are no error but part of the report.
 pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> {
     undisturbed(|work| size_of(model, options, work))
 }
@@ -167,6 +186,9 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
         let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
         return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
     }
+    if let Against::Pressure { contact } = &options.against {
+        pad_of(model, contact.as_deref())?;
+    }
     let question = MarginQuestion {
         varied: &varied,
         reversed: opposite.as_ref(),
@@ -179,6 +201,22 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
     finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
+}
+
+/// # Errors
+/// No contact has a pad, or the named one has none; an unknown name is a fault of the level.
+fn pad_of(model: &Model, named: Option<&str>) -> Result<(), Faults> {
+    let mut contacts =
+        model.contacts().filter(|contact| named.is_none_or(|name| *contact.name == *name)).peekable();
+    let Some(first) = contacts.peek().map(|contact| contact.name.to_string()) else {
+        let without = FaultKind::NoPad { contact: None, joint: None };
+        return if named.is_some() { Ok(()) } else { Err(Fault::general(without).into()) };
+    };
+    if contacts.any(|contact| contact.pad.is_some()) {
+        return Ok(());
+    }
+    let joint = first.split('.').next().map(str::to_owned);
+    Err(Fault::general(FaultKind::NoPad { contact: named.map(str::to_owned), joint }).into())
 }
 
 /// The margin in the model; nothing where it has no position, which other values may have.

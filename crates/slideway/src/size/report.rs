@@ -29,6 +29,8 @@ pub enum MarginKind {
     Effort,
     /// Not a factor but the greatest normal force of a contact, or of all (N).
     NormalForce,
+    /// Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
+    Pressure,
     /// Not a factor but the least efficiency.
     Efficiency,
 }
@@ -36,19 +38,20 @@ pub enum MarginKind {
 impl MarginKind {
     /// Whether it is a limit of a force or of the efficiency rather than a factor of friction.
     pub(super) fn is_limit(self) -> bool {
-        matches!(self, Self::Effort | Self::NormalForce | Self::Efficiency)
+        self.is_greatest() || self == Self::Efficiency
+    }
+
+    /// Whether what is limited must not be greater, rather than less.
+    pub(super) fn is_greatest(self) -> bool {
+        matches!(self, Self::Effort | Self::NormalForce | Self::Pressure)
     }
 
     /// What a margin of the search stands for, which is how many times a limit is kept.
     pub(super) fn told(self, margin: Margin, limit: f64) -> (SampleKind, Option<f64>) {
         match (self, margin) {
-            (Self::Effort | Self::NormalForce, Margin::Infinite) => (SampleKind::Finite, Some(0.0)),
-            (Self::Effort | Self::NormalForce | Self::Efficiency, Margin::Finite(0.0)) => {
-                (SampleKind::NoSolution, None)
-            }
-            (Self::Effort | Self::NormalForce, Margin::Finite(kept)) => {
-                (SampleKind::Finite, Some(limit / kept))
-            }
+            (kind, Margin::Infinite) if kind.is_greatest() => (SampleKind::Finite, Some(0.0)),
+            (kind, Margin::Finite(0.0)) if kind.is_limit() => (SampleKind::NoSolution, None),
+            (kind, Margin::Finite(kept)) if kind.is_greatest() => (SampleKind::Finite, Some(limit / kept)),
             (Self::Efficiency, Margin::Finite(kept)) => (SampleKind::Finite, Some(limit * kept)),
             (_, Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
             (_, Margin::Infinite) => (SampleKind::Infinite, None),
@@ -71,7 +74,8 @@ pub struct SizeReport {
     /// The load, drive or contact that it concerns; absent against locking, and where it concerns all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
-    /// The wanted margin; against an effort, normal force or efficiency the limit that it has to keep.
+    /// The wanted margin; against an effort, normal force, bearing pressure or efficiency the limit that it
+    /// has to keep.
     pub margin: f64,
     /// SI unit of the limit, empty for a pure number.
     pub unit: &'static str,
@@ -139,7 +143,7 @@ pub enum SampleKind {
     Finite,
     /// No friction reaches the limit.
     Infinite,
-    /// There is no solution, of which an effort, normal force or efficiency could be told.
+    /// There is no solution, of which an effort, normal force, bearing pressure or efficiency could be told.
     NoSolution,
     /// The mechanism cannot be assembled or solved there, or a guided slider is between its faces.
     NoPosition,
@@ -189,6 +193,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         Against::Hold { load } => (MarginKind::Hold, Some(load.clone())),
         Against::Effort { drive } => (MarginKind::Effort, drive.clone()),
         Against::NormalForce { contact } => (MarginKind::NormalForce, contact.clone()),
+        Against::Pressure { contact } => (MarginKind::Pressure, contact.clone()),
         Against::Efficiency => (MarginKind::Efficiency, None),
     };
     let unit = unit(model, &options.against);
@@ -202,7 +207,11 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         load,
         margin: options.margin,
         unit,
-        limit_shown_in: if unit.is_empty() { Unit::default() } else { model.units.of(unit) },
+        limit_shown_in: match &options.typed_in {
+            Some(typed) => model.units.typed_as(typed.clone()),
+            None if unit.is_empty() => Unit::default(),
+            None => model.units.of(unit),
+        },
         both_directions: options.both_directions,
         present: sample(&Tried { at: *value, margin: *present }, told),
         met: found.met.iter().map(|ends| interval(ends, told)).collect(),
@@ -231,6 +240,7 @@ fn unit(model: &Model, against: &Against) -> &'static str {
             if units.all(|unit| unit == first) { first } else { "" }
         }
         Against::NormalForce { .. } => "N",
+        Against::Pressure { .. } => "Pa",
         _ => "",
     }
 }

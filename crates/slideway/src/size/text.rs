@@ -1,6 +1,6 @@
 //! A design as text for people.
 
-use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
+use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::{level, subject};
 use crate::report::number::precise;
 use crate::report::page::Page;
@@ -40,10 +40,7 @@ impl Page<'_, SizeReport> {
         }
         self.line("");
         let (what, limit) = (subject(report), level(report, report.margin));
-        let side = match report.against {
-            MarginKind::Effort | MarginKind::NormalForce => "at most",
-            _ => "at least",
-        };
+        let side = if report.against.is_greatest() { "at most" } else { "at least" };
         self.headline(&format!("Where the {what} is {side} {limit}"));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
         let [from, to] = ["from", "to"].map(|end| report.vary.shown_in.title(end));

@@ -108,9 +108,10 @@ impl Words<'_> {
                 format!("{model}: there is no solution, so the limit is not kept.")
             }
             (_, Some(level)) if report.against.is_limit() => {
-                let is_kept = match report.against {
-                    MarginKind::Efficiency => level >= report.margin,
-                    _ => level <= report.margin,
+                let is_kept = if report.against.is_greatest() {
+                    level <= report.margin
+                } else {
+                    level >= report.margin
                 };
                 let kept = if is_kept { "the limit is kept" } else { "the limit is not kept" };
                 format!("{model}: the {what} is {}; {kept}.", report.limit_shown_in.show(level))
@@ -146,6 +147,7 @@ impl Words<'_> {
                         MarginKind::Hold
                         | MarginKind::Effort
                         | MarginKind::NormalForce
+                        | MarginKind::Pressure
                         | MarginKind::Efficiency,
                         true,
                     ) => format!(
@@ -155,6 +157,7 @@ impl Words<'_> {
                         MarginKind::Hold
                         | MarginKind::Effort
                         | MarginKind::NormalForce
+                        | MarginKind::Pressure
                         | MarginKind::Efficiency,
                         false,
                     ) => format!(
@@ -183,7 +186,7 @@ fn never(report: &SizeReport) -> String {
         MarginKind::SelfLocking => format!("no static friction, however great, holds every {load}"),
         MarginKind::Hold => format!("{load} is held without friction, however great it is"),
         // These are numbers wherever there is a solution.
-        MarginKind::Effort | MarginKind::NormalForce | MarginKind::Efficiency => {
+        MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure | MarginKind::Efficiency => {
             "there is no number".to_owned()
         }
     }
@@ -195,6 +198,7 @@ pub(super) fn subject(report: &SizeReport) -> String {
     match report.against {
         MarginKind::Effort => format!("greatest effort{of}"),
         MarginKind::NormalForce => format!("greatest normal force{of}"),
+        MarginKind::Pressure => format!("greatest bearing pressure{of}"),
         MarginKind::Efficiency => "least efficiency".to_owned(),
         MarginKind::Locking | MarginKind::SelfLocking | MarginKind::Hold => "margin".to_owned(),
     }
@@ -215,7 +219,7 @@ fn wish(report: &SizeReport) -> String {
         MarginKind::Locking => format!("For a margin of {margin} against locking"),
         MarginKind::SelfLocking => format!("For a margin of {margin} against self-locking under {load}"),
         MarginKind::Hold => format!("To hold any {load} with a margin of {margin}"),
-        MarginKind::Effort | MarginKind::NormalForce => {
+        MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure => {
             format!("For a {} of {} at most", subject(report), level(report, report.margin))
         }
         MarginKind::Efficiency => format!("For an efficiency of {margin} at least"),

@@ -310,6 +310,7 @@ impl<'a> Answer<'a> {
                 friction_force: friction[k].total() + 0.0,
                 sliding_velocity: self.equations.contacts[k].sliding_velocity,
                 couple: self.couple(contact.joint, unknowns),
+                pressure: contact.pressure(state.normal_force[k]),
                 preload_share: state.shares[k],
             }
         };

@@ -30,13 +30,19 @@ impl Unit {
         Self::new(name, name, [1.0, 1.0])
     }
 
-    /// The unit behind the only number of a text: "mm" of "400 mm"; nothing if there is none, or more than a
-    /// number.
-    pub(crate) fn behind(text: &str) -> Option<Self> {
+    /// The only number of a text in SI units, and the unit behind it: 0.4 and "mm" of "400 mm"; nothing if
+    /// there is none, or more than a number.
+    ///
+    /// ```
+    /// let (pressure, unit) = slideway::units::Unit::of_quantity("2 N/mm^2").expect("a quantity");
+    /// assert_eq!((pressure, unit.si()), (2e6, "Pa"));
+    /// ```
+    pub fn of_quantity(text: &str) -> Option<(f64, Self)> {
         let text = text.trim();
-        let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
-        let number = ends.map(|end| &text[..end]).find(|start| start.parse::<f64>().is_ok())?;
-        Self::of_text(&text[number.len()..])
+        let mut ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
+        let (end, number) = ends.find_map(|end| Some((end, text[..end].parse::<f64>().ok()?)))?;
+        let unit = Self::of_text(&text[end..])?;
+        Some((number * unit.numerator / unit.denominator, unit))
     }
 
     /// The unit of a text such as "mm" or "N m"; nothing if it is none.

@@ -6,7 +6,7 @@ use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::Verdict;
-use slideway::size::{Against, MetEnd, SampleKind, SizeOptions, SizeReport, size};
+use slideway::size::{Against, MarginKind, MetEnd, SampleKind, SizeOptions, SizeReport, size};
 use slideway::standstill::{HoldOptions, LoadReport, hold};
 
 const MARGINS: [f64; 3] = [1.0, 1.5, 2.0];
@@ -391,6 +391,82 @@ fn a_drawer_is_sized_by_effort_normal_force_and_efficiency() {
     let options = SizeOptions::new(Vary::usual("L"), 30.0).against(effort(None)).both_directions(true);
     let (found, _) = only_end(&size(&drawer, &options).unwrap());
     assert_close(found, 0.54, 0.0, 1e-12);
+}
+
+/// The drawer with a parameter w, the width of its pads: 20 mm long at the inner end, 10 mm at the mouth.
+fn drawer_with_pads() -> Model {
+    let text = slideway::gallery::find("drawer").expect("in the gallery").text;
+    let pads = [
+        (r#"m = "5 kg""#, "w = \"15 mm\"\nm = \"5 kg\""),
+        (r#"mu = "mu""#, "mu = \"mu\"\npad = { length = \"20 mm\", width = \"w\" }"),
+        (r#"carried_by = "guide""#, r#"carried_by = "guide", pad = { length = "10 mm", width = "w" }"#),
+    ];
+    let text = pads.iter().fold(text.to_owned(), |text, (old, new)| {
+        assert_eq!(text.matches(old).count(), 1, "{old}");
+        text.replace(old, new)
+    });
+    Model::parse(&text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// p = N / (l w) with N = 6 N m / (L - 0.18 m) at both ends, as above; the shorter pad decides.
+#[test]
+fn a_drawer_is_sized_by_bearing_pressure() {
+    let drawer = drawer_with_pads();
+    let pressure = |contact: Option<&str>| Against::Pressure { contact: contact.map(str::to_owned) };
+    let force = 6.0 / 0.22;
+    let table = [
+        // At 0.2 MPa a pad of 10 mm by 15 mm carries 30 N, the other one 60 N.
+        ("L", None, 0.18 + 6.0 / 30.0),
+        ("L", Some("guide.rear"), 0.18 + 6.0 / 30.0),
+        ("L", Some("guide.front"), 0.18 + 6.0 / 60.0),
+        ("w", None, force / (0.01 * 2e5)),
+        ("w", Some("guide.front"), force / (0.02 * 2e5)),
+    ];
+    for (vary, contact, expected) in table {
+        let report = sized(&drawer, vary, 2e5, pressure(contact));
+        let (found, above) = only_end(&report);
+        assert_close(found, expected, 0.0, 1e-12);
+        assert!(above, "a longer guide and a wider pad are better");
+        let length = if contact == Some("guide.front") { 0.02 } else { 0.01 };
+        assert_close(report.present.margin.unwrap(), force / (length * 0.015), 0.0, 1e-12);
+        assert_eq!((report.against, report.unit), (MarginKind::Pressure, "Pa"));
+    }
+    let limits =
+        limits(&drawer, &LimitsOptions::new("w=5 mm..30 mm".parse().expect("a range"))).expect("sound");
+    assert_eq!(limits.counts.len(), 1, "forces do not depend on pads: {:#?}", limits.counts);
+}
+
+#[test]
+fn limits_of_pressures_are_told_in_the_unit_in_which_they_were_typed() {
+    use slideway::report::{Report, Style};
+    use slideway::units::Unit;
+    let options = SizeOptions::new(Vary::usual("L"), 2e5)
+        .against(Against::Pressure { contact: None })
+        .typed_in(Unit::of_text("N/mm^2"));
+    let text = size(&drawer_with_pads(), &options).expect("sound").text(Style::Plain);
+    for sentence in [
+        "For a greatest bearing pressure of 0.2 N/mm^2 at most: L at least 0.38 m (examined up to 2 m).",
+        "In the model L = 0.4 m: the greatest bearing pressure is 0.18182 N/mm^2; the limit is kept.",
+        "Where the greatest bearing pressure is at most 0.2 N/mm^2",
+    ] {
+        assert!(text.contains(sentence), "{sentence}\n{text}");
+    }
+}
+
+/// Whoever asks for the pressure of a contact without a pad is told where to add one.
+#[test]
+fn a_pressure_needs_a_pad() {
+    let asked = |model: &Model, contact: Option<&str>| {
+        let against = Against::Pressure { contact: contact.map(str::to_owned) };
+        let options = SizeOptions::new(Vary::usual("L"), 1e6).against(against);
+        size(model, &options).unwrap_err().sorted()[0].kind.clone()
+    };
+    let (none, one) = (asked(&model("drawer"), None), asked(&model("drawer"), Some("guide.rear")));
+    assert_eq!(none.to_string(), "no contact has a `pad`, so there is no bearing pressure");
+    assert_eq!(one.to_string(), "the contact guide.rear has no `pad`, so there is no bearing pressure");
+    assert!(none.hint().expect("a hint").contains("[joints.guide]"), "{none:?}");
+    let unknown = asked(&drawer_with_pads(), Some("guide.middle"));
+    assert!(matches!(unknown, FaultKind::UnknownName { .. }), "{unknown}");
 }
 
 #[test]

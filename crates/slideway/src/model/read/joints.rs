@@ -1,19 +1,19 @@
 //! Hinges and the three sliding joints.
 
 use super::super::file::{
-    BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PinInSlotTable, PreloadLine,
-    StopAtEndTable, StopTable,
+    BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PadTable, PinInSlotTable,
+    PreloadLine, StopAtEndTable, StopTable,
 };
 use super::super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
 use super::super::sections::JointContents;
-use super::super::{Contact, Joint, JointKind, Slider, SliderKind, Stop};
+use super::super::{Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
 use crate::ids::FormulaId;
 use std::sync::Arc;
 
-/// The friction of one contact as it is written.
+/// The friction of one contact, and its other properties, as they are written.
 #[derive(Clone, Copy, Default)]
 struct WrittenFriction<'a> {
     mu: Option<&'a PerSide>,
@@ -21,10 +21,13 @@ struct WrittenFriction<'a> {
     preload: Option<&'a PerSide>,
     preload_line: Option<PreloadLine>,
     stiffness: Option<&'a Quantity>,
+    pad: Option<&'a PadTable>,
+    /// Whether the pad may be as long as the joint.
+    has_face: bool,
     carried_by: Option<CarriedBy>,
 }
 
-/// The friction of one contact as it was read.
+/// The friction of one contact, and its other properties, as they were read.
 #[derive(Clone, Copy, Default)]
 struct ReadFriction {
     mu: Option<[FormulaId; 2]>,
@@ -32,6 +35,7 @@ struct ReadFriction {
     preload: Option<[FormulaId; 2]>,
     preload_line: Option<PreloadLine>,
     stiffness: Option<FormulaId>,
+    pad: Option<Pad>,
     carried_by: Option<CarriedBy>,
 }
 
@@ -44,6 +48,7 @@ impl ReadFriction {
             preload: self.preload.or(joint.preload),
             preload_line: self.preload_line.or(joint.preload_line),
             stiffness: self.stiffness.or(joint.stiffness),
+            pad: self.pad.or(joint.pad),
             carried_by: self.carried_by,
         }
     }
@@ -58,6 +63,8 @@ impl<'a> WrittenFriction<'a> {
             preload: end.preload.as_ref(),
             preload_line: end.preload_line,
             stiffness: end.stiffness.as_ref(),
+            pad: end.pad.as_ref(),
+            has_face: false,
             carried_by: end.carried_by,
         }
     }
@@ -117,6 +124,8 @@ impl<'a> From<&'a BlockSliderTable> for WrittenSlider<'a> {
                 preload: table.preload.as_ref(),
                 preload_line: table.preload_line,
                 stiffness: table.stiffness.as_ref(),
+                pad: table.pad.as_ref(),
+                has_face: false,
                 carried_by: None,
             },
         }
@@ -142,6 +151,8 @@ impl<'a> From<&'a GuidedSliderTable> for WrittenSlider<'a> {
                 preload: table.preload.as_ref(),
                 preload_line: table.preload_line,
                 stiffness: table.stiffness.as_ref(),
+                pad: table.pad.as_ref(),
+                has_face: true,
                 carried_by: None,
             },
         }
@@ -166,6 +177,7 @@ impl<'a> From<&'a PinInSlotTable> for WrittenSlider<'a> {
                 mu_static: table.mu_static.as_ref(),
                 preload: table.preload.as_ref(),
                 stiffness: table.stiffness.as_ref(),
+                pad: table.pad.as_ref(),
                 ..WrittenFriction::default()
             },
         }
@@ -198,18 +210,18 @@ impl Reader<'_> {
 
     fn block_slider(&mut self, table: &BlockSliderTable, name: &str, span: &Span) -> JointKind {
         let written = WrittenSlider::from(table);
-        let both = self.friction(written.friction, name);
+        let both = self.friction(written.friction, name, span);
         let contacts =
             [("front", table.front.as_ref()), ("rear", table.rear.as_ref())].map(|(end, table)| {
                 let contact = format!("{name}.{end}");
-                let friction = self.friction(WrittenFriction::at_end(table), &contact).or(both);
+                let friction = self.friction(WrittenFriction::at_end(table), &contact, span).or(both);
                 self.contact(friction, contact, name, span)
             });
         self.slider(&written, Vec::from(contacts), name, span)
     }
 
     fn slider_of_one_contact(&mut self, written: &WrittenSlider<'_>, name: &str, span: &Span) -> JointKind {
-        let friction = self.friction(written.friction, name);
+        let friction = self.friction(written.friction, name, span);
         let contact = self.contact(friction, name.to_owned(), name, span);
         self.slider(written, vec![contact], name, span)
     }
@@ -319,7 +331,7 @@ impl Reader<'_> {
         }
     }
 
-    fn friction(&mut self, written: WrittenFriction<'_>, name: &str) -> ReadFriction {
+    fn friction(&mut self, written: WrittenFriction<'_>, name: &str, span: &Span) -> ReadFriction {
         let mut sides = |value: Option<&PerSide>, wanted: &dyn Fn() -> Wanted| {
             value.map(|value| self.sides(value, &|| wanted().not_negative()))
         };
@@ -333,8 +345,25 @@ impl Reader<'_> {
             let what = format!("the stiffness of the guide at {name}");
             self.formula(stiffness, Wanted::constant(what, Dimension::STIFFNESS).positive())
         });
-        let WrittenFriction { preload_line, carried_by, .. } = written;
-        ReadFriction { mu, mu_static, preload, preload_line, stiffness, carried_by }
+        let WrittenFriction { preload_line, carried_by, has_face, .. } = written;
+        let pad = written.pad.map(|pad| self.pad(pad, has_face, name, span));
+        ReadFriction { mu, mu_static, preload, preload_line, stiffness, pad, carried_by }
+    }
+
+    fn pad(&mut self, pad: &PadTable, has_face: bool, name: &str, span: &Span) -> Pad {
+        if pad.length.is_none() && !has_face {
+            self.fault(
+                FaultKind::MissingKey { key: "length".into(), table: format!("joints.{name}.pad") },
+                span,
+            );
+        }
+        let of = |what: &str| {
+            Wanted::constant(format!("the {what} of the pad of {name}"), Dimension::LENGTH).positive()
+        };
+        Pad {
+            length: pad.length.as_ref().map(|length| self.formula(length, of("length"))),
+            width: self.formula(&pad.width, of("width")),
+        }
     }
 
     fn contact(&mut self, friction: ReadFriction, name: String, joint: &str, span: &Span) -> Contact {
@@ -351,6 +380,7 @@ impl Reader<'_> {
             preload: friction.preload.map_or([None; 2], |preload| preload.map(Some)),
             preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
             stiffness: friction.stiffness,
+            pad: friction.pad,
         }
     }
 
