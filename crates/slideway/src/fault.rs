@@ -421,6 +421,8 @@ pub enum FaultKind {
     LoadNeeded { known: Vec<String> },
     #[error("the load {load} plays no part in a margin against locking")]
     LoadUnused { load: String },
+    #[error("the limit is in {typed}, which does not fit the drives")]
+    LimitUnit { typed: String, wanted: &'static str },
     #[error("whether {load} is held could not be decided")]
     UndecidedAtRest { load: String },
     #[error("the limits of {modes} contact modes could not be computed")]
@@ -500,6 +502,10 @@ impl FaultKind {
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),
+            Self::LimitUnit { wanted: "", .. } => {
+                Some("some drives are forces, others torques: name one with --load".to_owned())
+            }
+            Self::LimitUnit { wanted, .. } => Some(format!("give it in {wanted}, or a multiple of it")),
             Self::NoDrives { coordinate } => Some(drive_hint(coordinate.as_deref().unwrap_or("q"))),
             Self::NoPad { joint, .. } => Some(format!(
                 "add the area in contact to the table [joints.{}]: `pad = {{ length = \"20 mm\", width = \"15 mm\" }}`",

@@ -89,6 +89,16 @@ fn friction_above_two_is_rare() {
     assert_eq!(names(&with("2.001")), ["great_friction"]);
 }
 
+/// Pushed at constant speed against nothing, every contact force is zero: it would seem never to jam.
+#[test]
+fn a_drive_against_nothing_says_nothing_about_jamming() {
+    assert_eq!(names(&of_text(&drawer().replace("Q = \"20 N\"", "Q = \"0 N\""))), ["nothing_presses"]);
+    assert_eq!(of_text(&drawer()), []);
+    // A preload rubs, too.
+    let preloaded = drawer().replace("mu = \"mu\"", "mu = \"mu\"\npreload = \"1 N\"");
+    assert_eq!(of_text(&preloaded.replace("Q = \"20 N\"", "Q = \"0 N\"")), []);
+}
+
 #[test]
 fn a_drawing_with_a_gap_is_told_with_its_joint() {
     // The crank pin of the rod is drawn `gap` beside that of the crank.

@@ -1,6 +1,6 @@
 //! `slideway size`
 
-use super::values::{Pressure, positive, pressure};
+use super::values::{self, efficiency, effort, force, positive, pressure};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind, Faults};
@@ -15,9 +15,9 @@ Examples:
   slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
   slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
-  slideway size drawer.toml --vary L --max-effort 30           how long for a push of 30 N
-  slideway size drawer.toml --vary L --min-efficiency 0.7
-  slideway size drawer.toml --vary L --max-normal-force 25
+  slideway size drawer.toml --vary L --max-effort 30N          how long for a push of 30 N
+  slideway size drawer.toml --vary L --min-efficiency 70%
+  slideway size drawer.toml --vary L --max-normal-force 25N
 
 The margin against locking is the factor by which all kinetic friction may grow before there is no
 solution. At rest it concerns a load, or the effort of a drive. Against self-locking it is the
@@ -94,36 +94,42 @@ struct Limit {
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     margin: Option<f64>,
 
-    /// Instead of a margin: no solution may need more effort of a drive than this (N or N m).
-    #[arg(long, value_name = "EFFORT", value_parser = positive, conflicts_with = "against")]
-    max_effort: Option<f64>,
+    /// Instead of a margin: no solution may need more effort of a drive than this, such as "30 N".
+    #[arg(long, value_name = "EFFORT", value_parser = effort, conflicts_with = "against")]
+    max_effort: Option<values::Limit>,
 
-    /// Instead of a margin: no solution may have a greater normal force than this (N).
-    #[arg(long, value_name = "N", value_parser = positive, conflicts_with = "against")]
-    max_normal_force: Option<f64>,
+    /// Instead of a margin: no solution may have a greater normal force than this, such as "2 kN".
+    #[arg(long, value_name = "FORCE", value_parser = force, conflicts_with = "against")]
+    max_normal_force: Option<values::Limit>,
 
     /// Instead of a margin: no solution may have a greater bearing pressure than this, such as "2 MPa" or
     /// "2 N/mm^2": normal force over length times width of the contact's `pad` in the model.
     #[arg(long, value_name = "PRESSURE", value_parser = pressure, conflicts_with = "against")]
-    max_pressure: Option<Pressure>,
+    max_pressure: Option<values::Limit>,
 
-    /// Instead of a margin: no solution may have a lower efficiency than this (0.7 is 70 %).
-    #[arg(long, value_name = "RATIO", value_parser = positive, conflicts_with = "against")]
-    min_efficiency: Option<f64>,
+    /// Instead of a margin: no solution may have a lower efficiency than this, such as 0.7 or "70 %".
+    #[arg(long, value_name = "RATIO", value_parser = efficiency, conflicts_with = "against")]
+    min_efficiency: Option<values::Limit>,
+}
+
+impl Limit {
+    /// The limit in place of a margin.
+    fn of_answers(&self) -> Option<&values::Limit> {
+        let Self { max_effort, max_normal_force, max_pressure, min_efficiency, .. } = self;
+        [max_effort, max_normal_force, max_pressure, min_efficiency].into_iter().find_map(Option::as_ref)
+    }
 }
 
 impl SizeArguments {
     /// The wanted margin, or the limit that is to be kept.
     pub(crate) fn wanted(&self) -> f64 {
-        let Limit { margin, max_effort, max_normal_force, ref max_pressure, min_efficiency } = self.limit;
-        let max_pressure = max_pressure.as_ref().map(|pressure| pressure.value);
-        let limit = max_effort.or(max_normal_force).or(max_pressure).or(min_efficiency);
-        margin.or(limit).unwrap_or_default()
+        let limit = self.limit.of_answers().map(|limit| limit.value);
+        self.limit.margin.or(limit).unwrap_or_default()
     }
 
     /// The unit in which the limit was typed, if it has one.
     pub(crate) fn typed_in(&self) -> Option<Unit> {
-        self.limit.max_pressure.as_ref().map(|pressure| pressure.unit.clone())
+        self.limit.of_answers().and_then(|limit| limit.unit.clone())
     }
 
     /// Against what, with the load, drive or contact that it concerns.

@@ -11,21 +11,51 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A pressure and the unit in which it was typed.
+/// A limit in SI units, and the unit in which it was typed, if it has one.
 #[derive(Debug, Clone)]
-pub(super) struct Pressure {
-    /// In Pa.
+pub(super) struct Limit {
     pub(super) value: f64,
-    pub(super) unit: Unit,
+    pub(super) unit: Option<Unit>,
 }
 
-/// A positive pressure with its unit, such as 2 MPa or 2 N/mm^2.
-pub(super) fn pressure(text: &str) -> Result<Pressure, String> {
-    match Unit::of_quantity(text) {
-        Some((value, unit)) if unit.si() == "Pa" && value > 0.0 && value.is_finite() => {
-            Ok(Pressure { value, unit })
-        }
-        _ => Err("it must be a positive pressure with its unit, such as `2 MPa` or `2 N/mm^2`".to_owned()),
+/// A positive quantity with one of these SI units, or multiples of them; a bare number is in SI units.
+fn limit(text: &str, si: &[&str], wanted: &str) -> Result<Limit, String> {
+    let bare = || text.parse::<f64>().ok().map(|value| Limit { value, unit: None });
+    let with_unit = || Unit::of_quantity(text).map(|(value, unit)| Limit { value, unit: Some(unit) });
+    let is_right = |limit: &Limit| {
+        let has_unit = limit.unit.as_ref().is_none_or(|unit| si.contains(&unit.si()));
+        has_unit && limit.value > 0.0 && limit.value.is_finite()
+    };
+    bare().or_else(with_unit).filter(is_right).ok_or_else(|| format!("it must be {wanted}"))
+}
+
+/// An effort, such as 30 N or 2 N m.
+pub(super) fn effort(text: &str) -> Result<Limit, String> {
+    limit(text, &["N", "N m"], "positive, such as `30 N` or `2 N m`")
+}
+
+/// A force, such as 2 kN.
+pub(super) fn force(text: &str) -> Result<Limit, String> {
+    limit(text, &["N"], "a positive force, such as `2 kN`")
+}
+
+/// A pressure, such as 2 MPa or 2 N/mm^2: without a unit nobody means Pa.
+pub(super) fn pressure(text: &str) -> Result<Limit, String> {
+    let wanted = "a positive pressure with its unit, such as `2 MPa` or `2 N/mm^2`";
+    limit(text, &["Pa"], wanted)
+        .and_then(|limit| if limit.unit.is_some() { Ok(limit) } else { Err(format!("it must be {wanted}")) })
+}
+
+/// An efficiency, such as 0.7 or 70 %.
+pub(super) fn efficiency(text: &str) -> Result<Limit, String> {
+    let wanted = "above 0 and at most 1, such as `0.7` or `70 %`";
+    let ratio = match text.trim_end().strip_suffix('%') {
+        Some(percent) => percent.trim_end().parse::<f64>().map(|percent| percent / 100.0),
+        None => text.parse(),
+    };
+    match ratio {
+        Ok(value) if value > 0.0 && value <= 1.0 => Ok(Limit { value, unit: None }),
+        _ => Err(format!("it must be {wanted}")),
     }
 }
 
@@ -54,6 +84,28 @@ mod tests {
         }
         for text in ["2", "2 N", "-1 MPa", "0 Pa", "MPa", "1e400 Pa", "nan Pa", ""] {
             assert!(pressure(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn efforts_and_forces_may_have_units() {
+        for (text, newtons) in [("30", 30.0), ("30 N", 30.0), ("8.3kN", 8300.0)] {
+            assert_eq!(force(text).map(|limit| limit.value), Ok(newtons), "{text}");
+            assert_eq!(effort(text).map(|limit| limit.value), Ok(newtons), "{text}");
+        }
+        assert_eq!(effort("2 N m").map(|limit| limit.value), Ok(2.0));
+        for text in ["2 N m", "2 mm", "-1 N", "0", "nan", "inf", ""] {
+            assert!(force(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn efficiencies_are_at_most_one() {
+        for (text, ratio) in [("0.7", 0.7), ("70 %", 0.7), ("70%", 0.7), ("1", 1.0)] {
+            assert_eq!(efficiency(text).map(|limit| limit.value), Ok(ratio), "{text}");
+        }
+        for text in ["95", "101 %", "0", "-0.5", "nan", "%", ""] {
+            assert!(efficiency(text).is_err(), "{text}");
         }
     }
 

@@ -21,6 +21,8 @@ pub enum Doubt {
     FarFromDrawing { body: String, distance: String, sizes: String },
     #[error("{what} is {value}: dry friction rarely exceeds 1")]
     GreatFriction { what: String, value: String },
+    #[error("nothing presses any guide: all contact forces are zero, and friction has nothing to act on")]
+    NothingPresses,
 }
 
 impl Doubt {
@@ -33,6 +35,7 @@ impl Doubt {
             Self::GapClosed { .. } => "gap_closed",
             Self::FarFromDrawing { .. } => "far_from_drawing",
             Self::GreatFriction { .. } => "great_friction",
+            Self::NothingPresses => "nothing_presses",
         }
     }
 
@@ -52,6 +55,11 @@ impl Doubt {
             Self::FarFromDrawing { .. } => "look for a wrong or missing unit in the coordinates".to_owned(),
             Self::GreatFriction { .. } => {
                 "if a percentage is meant, write its sign: `30 %` is 0.3".to_owned()
+            }
+            Self::NothingPresses => {
+                "whether it jams can only be told under a load: add the resistance, the weight \
+                or the acceleration that the drive works against"
+                    .to_owned()
             }
         }
     }

@@ -189,6 +189,11 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     if let Against::Pressure { contact } = &options.against {
         pad_of(model, contact.as_deref())?;
     }
+    let unit = report::unit(model, &options.against);
+    if let Some(typed) = options.typed_in.as_ref().filter(|typed| typed.si() != unit) {
+        let typed = typed.name().to_owned();
+        return Err(Fault::general(FaultKind::LimitUnit { typed, wanted: unit }).into());
+    }
     let question = MarginQuestion {
         varied: &varied,
         reversed: opposite.as_ref(),

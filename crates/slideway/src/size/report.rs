@@ -226,7 +226,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
 }
 
 /// The unit of what has a limit: of efforts that of the drive, or of all drives if they have one.
-fn unit(model: &Model, against: &Against) -> &'static str {
+pub(super) fn unit(model: &Model, against: &Against) -> &'static str {
     let of_drive = |drive: &crate::model::Drive| match drive.effort {
         Effort::Force { .. } => "N",
         Effort::Torque { .. } => "N m",

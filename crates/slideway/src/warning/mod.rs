@@ -14,13 +14,14 @@
 //! # Ok::<(), slideway::Faults>(())
 //! ```
 
-use crate::configuration::{Configuration, widest_gap_of_drawing};
+use crate::configuration::{Configuration, Follower, widest_gap_of_drawing};
 use crate::expression::{Dimension, Symbol};
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::FormulaId;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Contact, Mechanism};
 use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
 use crate::report::number::number;
+use crate::solve::Stages;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -39,8 +40,8 @@ const GREAT_FRICTION: f64 = 2.0;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Warning {
-    /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing" or
-    /// "great_friction".
+    /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
+    /// "great_friction" or "nothing_presses".
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
     pub place: Option<WarningPlace>,
@@ -90,8 +91,22 @@ pub fn warnings(model: &Model) -> Faults {
         found.extend(great_friction(model));
         found.extend(gap_closed(&mechanism));
         found.extend(far_from_drawing(&mechanism));
+        found.extend(nothing_presses(mechanism));
     }
     found
+}
+
+/// A driven mechanism without any contact force: whatever the friction, it seems to move. The forces are exactly
+/// zero, as nothing on the right-hand side of the equations is not.
+fn nothing_presses(mechanism: Mechanism) -> Option<Fault> {
+    let is_rough = |contact: &Contact| contact.mu != [0.0; 2];
+    if mechanism.drives.is_empty() || !mechanism.contacts.iter().any(is_rough) {
+        return None;
+    }
+    let stages = Stages::following(&mut Follower::default(), mechanism).ok()?;
+    let presses = stages.influence.normal_forces().iter().any(|force| *force != 0.0);
+    let rubs = stages.mechanism.contacts.iter().any(|contact| contact.preload != [0.0; 2]);
+    (!presses && !rubs).then(|| Fault::general(FaultKind::Doubt(Doubt::NothingPresses)))
 }
 
 fn warning(doubt: Doubt, place: Place) -> Fault {
