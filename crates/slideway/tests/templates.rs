@@ -118,6 +118,12 @@ fn carriage() {
         assert_locks_at("carriage", length / (2.0 * offset), &values);
     }
     // The rule of 2 : 1.
+    // Its effort stays finite, so that drive says it in words: 0.25 / 0.2 = 1.25 times.
+    let model = model("carriage", &[("L", 0.06), ("a", 0.12), ("mu", 0.2)]);
+    let report = drive(&model, &DriveOptions::default()).unwrap();
+    let told =
+        "Moving as in the model: beyond 1.25 times the friction no effort moves it; none grows before.";
+    assert!(report.conclusion.iter().any(|sentence| sentence == told), "{:?}", report.conclusion);
     assert_locks_at("carriage", 0.25, &[("L", 0.06), ("a", 0.12)]);
 }
 

@@ -93,7 +93,7 @@ fn friction_above_two_is_rare() {
 #[test]
 fn a_drive_against_nothing_says_nothing_about_jamming() {
     assert_eq!(names(&of_text(&drawer().replace("Q = \"20 N\"", "Q = \"0 N\""))), ["nothing_presses"]);
-    assert_eq!(of_text(&drawer()), []);
+    assert_eq!(of_text(drawer()), []);
     // A preload rubs, too.
     let preloaded = drawer().replace("mu = \"mu\"", "mu = \"mu\"\npreload = \"1 N\"");
     assert_eq!(of_text(&preloaded.replace("Q = \"20 N\"", "Q = \"0 N\"")), []);

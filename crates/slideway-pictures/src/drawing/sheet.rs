@@ -146,7 +146,7 @@ impl Drawn<'_> {
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
         let lines = match self.report {
             Some(report) if report.status == Status::None => {
-                vec!["No solution: friction locks it.".to_owned()]
+                vec![report.verdict_in_words()]
             }
             _ => Vec::new(),
         };

@@ -172,7 +172,7 @@ impl Builder<'_> {
                 let after = runs.peek().map(|next| &next[0]).filter(|row| grown(row));
                 let from = before.filter(|row| grown(row)).map_or(run[0].at, |row| row.at);
                 let to = after.map_or(run[run.len() - 1].at, |row| row.at);
-                zones.push(zone(from, to, Hatching::Rising, "excluded: no solution, friction locks it"));
+                zones.push(zone(from, to, Hatching::Rising, "excluded: no solution"));
             }
             before = run.last();
         }

@@ -234,6 +234,7 @@ fn marked(modes: &[ModeLimits], [from, to]: [f64; 2], scale: f64) -> Vec<MarkedV
             Some((at?, cause_in_words(cause, contacts)?, cause == ModeEndCause::Locking))
         })
         .collect();
+    found.extend(modes.iter().flat_map(turns));
     found.sort_by(|one, other| one.0.total_cmp(&other.0));
     let mut marked: Vec<(MarkedValue, Vec<String>)> = Vec::new();
     for (at, what, locks) in found {
@@ -253,6 +254,14 @@ fn marked(modes: &[ModeLimits], [from, to]: [f64; 2], scale: f64) -> Vec<MarkedV
         MarkedValue { at, label: format!("{number}: {}", words.join("; ")), asymptote: value.asymptote }
     };
     marked.into_iter().map(labelled).collect()
+}
+
+/// Where motion begins to slow down or to speed up within a mode.
+fn turns(mode: &ModeLimits) -> Vec<(f64, String, bool)> {
+    let pairs = mode.speeds.windows(2).filter(|pair| pair[0].coordinate == pair[1].coordinate);
+    let told = pairs
+        .map(|pair| (pair[1].from, format!("{} {}", pair[1].coordinate, pair[1].speed.in_words()), false));
+    told.collect()
 }
 
 fn cause_in_words(cause: ModeEndCause, contacts: &[String]) -> Option<String> {
@@ -288,9 +297,7 @@ fn zones(
         hatching,
         meaning: meaning.to_owned(),
     };
-    let locked = locked.map(|count| {
-        zone([count.from, count.to], Hatching::Rising, "excluded: no solution, friction locks it")
-    });
+    let locked = locked.map(|count| zone([count.from, count.to], Hatching::Rising, "excluded: no solution"));
     let without = without.iter().map(|range| {
         zone([range.from, range.to], Hatching::Falling, "excluded: cannot be assembled or solved")
     });

@@ -5,7 +5,7 @@ use super::figure::{Hatching, Stroke, Zone, headline};
 use super::limits::in_words;
 use super::scale::{extent, range_that_shows};
 use slideway::report::precise;
-use slideway::size::{MarginKind, MetEnd, SampleKind, SizeReport};
+use slideway::size::{MarginKind, MetEnd, Sample, SampleKind, SizeReport};
 
 /// Margins are shown up to so many times the wanted one, or that of the model.
 const SHOWN: f64 = 2.0;
@@ -55,7 +55,7 @@ pub fn size_figure(report: &SizeReport) -> Figure {
             range: range_of(report, &curves),
             ..Axis::default()
         },
-        zones: without.collect(),
+        zones: without.chain(unsolved(report, scale)).collect(),
         marked: marked(report, scale),
         bands: met.collect(),
         points: model.into_iter().collect(),
@@ -131,6 +131,22 @@ fn margins(report: &SizeReport, scale: f64) -> Vec<Curve> {
         finite.collect::<Vec<[f64; 2]>>()
     });
     points.filter(|points| points.len() > 1).map(curve).collect()
+}
+
+/// Where values that were tried have no solution.
+fn unsolved(report: &SizeReport, scale: f64) -> Vec<Zone> {
+    let is_unsolved = |sample: &Sample| sample.is == SampleKind::NoSolution;
+    let runs = report.tried.chunk_by(|one, other| is_unsolved(one) == is_unsolved(other));
+    let zone = |run: &[Sample]| {
+        let [first, .., last] = run else { return None };
+        is_unsolved(first).then(|| Zone {
+            from: first.at / scale,
+            to: last.at / scale,
+            hatching: Hatching::Rising,
+            meaning: "excluded: no solution".to_owned(),
+        })
+    };
+    runs.filter_map(zone).collect()
 }
 
 /// Margins far beyond the wanted one are not shown.

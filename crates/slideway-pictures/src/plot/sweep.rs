@@ -375,7 +375,7 @@ impl SweepPlot {
         let to = mark(run.last.checked_add(1)).map_or(run.to, |mark| mark.at);
         let scale = self.line.shown_in.scale();
         let meaning = match run.hatching {
-            Hatching::Rising => "excluded: no solution, friction locks it",
+            Hatching::Rising => "excluded: no solution",
             Hatching::Falling | Hatching::Dotted => "excluded: cannot be assembled or solved",
         };
         let wide = to - from > NARROW * (self.line.range[1] - self.line.range[0]);

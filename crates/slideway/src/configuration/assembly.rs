@@ -18,6 +18,9 @@ const CLOSED: f64 = 1e-12;
 const FREE: f64 = 10.0;
 /// ... and this multiple of the greatest one, where everything else is.
 const LEAST: f64 = 1e-12;
+/// A displacement is at an end of its travel up to this part of the mechanism's size, since positions are closed
+/// only up to rounding; an overlap has vanished below this part of the slider's length.
+const AT_END: f64 = 1e-9;
 
 /// The poses of the drawing with its joints closed: residuals are led to zero along a straight way.
 pub(super) fn closed_drawing(mechanism: &Mechanism) -> Result<Vec<Pose>, Faults> {
@@ -241,12 +244,13 @@ pub(super) fn singular_state(mechanism: &Mechanism, poses: &[Pose]) -> Fault {
 pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
     let mut faults = Faults::default();
     let length = || mechanism.units.of("m");
+    let at_end = AT_END * mechanism.size;
     for joint in &mechanism.joints {
         let JointKind::Slider(slider) = &joint.kind else { continue };
         let place = &joint.place;
         let displacement = configuration.slide(mechanism, slider).displacement;
         if let Some(overlap) = configuration.overlap(mechanism, slider)
-            && overlap <= 1e-9 * slider.length
+            && overlap <= AT_END * slider.length
         {
             let (joint, unit) = (joint.name.to_string(), length());
             let kind = FaultKind::OverlapVanished { joint, overlap, displacement, unit };
@@ -254,7 +258,7 @@ pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuratio
         }
         let [lowest, highest] = slider.limits();
         if let Some([least, greatest]) = slider.travel
-            && !(lowest..=highest).contains(&displacement)
+            && !(lowest - at_end..=highest + at_end).contains(&displacement)
         {
             let (joint, unit) = (joint.name.to_string(), length());
             let kind = FaultKind::TravelExceeded { joint, displacement, least, greatest, unit };

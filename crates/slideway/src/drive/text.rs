@@ -27,8 +27,8 @@ impl Report for DriveReport {
     }
 }
 
-/// One sentence for each direction, and one for each factor of friction at which its efforts grow without
-/// bound.
+/// One sentence for each direction, one for each factor of friction at which its efforts grow without bound, and
+/// one for the factor beyond which it locks, if no effort grows there.
 pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
     let mut sentences = Vec::new();
     for direction in &report.directions {
@@ -42,8 +42,23 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
                 without_bound(report, blow_up)
             )
         }));
+        // A jam that no growing effort announces.
+        let is_announced =
+            |factor: f64| direction.blow_ups.iter().flatten().any(|blow_up| near(blow_up.at, factor));
+        sentences.extend(direction.no_solution.filter(|&factor| !is_announced(factor)).map(|factor| {
+            format!(
+                "{}: beyond {} times the friction no effort moves it; none grows before.",
+                moving(direction.direction),
+                precise(factor)
+            )
+        }));
     }
     sentences
+}
+
+/// Whether two factors are one, as the text tells them.
+fn near(one: f64, other: f64) -> bool {
+    precise(one) == precise(other)
 }
 
 fn moving(direction: Sense) -> &'static str {

@@ -174,7 +174,11 @@ impl Words<'_> {
         let demands = self.places.iter().filter_map(|place| Some(place.margin?.demand(1.0)));
         let [least, greatest] =
             demands.fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
-        (greatest - least <= SAME * least || least == f64::INFINITY && greatest == f64::INFINITY)
+        let is_same = greatest >= least && greatest - least <= SAME * least;
+        // A limit that no value keeps since there is no solution says nothing of how it depends.
+        let never_told =
+            least == f64::INFINITY && greatest == f64::INFINITY && !self.report.against.is_limit();
+        (is_same || never_told)
             .then(|| format!("The {} does not depend on {}.", subject(self.report), self.report.vary.name))
     }
 }

@@ -175,6 +175,20 @@ const RAIL: &str = r#"
     slide = "rail"
 "#;
 
+/// Whatever the direction of the guide, rounding takes a block at an end of its travel out of it nowhere, but a
+/// millionth of its way does.
+#[test]
+fn an_end_of_the_travel_belongs_to_it() {
+    for degrees in 1..80 {
+        let text = RAIL.replace("30 deg", &format!("{degrees} deg"));
+        let at = |place: &str| of_text(&text, &Settings::default().position("s", place)).map(|_| ());
+        for end in ["-0.1", "0.3"] {
+            assert_eq!(at(end).map_err(|faults| faults.to_string()), Ok(()), "{end} m, {degrees} deg");
+        }
+        assert!(at("-0.1000003").is_err() && at("0.3000003").is_err(), "{degrees} deg");
+    }
+}
+
 #[test]
 fn travel_limits() {
     let at = |value: &str| of_text(RAIL, &Settings::default().position("s", value));
