@@ -45,7 +45,8 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
         // A jam that no growing effort announces.
         let is_announced =
             |factor: f64| direction.blow_ups.iter().flatten().any(|blow_up| near(blow_up.at, factor));
-        sentences.extend(direction.no_solution.filter(|&factor| !is_announced(factor)).map(|factor| {
+        let comes = direction.no_solution.filter(|_| !direction.solutions.is_empty());
+        sentences.extend(comes.filter(|&factor| !is_announced(factor)).map(|factor| {
             format!(
                 "{}: beyond {} times the friction no effort moves it; none grows before.",
                 moving(direction.direction),
