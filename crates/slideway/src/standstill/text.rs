@@ -102,6 +102,9 @@ impl Text<'_> {
         for line in threshold_in_words(load) {
             self.line(&format!("  {line}"));
         }
+        if self.report.verdict == HoldVerdict::HoldsOrSlips {
+            self.line("  At rest it is wedged in now, and it can also begin to slide: do not rely on it.");
+        }
     }
 
     fn at_rest(&mut self) {
