@@ -50,7 +50,6 @@ golden! {
     check_at_rest: 2 ["check", KLEPP, "--rate", "q=0"];
     hold_bracket: 0 ["hold", "models/bracket-on-pole.toml", "--load", "W", "--vary", "mu_static"];
     hold_bracket_too_near: 1 ["hold", "models/bracket-on-pole.toml", "--load", "W", "--set", "x=200 mm"];
-    hold_wedged: 0 ["hold", "models/painleve-klein.toml", "--set", "mu=4", "--load", "P_2"];
     hold_klepp: 0 ["hold", KLEPP, "--set", "F_20=0", "--set", "mu_1=0.3", "--set", "P=0.05*m*g"];
     hold_boom: 1 ["hold", "models/telescopic-boom.toml"];
     hold_cam: 1 ["hold", "models/cam-follower.toml", "--load", "cam"];

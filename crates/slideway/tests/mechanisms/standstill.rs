@@ -5,6 +5,7 @@ use crate::answers::{assert_close, model, parameters};
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
+use slideway::report::{Report, Style};
 use slideway::standstill::{ContactRange, HoldOptions, HoldReport, HoldVerdict, LoadReport, Range, hold};
 
 fn options(load: &str) -> HoldOptions {
@@ -540,4 +541,19 @@ fn too_many_states_are_refused() {
     let text = slideway::gallery::telescopic_boom(5).expect("a boom");
     let faults = hold(&Model::parse(&text).unwrap(), &HoldOptions::default()).expect_err("refused");
     assert!(matches!(faults.sorted()[0].kind, FaultKind::TooManyStates { states: 248_832, .. }));
+}
+
+/// A sash of width b and height H without cords: any couple wedges it in from mu = H/b = 2/3 on, and free of
+/// contact forces it falls. So it is self-locking, and may fall nonetheless, which its load's section says.
+#[test]
+fn a_wedged_load_is_not_relied_on() {
+    let text = include_str!("../findings/sash.toml");
+    let told = |mu: &str| {
+        let settings = parameters(&[("mu", mu), ("mu_s", mu), ("cord_force", "0 N")]);
+        let model = Model::parse(text).expect("sound").with(&settings).expect("sound settings");
+        let report = hold(&model, &options("gravity")).expect("solvable");
+        (report.verdict, load(&report).self_locking, report.text(Style::Plain).contains("do not rely on it"))
+    };
+    assert_eq!(told("0.7"), (HoldVerdict::HoldsOrSlips, true, true));
+    assert_eq!(told("0.6"), (HoldVerdict::Moves, false, false));
 }
