@@ -22,6 +22,7 @@ from . import modes, reports
 from ._errors import Fault, ModelError
 from ._motion import Motion
 from ._slideway import Model, gallery_models
+from ._sweep import Sweep
 
-__all__ = ["Fault", "Model", "ModelError", "Motion", "gallery_models", "modes", "reports"]
+__all__ = ["Fault", "Model", "ModelError", "Motion", "Sweep", "gallery_models", "modes", "reports"]
 __version__ = "0.1.0"
