@@ -33,6 +33,11 @@ impl Encoder {
         Self { part, ..Self::new(TableFormat::Parquet, layout, sharded.metadata.clone()) }
     }
 
+    /// The form of the tables.
+    pub fn format(&self) -> TableFormat {
+        self.format
+    }
+
     /// The bytes that stand before the rows.
     pub fn head(&self) -> Vec<u8> {
         match self.format {

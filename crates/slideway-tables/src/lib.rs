@@ -41,4 +41,4 @@ pub use partial::{Continued, PARTIAL, PartialFile, Resume, beside, unfinished};
 pub use shard::{Manifest, Part, ShardedSweep, shard_path};
 #[cfg(feature = "parquet")]
 pub use shards::{Shards, write_shard, written_shard};
-pub use writing::{RowSource, Take, Watch, Written, write_table};
+pub use writing::{Control, RowSource, Take, Written, write_table};

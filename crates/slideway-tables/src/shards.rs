@@ -4,8 +4,8 @@ use crate::parquet::{COMMAND, MANIFEST, MODEL, PROGRAM, ShardReader, seal};
 use crate::shard::{ranges, shard_of_name};
 use crate::writing::Take;
 use crate::{
-    Difference, Encoder, Layout, Manifest, Metadata, Part, Resume, RowSource, ShardedSweep, TableError,
-    Watch, Written, shard_path, write_table,
+    Control, Difference, Encoder, Layout, Manifest, Metadata, Part, Resume, RowSource, ShardedSweep,
+    TableError, Written, shard_path, write_table,
 };
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use slideway::progress::{Callback, Progress};
@@ -49,7 +49,7 @@ pub fn write_shard(
     sharded: &ShardedSweep,
     (whole, shard): (&Sweep, Shard),
     (folder, overwrite): (&Path, bool),
-    watch: &mut Watch<'_>,
+    control: &mut Control<'_>,
 ) -> Result<Written, TableError> {
     fs::create_dir_all(folder).map_err(|error| TableError::writing(folder, error))?;
     let path = shard_path(folder, shard);
@@ -58,7 +58,7 @@ pub fn write_shard(
     }
     let resume = if overwrite { Resume::No } else { Resume::IfAny };
     let encoder = Encoder::shard(sharded, whole, shard);
-    write_table(RowSource::Sweep(&whole.shard(shard)), encoder, (&path, resume, overwrite), watch)
+    write_table(RowSource::Sweep(&whole.shard(shard)), encoder, (&path, resume, overwrite), control)
 }
 
 /// The file of a shard whose checksum is right.

@@ -68,7 +68,7 @@ pub enum Written {
 }
 
 /// What ends the writing of a table.
-pub struct Watch<'w> {
+pub struct Control<'w> {
     /// Asked by any thread: whether the work goes on.
     pub goes_on: &'w (dyn Fn() -> bool + Sync),
     /// Told of the progress; breaks to end the work.
@@ -84,11 +84,11 @@ pub fn write_table(
     source: RowSource<'_>,
     encoder: Encoder,
     (path, resume, overwrite): (&Path, Resume, bool),
-    watch: &mut Watch<'_>,
+    control: &mut Control<'_>,
 ) -> Result<Written, TableError> {
     let start = source.sweep().start();
     let continued = PartialFile::open(path, encoder, (resume, overwrite), start)?;
-    continued.fill(source, watch, &|_| (), &mut |()| ())
+    continued.fill(source, control, &|_| (), &mut |()| ())
 }
 
 impl Continued {
@@ -100,7 +100,7 @@ impl Continued {
     pub fn fill<E: Send>(
         self,
         source: RowSource<'_>,
-        watch: &mut Watch<'_>,
+        control: &mut Control<'_>,
         also: &(dyn Fn(&Rows) -> E + Sync),
         take: &mut (dyn FnMut(E) + Send),
     ) -> Result<Written, TableError> {
@@ -109,20 +109,20 @@ impl Continued {
         let encoder = file.encoder().clone();
         let encode = |rows: &Rows| (encoder.rows(rows), also(rows));
         let mut failure = None;
-        source.run_while(watch.goes_on, &mut state, &encode, &mut |parts, state| {
+        source.run_while(control.goes_on, &mut state, &encode, &mut |parts, state| {
             let (rows, parts): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
             parts.into_iter().for_each(&mut *take);
             if let Err(error) = file.add(&rows, state) {
                 failure = Some(error);
                 return ControlFlow::Break(());
             }
-            (watch.callback)(&Progress::of("points", state.done, points))
+            (control.callback)(&Progress::of("points", state.done, points))
         })?;
         if let Some(failure) = failure {
             return Err(failure);
         }
         let mut follow = |part: f64| {
-            (watch.callback)(&Progress { fraction: Some(part), ..Progress::of("points", points, points) })
+            (control.callback)(&Progress { fraction: Some(part), ..Progress::of("points", points, points) })
         };
         if state.done < points || file.complete(&state, &mut follow)?.is_break() {
             file.keep(&state)?;

@@ -8,8 +8,8 @@ use slideway::sweep::{
     GridAxis, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
 };
 use slideway_tables::{
-    Difference, Encoder, Layout, Metadata, Resume, RowSource, ShardedSweep, Shards, TableError, TableFormat,
-    Watch, Written, shard_path, write_shard, write_table, written_shard,
+    Control, Difference, Encoder, Layout, Metadata, Resume, RowSource, ShardedSweep, Shards, TableError,
+    TableFormat, Written, shard_path, write_shard, write_table, written_shard,
 };
 use std::fs;
 use std::ops::ControlFlow;
@@ -41,14 +41,14 @@ fn example() -> (ShardedSweep, Sweep) {
 }
 
 /// Does work that nothing ends, unless `points` are done.
-fn undisturbed<T>(points: Option<u64>, work: impl FnOnce(&mut Watch<'_>) -> T) -> T {
+fn undisturbed<T>(points: Option<u64>, work: impl FnOnce(&mut Control<'_>) -> T) -> T {
     let mut callback = |progress: &Progress| {
         if points.is_some_and(|points| progress.done >= points) {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
     };
-    work(&mut Watch { goes_on: &|| true, callback: &mut callback })
+    work(&mut Control { goes_on: &|| true, callback: &mut callback })
 }
 
 fn write(sharded: &ShardedSweep, sweep: &Sweep, shard: Shard, folder: &Path) -> Result<Written, TableError> {
