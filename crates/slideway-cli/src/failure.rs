@@ -61,6 +61,9 @@ pub(crate) enum Failure {
     /// Shards go into a folder.
     #[cfg(feature = "parquet")]
     NoFolder,
+    /// Shards without what the strokes of a plot tell of.
+    #[cfg(feature = "parquet")]
+    WithoutAttainability,
     /// Shards need a feature that the program was built without.
     #[cfg(not(feature = "parquet"))]
     WithoutShards,
@@ -152,6 +155,10 @@ impl Failure {
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
             #[cfg(feature = "parquet")]
             Self::NoFolder => "a shard can only be written into a folder".to_owned(),
+            #[cfg(feature = "parquet")]
+            Self::WithoutAttainability => {
+                "the shards lack the attainability of solutions, which a plot shows".to_owned()
+            }
             #[cfg(not(feature = "parquet"))]
             Self::WithoutShards => {
                 "this program was built without support for Parquet files, which shards are".to_owned()
@@ -224,6 +231,10 @@ impl Failure {
             #[cfg(not(feature = "parquet"))]
             Self::WithoutShards => {
                 Some("build it with `cargo build --release --features parquet`".to_owned())
+            }
+            #[cfg(feature = "parquet")]
+            Self::WithoutAttainability => {
+                Some("omit --plot, or compute the shards with --attainability".to_owned())
             }
             #[cfg(feature = "parquet")]
             Self::NoFolder => Some("name a folder with --output".to_owned()),

@@ -82,30 +82,25 @@ pub fn shard_path(folder: &Path, shard: Shard) -> PathBuf {
 }
 
 /// The shard whose file bears this name.
+#[cfg(feature = "parquet")]
 pub(crate) fn shard_of_name(name: &str) -> Option<Shard> {
     let (number, of) = name.strip_prefix("shard-")?.strip_suffix(".parquet")?.split_once("-of-")?;
     let shard = Shard::new(number.parse().ok()?, of.parse().ok()?).ok()?;
     (shard_path(Path::new(""), shard) == Path::new(name)).then_some(shard)
 }
 
-/// Numbers in their order as ranges: "3, 7 to 9".
+/// Ascending numbers as ranges, "3,7-9", as job schedulers take them.
+#[cfg(feature = "parquet")]
 pub(crate) fn ranges(numbers: &[u32]) -> String {
-    let mut ranges: Vec<(u32, u32)> = Vec::new();
-    for &number in numbers {
-        match ranges.last_mut() {
-            Some((_, last)) if *last + 1 == number => *last = number,
-            _ => ranges.push((number, number)),
-        }
-    }
-    let word = |(first, last): (u32, u32)| match last - first {
-        0 => first.to_string(),
-        1 => format!("{first}, {last}"),
-        _ => format!("{first} to {last}"),
+    let runs = numbers.chunk_by(|one, next| one + 1 == *next);
+    let word = |run: &[u32]| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        one => one.iter().map(u32::to_string).collect(),
     };
-    ranges.into_iter().map(word).collect::<Vec<_>>().join(", ")
+    runs.map(word).collect::<Vec<_>>().join(",")
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "parquet"))]
 mod tests {
     use super::*;
 
@@ -125,7 +120,7 @@ mod tests {
 
     #[test]
     fn ranges_are_short() {
-        assert_eq!(ranges(&[3, 7, 8, 9, 11, 12]), "3, 7 to 9, 11, 12");
+        assert_eq!(ranges(&[3, 7, 8, 9, 11, 12]), "3,7-9,11-12");
         assert_eq!(ranges(&[1]), "1");
     }
 }

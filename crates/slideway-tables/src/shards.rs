@@ -254,3 +254,49 @@ fn paths(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
     paths.sort();
     Ok(paths)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use slideway::model::Settings;
+    use slideway::sweep::{GridAxis, SweepOptions};
+    use std::ops::ControlFlow;
+
+    /// A file that another version has sealed.
+    #[test]
+    fn a_shard_of_another_version_is_not_taken() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let model = slideway::gallery::find("drawer").expect("in the gallery").text.to_owned();
+        let metadata = Metadata { command: String::new(), model };
+        let options = SweepOptions::grid([GridAxis::linear("mu", 0.1, 0.5, 5)]);
+        let sharded = ShardedSweep { metadata, settings: Settings::default(), options };
+        let sweep = sharded.sweep(slideway::sweep::Breakpoints::default()).expect("a sweep");
+        let shard = Shard::new(1, 1).expect("a shard");
+        let mut look = |_: &Progress| ControlFlow::Continue(());
+        let mut control = Control { goes_on: &|| true, callback: &mut look };
+        write_shard(&sharded, (&sweep, shard), (folder.path(), false), &mut control).expect("written");
+        assert!(written_shard(&sharded, shard, folder.path()).expect("of this version").is_some());
+
+        let path = shard_path(folder.path(), shard);
+        let mut bytes = fs::read(&path).expect("a shard");
+        let (this, other) = (Metadata::program(), Metadata::program().replace("slideway ", "slideway-"));
+        let key = bytes.windows(PROGRAM.len()).rposition(|window| window == PROGRAM.as_bytes());
+        let at = key.expect("an entry") + PROGRAM.len() + 2;
+        assert_eq!(&bytes[at..at + this.len()], this.as_bytes());
+        bytes[at..at + this.len()].copy_from_slice(other.as_bytes());
+        fs::write(&path, &bytes).expect("room");
+        let damaged = written_shard(&sharded, shard, folder.path());
+        assert!(matches!(damaged, Err(TableError::ShardDamaged { .. })), "{damaged:?}");
+        let file = File::options().read(true).write(true).open(&path).expect("a shard");
+        seal::seal(&file).expect("room");
+        for found in [
+            written_shard(&sharded, shard, folder.path()).map(|_| ()),
+            Shards::find(folder.path(), &mut |_| ControlFlow::Continue(())).map(|_| ()),
+        ] {
+            match found {
+                Err(TableError::ShardOfVersion { program, .. }) => assert_eq!(program, other),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}

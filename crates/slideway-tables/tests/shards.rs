@@ -272,7 +272,7 @@ fn what_is_missing_is_told_as_ranges() {
         write(&sharded, &sweep, Shard::new(number, 12).unwrap(), folder.path()).unwrap();
     }
     match find(folder.path()) {
-        Err(TableError::ShardsMissing { missing, of: 12, .. }) => assert_eq!(missing, "2, 3, 5 to 11"),
+        Err(TableError::ShardsMissing { missing, of: 12, .. }) => assert_eq!(missing, "2-3,5-11"),
         found => panic!("{found:?}"),
     }
     let nowhere = folder.path().join("nowhere");

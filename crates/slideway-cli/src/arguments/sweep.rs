@@ -10,6 +10,10 @@ use slideway_tables::TableFormat;
 use std::path::PathBuf;
 use std::str::FromStr;
 
+pub(super) const USAGE: &str = "\
+slideway sweep [OPTIONS] --vary <NAME=VALUES> <MODEL>
+       slideway sweep [OPTIONS] --merge <FOLDER>";
+
 pub(super) const HELP: &str = "\
 What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for a factor on all
 coefficients of friction, or `time`. Values:

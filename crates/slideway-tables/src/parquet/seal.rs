@@ -26,7 +26,7 @@ pub(super) fn placeholder() -> (&'static str, String) {
 ///
 /// # Errors
 /// If it cannot be read or written.
-pub(super) fn seal(mut file: &File) -> io::Result<()> {
+pub(crate) fn seal(mut file: &File) -> io::Result<()> {
     let Some(Seal { place, digits, .. }) = find(file)? else {
         return Err(io::Error::other("the metadata of the file have no place for its checksum"));
     };

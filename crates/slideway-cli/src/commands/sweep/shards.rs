@@ -78,6 +78,9 @@ pub(super) fn merge(folder: &Path, arguments: &SweepArguments, output: &Output) 
     }
     let ShardedSweep { metadata, settings, .. } = shards.sharded();
     let plot = match picture {
+        Some(_) if shards.sweep().has_branches() && !shards.layout().attainability => {
+            return Err(Failure::WithoutAttainability);
+        }
         Some(file) => {
             let title = Model::parse(&metadata.model).ok().and_then(|model| model.title);
             Some(Plotting::new(shards.sweep(), arguments, file, (title.as_deref(), settings))?)
