@@ -33,5 +33,5 @@ mod _slideway {
     #[pymodule_export]
     use crate::motion::Motion;
     #[pymodule_export]
-    use crate::sweep::Table;
+    use crate::sweep::{Table, merge};
 }

@@ -6,6 +6,7 @@ use crate::fault::Texts;
 use crate::motion::{self, Motion};
 use crate::sweep;
 use crate::work::Watch;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -20,6 +21,7 @@ use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
+use slideway::sweep::Shard;
 use slideway::units::Unit;
 use slideway::{
     DriveOptions, Faults, HoldOptions, LimitsOptions, MapOptions, SimulateOptions, SizeOptions, SolveOptions,
@@ -61,8 +63,8 @@ impl Model {
         question: impl FnOnce(&slideway::Model, &mut Callback<'_>) -> Result<Option<T>, Faults> + Send,
     ) -> PyResult<T> {
         let model = &self.asked.model;
-        let ended =
-            Watch::new(time_limit, progress)?.run(py, |callback| question(model, callback).transpose())?;
+        let ended = Watch::new(time_limit, progress)?
+            .run_beside(py, |callback| question(model, callback).transpose())?;
         ended.whole()?.map_err(|faults| self.refused(py, &faults))
     }
 
@@ -454,10 +456,14 @@ impl Model {
     /// `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
     /// whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
     /// bodies and hinge forces.
+    ///
+    /// `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches; with
+    /// `output`, the path of a folder, it is written there as a Parquet file, unless it is there, and the answer is
+    /// its path. `slideway.merge` makes one table of all parts; `slideway.dask.sweep` computes them on a cluster.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
-        attainability = false, all_columns = false, time_limit = None, progress = None,
-        **values) -> "slideway.Sweep")]
+        attainability = false, all_columns = false, shard = None, output = None, time_limit = None,
+        progress = None, **values) -> "slideway.Sweep")]
     fn sweep<'py>(
         &self,
         py: Python<'py>,
@@ -467,6 +473,8 @@ impl Model {
         breakpoints: bool,
         attainability: bool,
         all_columns: bool,
+        shard: Option<(u32, u32)>,
+        output: Option<PathBuf>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
         values: Option<&Bound<'_, PyDict>>,
@@ -477,8 +485,19 @@ impl Model {
         let sampling = sweep::spread(sampling)?;
         let question = sweep::Question { samples, sampling, seed, breakpoints, attainability, all_columns };
         let options = question.options(&|faults| self.refused(py, &faults), values)?;
-        let table = sweep::table(py, &self.asked, &options, &Watch::new(time_limit, progress)?)?;
-        py.import("slideway._sweep")?.getattr("Sweep")?.call1((table,))
+        let watch = Watch::new(time_limit, progress)?;
+        let shard = shard.map(|(number, of)| Shard::new(number, of)).transpose();
+        let shard = shard.map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))?;
+        match (shard, output) {
+            (Some(shard), Some(folder)) => {
+                sweep::write_shard(py, &self.asked, (options, shard), (&folder, &watch))?
+                    .into_bound_py_any(py)
+            }
+            (None, Some(_)) => {
+                Err(PyTypeError::new_err("output is for a shard: give shard=(number, of), too"))
+            }
+            (shard, None) => sweep::table(py, &self.asked, (&options, shard), &watch)?.object(py),
+        }
     }
 
     /// The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and

@@ -5,7 +5,7 @@ use crate::arguments::value;
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use pyo3::exceptions::{PyTimeoutError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyTimeoutError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyString, PyTuple};
 use slideway::Faults;
@@ -13,10 +13,14 @@ use slideway::model::Value;
 use slideway::progress::Progress;
 use slideway::report::Style;
 use slideway::sweep::{
-    GridAxis, SampledAxis, Sampling, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
+    GridAxis, Rows, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
 };
 use slideway_tables::arrow::Batches;
-use slideway_tables::{Encoder, Layout};
+use slideway_tables::{
+    Control, Encoder, Layout, Metadata, RowSource, ShardedSweep, Shards, TableError, Written, shard_path,
+};
+use std::error::Error;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is asked of a sweep beside its axes.
@@ -117,30 +121,112 @@ pub(crate) struct Table {
     records: Arc<Vec<u8>>,
 }
 
-/// Computes a sweep.
-pub(crate) fn table(py: Python<'_>, asked: &Asked, options: &SweepOptions, watch: &Watch) -> PyResult<Table> {
-    let refused = |faults: Faults| asked.refused(py, &faults);
-    let prepared = watch.run(py, |callback| Sweep::new_with(&asked.model, options, callback).transpose())?;
-    let sweep = prepared.whole()?.map_err(refused)?;
-    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
-    let mut state = sweep.start();
-    let points = sweep.points();
-    let ended = watch.run(py, |callback| {
-        let mut records = Vec::new();
-        sweep.run(&mut state, &|rows| Encoder::records(&layout, rows), &mut |parts, state| {
-            parts.iter().for_each(|part| records.extend_from_slice(part));
-            callback(&Progress::of("points", state.done, points))
-        });
-        records
-    })?;
-    match ended {
-        Ended::Done(records) => Ok(Table { sweep, state, layout, records: Arc::new(records) }),
-        Ended::TimeUp(_) => {
-            let done = state.done;
-            let message = format!("the sweep was not done within time_limit: {done} of {points} points");
-            Err(PyTimeoutError::new_err(message))
+impl Table {
+    /// As an object of `slideway.Sweep`.
+    pub(crate) fn object(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        py.import("slideway._sweep")?.getattr("Sweep")?.call1((self,))
+    }
+
+    /// The rows of a source, as long as nothing ends the work.
+    fn of(py: Python<'_>, (source, layout): (RowSource<'_>, Layout), watch: &Watch) -> PyResult<Self> {
+        let mut state = source.sweep().start();
+        let points = source.sweep().points();
+        let ended = watch.run_beside(py, |callback| {
+            let mut records = Vec::new();
+            let encode = |rows: &Rows| Encoder::records(&layout, rows);
+            let read = source.run_while(&|| true, &mut state, &encode, &mut |parts, state| {
+                parts.iter().for_each(|part| records.extend_from_slice(part));
+                callback(&Progress::of("points", state.done, points))
+            });
+            read.map(|()| records)
+        })?;
+        let is_done = state.done == points;
+        match ended {
+            Ended::Done(records) | Ended::TimeUp(records) if is_done => {
+                let sweep = source.sweep().clone();
+                Ok(Self {
+                    sweep,
+                    state,
+                    layout,
+                    records: Arc::new(records.map_err(|error| os_error(&error))?),
+                })
+            }
+            _ => Err(unfinished(&state, points)),
         }
     }
+}
+
+/// That there was no time for all points.
+fn unfinished(state: &SweepState, points: u64) -> PyErr {
+    let done = state.done;
+    PyTimeoutError::new_err(format!("the sweep was not done within time_limit: {done} of {points} points"))
+}
+
+/// What is wrong with files.
+fn os_error(error: &TableError) -> PyErr {
+    let hint = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+    PyOSError::new_err(format!("{error}{hint}"))
+}
+
+/// A sweep of a model that is ready to be computed, with its exact ends of modes.
+fn prepared(py: Python<'_>, asked: &Asked, options: &SweepOptions, watch: &Watch) -> PyResult<Sweep> {
+    let model = &asked.model;
+    let sweep = watch.run_beside(py, |callback| Sweep::new_with(model, options, callback).transpose())?;
+    sweep.whole()?.map_err(|faults| asked.refused(py, &faults))
+}
+
+/// Computes a sweep, or one shard of it.
+pub(crate) fn table(
+    py: Python<'_>,
+    asked: &Asked,
+    (options, shard): (&SweepOptions, Option<Shard>),
+    watch: &Watch,
+) -> PyResult<Table> {
+    let whole = prepared(py, asked, options, watch)?;
+    let sweep = shard.map_or_else(|| whole.clone(), |shard| whole.shard(shard));
+    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
+    Table::of(py, (RowSource::Sweep(&sweep), layout), watch)
+}
+
+/// Computes a shard of a sweep and writes it into a folder, unless it is there; its path.
+pub(crate) fn write_shard(
+    py: Python<'_>,
+    asked: &Asked,
+    (options, shard): (SweepOptions, Shard),
+    (folder, watch): (&Path, &Watch),
+) -> PyResult<PathBuf> {
+    let metadata =
+        Metadata { command: "slideway for Python: Model.sweep".to_owned(), model: asked.text.to_string() };
+    let sharded = ShardedSweep { metadata, settings: asked.settings.clone(), options };
+    let is_there =
+        slideway_tables::written_shard(&sharded, shard, folder).map_err(|error| os_error(&error))?;
+    if is_there.is_none() {
+        let whole = prepared(py, asked, &sharded.options, watch)?;
+        let written = watch.run_beside(py, |callback| {
+            let mut callback = |progress: &Progress| callback(progress);
+            let mut control = Control { goes_on: &|| true, callback: &mut callback };
+            slideway_tables::write_shard(&sharded, (&whole, shard), (folder, false), &mut control)
+        })?;
+        if let Written::Early { state, .. } = written.so_far().map_err(|error| os_error(&error))? {
+            return Err(unfinished(&state, whole.shard(shard).points()));
+        }
+    }
+    Ok(shard_path(folder, shard))
+}
+
+/// One table of all shards in a folder.
+#[pyfunction]
+#[pyo3(signature = (folder, *, time_limit = None, progress = None) -> "slideway.Sweep")]
+pub(crate) fn merge(
+    py: Python<'_>,
+    folder: PathBuf,
+    time_limit: Option<f64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'_, PyAny>> {
+    let watch = Watch::new(time_limit, progress)?;
+    let found = watch.run_beside(py, |callback| Shards::find(&folder, callback).transpose())?;
+    let shards = found.whole()?.map_err(|error| os_error(&error))?;
+    Table::of(py, (RowSource::Shards(&shards), shards.layout()), &watch)?.object(py)
 }
 
 #[pymethods]

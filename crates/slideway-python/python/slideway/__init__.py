@@ -21,8 +21,8 @@ model.
 from . import modes, reports
 from ._errors import Fault, ModelError
 from ._motion import Motion
-from ._slideway import Model, gallery_models
+from ._slideway import Model, gallery_models, merge
 from ._sweep import Sweep
 
-__all__ = ["Fault", "Model", "ModelError", "Motion", "Sweep", "gallery_models", "modes", "reports"]
+__all__ = ["Fault", "Model", "ModelError", "Motion", "Sweep", "gallery_models", "merge", "modes", "reports"]
 __version__ = "0.1.0"
