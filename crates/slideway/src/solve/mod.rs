@@ -154,7 +154,7 @@ pub fn solve_with(
     let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
     report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
     if options.margins {
-        margins::add(&mut report, stages.data());
+        margins::add(&mut report, stages.data(), enclosed.as_ref().ok());
         from_rest::add(&mut report, model);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
