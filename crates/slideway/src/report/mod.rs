@@ -341,8 +341,8 @@ pub struct Margins {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several
-    /// already); absent if that is never lost, or was not computed because preloads jump with the side of
-    /// contact.
+    /// already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
+    /// because preloads jump with the side of contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.

@@ -83,6 +83,35 @@ fn the_paper_s_intervals_to_1e_8() {
     }
 }
 
+/// Pushed in its middle line (`a = 0`) the drawer presses on no contact; pushed beside it, it tips to that side.
+/// Rounding misses that place by 1e-15 m, where every pattern of contacts is there for the width of it.
+#[test]
+fn an_end_that_rounding_misses_is_told_where_it_is() {
+    let report = of("drawer", &[], "a=-0.6..0.6");
+    let modes: Vec<(&str, Option<f64>, Option<f64>)> =
+        report.modes.iter().map(|mode| (&*mode.pattern, mode.from, mode.to)).collect();
+    assert_eq!(modes.len(), 2, "{modes:?}");
+    assert!(modes.iter().any(|(pattern, from, _)| *pattern == "+-" && *from == Some(0.0)), "{modes:?}");
+    assert!(modes.iter().any(|(pattern, _, to)| *pattern == "-+" && *to == Some(0.0)), "{modes:?}");
+    let ends: Vec<f64> = report.counts.iter().flat_map(|count| [count.from, count.to]).collect();
+    assert!(ends.iter().all(|end| *end == 0.0 || end.abs() > 0.1), "{ends:?}");
+}
+
+/// A mass has to be greater than zero, a sliding velocity different from it: from there on there are answers,
+/// although halving the way to zero never gets there.
+#[test]
+fn where_no_answer_is_at_zero_alone_zero_is_told() {
+    for (range, without) in
+        [("m=0..10", [0.0, 0.0]), ("m=-10..10", [-10.0, 0.0]), ("v=-0.2..0.2", [0.0, 0.0])]
+    {
+        let report = of("drawer", &[], range);
+        let [gap] = &report.without_mode_problem[..] else { panic!("{:?}", report.without_mode_problem) };
+        assert_eq!([gap.from, gap.to], without, "{range}");
+        let touching = report.modes.iter().filter(|mode| mode.from == Some(0.0) || mode.to == Some(0.0));
+        assert_eq!(touching.count(), report.modes.len(), "{:?}", report.modes);
+    }
+}
+
 #[test]
 fn one_two_and_three_solutions_with_the_erratum_s_value() {
     let report = of("klepp-2002", &[], "mu_1=0..0.8");
