@@ -4,9 +4,11 @@
 
 mod axis;
 mod doubt;
+mod no_sliding;
 
 pub use axis::AxisProblem;
 pub use doubt::Doubt;
+pub use no_sliding::NoSliding;
 pub use slideway_modes::names::nearest;
 
 use crate::expression::{Dimension, ExpressionFaultKind};
@@ -388,7 +390,7 @@ pub enum FaultKind {
         "the sliding velocity of {} is zero, so the direction of friction is undefined",
         listed(contacts)
     )]
-    ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
+    ZeroSlidingVelocity { contacts: Vec<String>, why: NoSliding },
 
     // Standstill.
     #[error("the load {load} vanishes at rest, so no factor changes it")]
@@ -497,7 +499,7 @@ impl FaultKind {
                 let modes: Vec<String> = possible.iter().map(|mode| format!("`{mode}`")).collect();
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
-            Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
+            Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
             Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
@@ -563,9 +565,6 @@ impl FaultKind {
             ),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NoDirectionAtRest => Some("omit --both-directions"),
-            Self::ZeroSlidingVelocity { .. } => Some(
-                "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates",
-            ),
             Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
             Self::Overflow { .. } | Self::IllConditioned { .. } => {
                 Some("check for lengths, masses, forces or coefficients of absurd magnitude")
@@ -655,14 +654,6 @@ fn opening(joint: &str, loop_joints: &[String]) -> String {
         return format!("{joint} stays open");
     }
     format!("the loop of {} does not close, {joint} stays open", listed(loop_joints))
-}
-
-fn velocity_hint(coordinates: &[String]) -> String {
-    let rates: Vec<String> = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1")).collect();
-    format!(
-        "give the mechanism a velocity, for instance with `{}`; `slideway hold` analyses friction at rest",
-        rates.join(" ")
-    )
 }
 
 fn drive_hint(coordinate: &str) -> String {

@@ -12,8 +12,9 @@ use nalgebra::{DMatrix, DVector, SVD, Vector2};
 
 /// Singular values below this multiple of the greatest count as zero.
 pub(super) const RANK_TOLERANCE: f64 = 1e-9;
-/// Length of the step, in sizes of the mechanism, that tells a singular position from a redundant structure.
-const PROBE: f64 = 1e-2;
+/// Length of the step, in sizes of the mechanism or rad, that tells what is so in this position alone: a singular
+/// position from a redundant structure, a joint that just stops sliding from one that never slides.
+pub(crate) const PROBE: f64 = 1e-2;
 /// Kinetic energies below this multiple of the greatest count as none.
 const NO_INERTIA: f64 = 1e-12;
 

@@ -113,16 +113,19 @@ impl Model {
         self.contacts().flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
     }
 
-    /// Whether some coefficient of friction is this parameter itself, so that its negative values make no
-    /// sense.
+    /// Whether some coefficient of friction is this parameter itself, perhaps through others that are nothing
+    /// but it, so that its negative values make no sense.
     pub(crate) fn is_itself_friction(&self, parameter: &str) -> bool {
-        let wanted = self.parameters.iter().position(|other| &*other.name == parameter);
         let mut coefficients =
             self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
-        let is_it = |index: usize| Some(Symbol::Parameter(index));
-        wanted.is_some_and(|index| {
-            coefficients.any(|id| self.formula(id).expression.only_symbol() == is_it(index))
-        })
+        let named = |id: FormulaId| match self.formula(id).expression.only_symbol()? {
+            Symbol::Parameter(index) => Some(&self.parameters[index]),
+            _ => None,
+        };
+        let mut names = |id: FormulaId| {
+            std::iter::successors(named(id), |known| named(known.value)).any(|one| &*one.name == parameter)
+        };
+        coefficients.any(&mut names)
     }
 
     /// Whether a parameter changes nothing but coefficients of friction and preloads.

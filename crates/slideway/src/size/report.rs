@@ -88,8 +88,8 @@ pub struct SizeReport {
     pub present: Sample,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
-    /// Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces,
-    /// which is no locking.
+    /// Ranges in which the mechanism cannot be assembled or solved, the model does not allow the values, or a
+    /// guided slider is between its faces, which is no locking.
     pub without_position: Vec<RangeWithoutPosition>,
     /// The margin at evenly spaced values, and where the wanted one is just met.
     pub samples: Vec<Sample>,
@@ -131,7 +131,8 @@ pub enum MetEnd {
     Margin,
     /// The margin jumps.
     Jump,
-    /// The mechanism cannot be assembled or solved beyond.
+    /// The mechanism cannot be assembled or solved beyond, or the model does not allow the values there:
+    /// [`SizeReport::without_position`] says why.
     NoPosition,
 }
 

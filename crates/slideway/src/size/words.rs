@@ -86,9 +86,14 @@ impl Words<'_> {
         let bare = report.vary.shown_in.precise_number(interval.from);
         match (interval.from_is, interval.to_is) {
             (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
-            (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
-            (MetEnd::Range, _) => format!("at most {to} (examined down to {from})"),
+            (begins, MetEnd::Range) => format!("at least {from} (examined up to {to}{})", ending(begins)),
+            (MetEnd::Range, ends) => format!("at most {to} (examined down to {from}{})", ending(ends)),
             _ if interval.from == interval.to => format!("{from} alone"),
+            (MetEnd::NoPosition, MetEnd::NoPosition) => {
+                format!("from {bare} to {to} (beyond both there is no answer)")
+            }
+            (MetEnd::NoPosition, _) => format!("from {bare} to {to} (below that there is no answer)"),
+            (_, MetEnd::NoPosition) => format!("from {bare} to {to} (above that there is no answer)"),
             _ => format!("from {bare} to {to}"),
         }
     }
@@ -181,6 +186,11 @@ impl Words<'_> {
         (is_same || never_told)
             .then(|| format!("The {} does not depend on {}.", subject(self.report), self.report.vary.name))
     }
+}
+
+/// What to say of the end of an interval that the margin does not set.
+fn ending(end: MetEnd) -> &'static str {
+    if end == MetEnd::NoPosition { "; beyond there is no answer" } else { "" }
 }
 
 fn never(report: &SizeReport) -> String {

@@ -29,6 +29,7 @@ mod friction;
 mod from_rest;
 mod margins;
 mod mode_problem;
+mod no_sliding;
 mod parts;
 mod stages;
 mod state;
