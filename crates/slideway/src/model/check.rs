@@ -118,14 +118,21 @@ impl Model {
     pub(crate) fn is_itself_friction(&self, parameter: &str) -> bool {
         let mut coefficients =
             self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
-        let named = |id: FormulaId| match self.formula(id).expression.only_symbol()? {
-            Symbol::Parameter(index) => Some(&self.parameters[index]),
+        let wanted = self.parameters.iter().find(|other| &*other.name == parameter);
+        wanted.is_some_and(|wanted| coefficients.any(|id| self.same_as(id).any(|same| same == wanted.value)))
+    }
+
+    /// The formulas that this one is nothing but, through parameters: first itself, last that with the number.
+    fn same_as(&self, formula: FormulaId) -> impl Iterator<Item = FormulaId> + '_ {
+        std::iter::successors(Some(formula), |&id| match self.formula(id).expression.only_symbol()? {
+            Symbol::Parameter(index) => Some(self.parameters[index].value),
             _ => None,
-        };
-        let mut names = |id: FormulaId| {
-            std::iter::successors(named(id), |known| named(known.value)).any(|one| &*one.name == parameter)
-        };
-        coefficients.any(&mut names)
+        })
+    }
+
+    /// The formula with the number or the expression that this one takes its value from unchanged.
+    pub(crate) fn source_of(&self, formula: FormulaId) -> FormulaId {
+        self.same_as(formula).last().unwrap_or(formula)
     }
 
     /// Whether a parameter changes nothing but coefficients of friction and preloads.

@@ -43,7 +43,9 @@ impl HoldReport {
             HoldVerdict::Holds => "It holds: it stays at rest.".to_owned(),
             HoldVerdict::MayHold => "It holds: it can stay at rest.".to_owned(),
             HoldVerdict::HoldsUntilPushed => {
-                format!("It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}.")
+                format!(
+                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
+                )
             }
             HoldVerdict::HoldsOrSlips => {
                 format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest.")

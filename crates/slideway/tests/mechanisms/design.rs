@@ -495,3 +495,23 @@ fn limits_of_what_is_not_there_are_refused() {
     let faults = size(&model("bracket-on-pole"), &efficiency).unwrap_err();
     assert!(matches!(faults.sorted()[0].kind, FaultKind::NoDrives { .. }), "{faults}");
 }
+
+/// Kinetic friction must not exceed static friction: the answers end there, which is no question of the margin.
+#[test]
+fn where_the_answers_end_before_the_range_the_sentence_says_so() {
+    let text = slideway::gallery::find("drawer").unwrap().text;
+    let text = text.replace("mu = \"mu\"", "mu = \"mu\"\nmu_static = 0.4");
+    let drawer = Model::parse(&text).unwrap();
+    let report = against_locking(&drawer, "mu=0..1", 1.5);
+    // The margin L / (2 a mu) is 1.5 at mu = 4/9, and static friction ends the answers at 0.4 before.
+    let [met] = &report.met[..] else { panic!("{:?}", report.met) };
+    assert_eq!((met.from_is, met.to_is), (MetEnd::Range, MetEnd::NoPosition));
+    assert!((met.to - 0.4).abs() < 1e-14);
+    let told = &report.conclusion[0];
+    assert!(told.contains("mu at most 0.4 (examined down to 0; beyond there is no answer)"), "{told}");
+    let gap = &report.without_position[0];
+    assert!(gap.reason.contains("static friction coefficient 0.4 of guide.front is below"), "{}", gap.reason);
+    // Where the margin ends it first, nothing is said of it.
+    let told = &against_locking(&drawer, "mu=0..0.4", 2.0).conclusion[0];
+    assert!(!told.contains("no answer"), "{told}");
+}

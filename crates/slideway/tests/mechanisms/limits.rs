@@ -5,12 +5,14 @@ use crate::random_mechanisms::mechanisms;
 use proptest::prelude::*;
 use serde::Deserialize;
 use slideway::drive::{DriveOptions, drive};
-use slideway::fault::{FaultKind, Faults};
+use slideway::fault::{AxisProblem, FaultKind, Faults};
 use slideway::gallery;
-use slideway::limits::{LimitsMethod, LimitsOptions, LimitsReport, ModeLimits, Vary, limits};
+use slideway::limits::{LimitsMethod, LimitsOptions, LimitsReport, ModeLimits, Vary, limits, rest_limits};
 use slideway::model::{Model, Settings};
 use slideway::report::ModeEndCause;
+use slideway::size::{SizeOptions, size};
 use slideway::solve::solve;
+use slideway::standstill::HoldOptions;
 
 #[derive(Deserialize)]
 struct Reference {
@@ -110,6 +112,20 @@ fn where_no_answer_is_at_zero_alone_zero_is_told() {
         let touching = report.modes.iter().filter(|mode| mode.from == Some(0.0) || mode.to == Some(0.0));
         assert_eq!(touching.count(), report.modes.len(), "{:?}", report.modes);
     }
+}
+
+/// Every coefficient of the wedge is a parameter that is nothing but `mu`.
+#[test]
+fn negative_friction_is_refused_through_other_parameters() {
+    let wedge = model("wedge");
+    let vary = || Vary::between("mu", -0.1, 0.5);
+    let refused = |faults: Faults| {
+        let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
+        matches!(&fault.kind, FaultKind::Axis { problem: AxisProblem::NegativeCoefficients { .. }, .. })
+    };
+    assert!(refused(limits(&wedge, &LimitsOptions::new(vary())).unwrap_err()));
+    assert!(refused(rest_limits(&wedge, &vary(), &HoldOptions::default()).unwrap_err()));
+    assert!(refused(size(&wedge, &SizeOptions::new(vary(), 2.0)).unwrap_err()));
 }
 
 #[test]
