@@ -11,7 +11,7 @@ pub use doubt::Doubt;
 pub use no_sliding::NoSliding;
 pub use slideway_modes::names::nearest;
 
-use crate::expression::{Dimension, ExpressionFaultKind};
+use crate::expression::{Dimension, ExpressionFaultKind, ends_of_range};
 use crate::printable;
 use crate::units::Unit;
 use std::fmt;
@@ -542,7 +542,7 @@ impl FaultKind {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
-            Self::MalformedRange { text, .. } if text.contains("...") => {
+            Self::MalformedRange { text, .. } if ends_of_range(text).is_err() => {
                 Some("two dots stand between the ends of a range: FROM..TO")
             }
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),

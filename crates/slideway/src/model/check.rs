@@ -143,6 +143,11 @@ impl Model {
         !others.any(|id| self.uses(id, parameter))
     }
 
+    /// Whether no drive moves a coordinate, counted from 0.
+    pub(crate) fn is_free(&self, coordinate: usize) -> bool {
+        self.drives.iter().all(|drive| drive.coordinate.index() != coordinate)
+    }
+
     /// The contacts of all sliding joints, in the order of the mechanism's.
     pub(crate) fn contacts(&self) -> impl Iterator<Item = &Contact> {
         let sliders = self.joints.iter().filter_map(|joint| match &joint.kind {

@@ -54,6 +54,7 @@ mod value;
 
 pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
+pub(crate) use formula::POSITIVE;
 pub use formula::{Allowed, Formula, Origin, Varies};
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};

@@ -201,6 +201,15 @@ pub struct PatternSummary {
     pub gap_patterns: u64,
 }
 
+impl SolveReport {
+    /// Has its forces, moments, powers and pressures shown in units in which they read well.
+    pub(crate) fn suit_units(&mut self) {
+        let states = self.solutions.iter().chain(&self.preload_gap_states);
+        let values: Vec<(&'static str, f64)> = states.flat_map(Solution::efforts).collect();
+        self.model.units = std::mem::take(&mut self.model.units).suited_to(values);
+    }
+}
+
 /// One solution, or one state of a preload gap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -245,6 +254,17 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// Its forces, moments and pressures with their SI units.
+    fn efforts(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let contacts = self.contacts.iter().flat_map(|contact| {
+            let forces = [contact.normal_force, contact.friction_force].map(|force| ("N", force));
+            let couple = contact.couple.map(|couple| ("N m", couple));
+            forces.into_iter().chain(couple).chain(contact.pressure.map(|pressure| ("Pa", pressure)))
+        });
+        let hinges = self.hinges.iter().flat_map(|hinge| hinge.force.map(|force| ("N", force)));
+        contacts.chain(hinges).chain(self.drives.iter().map(|drive| (drive.unit, drive.effort)))
+    }
+
     /// What it has at a contact.
     ///
     /// # Panics

@@ -156,9 +156,10 @@ pub fn solve_with(
     report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok());
-        from_rest::add(&mut report, model);
+        from_rest::add(&mut report, model, progress);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
+    report.suit_units();
     finite(report)
 }
 

@@ -515,3 +515,20 @@ fn where_the_answers_end_before_the_range_the_sentence_says_so() {
     let told = &against_locking(&drawer, "mu=0..0.4", 2.0).conclusion[0];
     assert!(!told.contains("no answer"), "{told}");
 }
+
+/// A factor of 5 around 45 deg would be 9 to 225 deg; in its quarter turn sine and cosine keep their signs.
+#[test]
+fn an_angle_is_sized_in_its_quarter_turn() {
+    let range = |angle: &str| {
+        let report = against_locking(&with("cam-follower", &[("phi", angle)]), "phi", 2.0);
+        [report.vary.from, report.vary.to].map(|end| (end.to_degrees() * 1e9).round() / 1e9)
+    };
+    assert_eq!(range("30 deg"), [0.0, 90.0]);
+    assert_eq!(range("-30 deg"), [-90.0, 0.0]);
+    // Between two quarters both count.
+    assert_eq!(range("0 deg"), [-90.0, 90.0]);
+    assert_eq!(range("90 deg"), [0.0, 180.0]);
+    // A length keeps the factor.
+    let report = against_locking(&model("cam-follower"), "d", 2.0);
+    assert!((report.vary.to / report.vary.from - 25.0).abs() < 1e-12);
+}
