@@ -42,8 +42,7 @@ pub(crate) struct ModelArguments {
 /// In which units numbers are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ShownUnits {
-    /// As the quantities of the model were typed; computed forces and moments below 0.1 of that unit in one that
-    /// suits them.
+    /// As the quantities of the model were typed; computed forces, moments and powers in a unit that suits them.
     AsTyped,
     /// Those of the SI.
     #[value(name = "SI", alias = "si")]

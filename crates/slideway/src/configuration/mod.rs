@@ -24,7 +24,7 @@ pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{
-    PROBE, advance, free_motions, motion_in_words, motions_without_inertia, null_space,
+    PROBE, advance, free_motions, motion_in_words, motions_without_inertia, moved_by, null_space,
 };
 
 use crate::fault::{Fault, Faults};

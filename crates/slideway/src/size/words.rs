@@ -86,14 +86,20 @@ impl Words<'_> {
         let bare = report.vary.shown_in.precise_number(interval.from);
         match (interval.from_is, interval.to_is) {
             (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
-            (begins, MetEnd::Range) => format!("at least {from} (examined up to {to}{})", ending(begins)),
-            (MetEnd::Range, ends) => format!("at most {to} (examined down to {from}{})", ending(ends)),
+            (MetEnd::NoPosition, MetEnd::Range) => {
+                format!("at least {from}, below which there is no answer (examined up to {to})")
+            }
+            (MetEnd::Range, MetEnd::NoPosition) => {
+                format!("at most {to}, above which there is no answer (examined down to {from})")
+            }
+            (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
+            (MetEnd::Range, _) => format!("at most {to} (examined down to {from})"),
             _ if interval.from == interval.to => format!("{from} alone"),
             (MetEnd::NoPosition, MetEnd::NoPosition) => {
-                format!("from {bare} to {to} (beyond both there is no answer)")
+                format!("from {bare} to {to}, beyond which there is no answer")
             }
-            (MetEnd::NoPosition, _) => format!("from {bare} to {to} (below that there is no answer)"),
-            (_, MetEnd::NoPosition) => format!("from {bare} to {to} (above that there is no answer)"),
+            (MetEnd::NoPosition, _) => format!("from {bare}, below which there is no answer, to {to}"),
+            (_, MetEnd::NoPosition) => format!("from {bare} to {to}, above which there is no answer"),
             _ => format!("from {bare} to {to}"),
         }
     }
@@ -186,11 +192,6 @@ impl Words<'_> {
         (is_same || never_told)
             .then(|| format!("The {} does not depend on {}.", subject(self.report), self.report.vary.name))
     }
-}
-
-/// What to say of the end of an interval that the margin does not set.
-fn ending(end: MetEnd) -> &'static str {
-    if end == MetEnd::NoPosition { "; beyond there is no answer" } else { "" }
 }
 
 fn never(report: &SizeReport) -> String {

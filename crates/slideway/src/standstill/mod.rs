@@ -308,7 +308,7 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
     let motions = held_motions(setup, free_motions(mechanism, configuration));
-    motions_without_inertia(mechanism, configuration, &motions, Some(&setup.loads()))
+    motions_without_inertia(mechanism, configuration, &motions, &setup.loads())
 }
 
 /// The motions that drives leave.

@@ -508,7 +508,7 @@ fn where_the_answers_end_before_the_range_the_sentence_says_so() {
     assert_eq!((met.from_is, met.to_is), (MetEnd::Range, MetEnd::NoPosition));
     assert!((met.to - 0.4).abs() < 1e-14);
     let told = &report.conclusion[0];
-    assert!(told.contains("mu at most 0.4 (examined down to 0; beyond there is no answer)"), "{told}");
+    assert!(told.contains("mu at most 0.4, above which there is no answer (examined down to 0)"), "{told}");
     let gap = &report.without_position[0];
     assert!(gap.reason.contains("static friction coefficient 0.4 of guide.front is below"), "{}", gap.reason);
     // Where the margin ends it first, nothing is said of it.
