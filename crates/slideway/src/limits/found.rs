@@ -35,7 +35,7 @@ pub(crate) struct SameEnds {
 
 impl SameEnds {
     /// Ends that were bisected between values of a range.
-    pub(super) fn bisected([from, to]: [f64; 2]) -> Self {
+    pub(crate) fn bisected([from, to]: [f64; 2]) -> Self {
         let within = SAME * (to - from);
         Self { within, landmarks: [from, to, 0.0].map(|value| (value, within)) }
     }

@@ -2,6 +2,7 @@
 
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
+use crate::limits::no_answer;
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::units::Unit;
@@ -33,12 +34,8 @@ impl Words<'_> {
         sentences.extend(self.constant());
         let report = self.report;
         for gap in &report.without_position {
-            sentences.push(format!(
-                "From {} to {} there is no answer, which does not count as locking: {}.",
-                quantity(report, gap.from),
-                quantity(report, gap.to),
-                gap.reason
-            ));
+            let told = no_answer([gap.from, gap.to], &report.vary.shown_in, &gap.reason);
+            sentences.push(told.trim_start().to_owned());
         }
         sentences
     }

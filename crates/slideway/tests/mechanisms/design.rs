@@ -209,7 +209,7 @@ fn wedge_push_limit_and_angle() {
         assert_close(found, 90_f64.to_radians() - 2.0 * (margin * mu).atan(), 0.0, 1e-12);
     }
     // At 22.928 deg the iteration for eigenvalues fails at first.
-    let report = against_locking(&model("wedge"), "alpha", 2.0);
+    let report = against_locking(&model("wedge"), "alpha=2 deg..50 deg", 2.0);
     assert_eq!(
         (report.met.len(), report.met[0].from_is, report.met[0].to_is),
         (1, MetEnd::Range, MetEnd::Range)
@@ -528,6 +528,11 @@ fn an_angle_is_sized_in_its_quarter_turn() {
     // Between two quarters both count.
     assert_eq!(range("0 deg"), [-90.0, 90.0]);
     assert_eq!(range("90 deg"), [0.0, 180.0]);
+    // A flat wedge lifts nothing, so its wall does not slide: the answers begin at 0, and that is told.
+    let wedge = against_locking(&model("wedge"), "alpha", 2.0);
+    assert_eq!((wedge.met[0].from, wedge.met[0].from_is), (0.0, MetEnd::NoPosition));
+    assert_eq!([wedge.without_position[0].from, wedge.without_position[0].to], [0.0, 0.0]);
+    assert!(wedge.conclusion[0].contains("alpha from 0, below which there is no answer, to 56.6"));
     // A length keeps the factor.
     let report = against_locking(&model("cam-follower"), "d", 2.0);
     assert!((report.vary.to / report.vary.from - 25.0).abs() < 1e-12);
