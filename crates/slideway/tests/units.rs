@@ -2,7 +2,7 @@
 
 use slideway::check::check;
 use slideway::drive::DriveOptions;
-use slideway::limits::{LimitsOptions, Vary};
+use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
 use slideway::report::Style;
 use slideway::units::UnitSystem;
 use slideway::{
@@ -105,6 +105,18 @@ fn small_forces_are_not_shown_in_the_unit_of_a_great_load() {
     assert_shows(&text(&driven), &["push needs 36.364 N instead of 20 N", "push in N"], &["kN"]);
     let held = hold(&small, &HoldOptions::default().hold_drives(true)).expect("an answer");
     assert_shows(&text(&held), &["force in N"], &["kN"]);
+    let vary = Vary::between("L", "200 mm", "500 mm");
+    let plot = |model: &Model| {
+        let options = LimitsOptions::new(vary.clone()).effort(0);
+        limits_with_curves(model, &options, Quantity::Effort)
+            .expect("an answer")
+            .1
+            .units
+            .of("N")
+            .name()
+            .to_owned()
+    };
+    assert_eq!([plot(&small), plot(&model())], ["N", "kN"]);
     // As typed, the option for SI units, and a program's numbers stay as they are.
     assert_shows(&text(&solve(&model()).expect("an answer")), &["normal force in kN"], &["in N "]);
     let si = small.with_units(UnitSystem::Si);
