@@ -182,8 +182,7 @@ pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], F
         let quarters = present / FRAC_PI_2;
         Ok([(quarters - 1.0).ceil(), (quarters + 1.0).floor()].map(|quarters| quarters * FRAC_PI_2 + 0.0))
     } else if varied.is_coordinate() || present == 0.0 {
-        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
-        Err(Fault::general(kind).into())
+        Err(varied.range_needed())
     } else {
         let ends = [present / FACTOR_AROUND, present * FACTOR_AROUND];
         Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })
