@@ -146,13 +146,11 @@ impl FromStr for Vary {
     fn from_str(text: &str) -> Result<Self, Faults> {
         let Some((name, range)) = text.split_once('=') else { return Ok(Self::usual(text.trim())) };
         let name = name.trim();
-        match ends_of_range(range) {
-            Ok(Some((from, to))) => Ok(Self::between(name, from.trim(), to.trim())),
-            _ => {
-                let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
-                Err(Fault::of_argument(kind, text, text.len() - range.len()..text.len()).into())
-            }
+        if let Ok(Some((from, to))) = ends_of_range(range) {
+            return Ok(Self::between(name, from.trim(), to.trim()));
         }
+        let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
+        Err(Fault::of_argument(kind, text, text.len() - range.len()..text.len()).into())
     }
 }
 
