@@ -156,6 +156,12 @@ fn what_coincides_is_one_line_with_both_names() {
     assert_eq!(kinds, [PointKind::Start, PointKind::End], "still moving");
     let portrait = svg(&portrait_figure(&history));
     assert!(portrait.matches("class=\"direction\"").count() > 10);
+    // So does the line below each frame where there is no page around it.
+    let moving = animation(&history, &AnimationOptions::default(), &LIGHT).to_svg().expect("finite places");
+    assert!(
+        moving.contains("mode + +: floor is flat on the lower guide, sliding to the right</text>"),
+        "{moving}"
+    );
     // The page of the moving picture tells modes in words, once each, and has a scale of forces.
     let page = animation(&history, &AnimationOptions::default(), &LIGHT).to_html().expect("finite places");
     let words = page.split("const words = ").nth(1).and_then(|rest| rest.split(';').next()).expect("words");

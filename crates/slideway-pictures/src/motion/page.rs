@@ -18,6 +18,8 @@ const INDENT: f64 = 12.0;
 const BLEED: f64 = 2.0;
 /// At most so many events are told in an SVG document.
 const MOST_TOLD: usize = 200;
+/// Size of the words below each frame.
+const CLOCK: f64 = 15.0;
 /// Size of the words of an event.
 const WORDS: f64 = 13.0;
 /// Greatest length of the arrow that shows the scale of forces (drawing units).
@@ -287,15 +289,20 @@ pub(super) fn still_size(animation: &Animation) -> [f64; 2] {
     [size.x.ceil(), (size.y + CAPTION).ceil()]
 }
 
-/// Time and mode of a frame, below its drawing.
+/// Time and mode of a frame with its words, below its drawing; three dots where these do not fit into the line.
 fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
+    let words = animation.words.get(frame.words).map_or("", |words| words);
+    let text = format!("t = {:.4} s, mode {}: {words}", frame.time, frame.mode);
+    let space = animation.bounds.size().x - 2.0 * INDENT - width("…", CLOCK);
+    let mut lines = wrapped(&text, CLOCK, space).into_iter();
+    let line = lines.next().unwrap_or_default();
+    let dots = if lines.next().is_some() { "…" } else { "" };
     let _ = write!(
         out,
-        "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"15\">t = {:.4} s, mode {}</text>",
+        "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{CLOCK}\">{}{dots}</text>",
         coordinate(animation.bounds.least.x + INDENT),
         coordinate(animation.bounds.greatest.y + 16.0),
-        frame.time,
-        escaped(&frame.mode)
+        escaped(&line)
     );
 }
 
