@@ -7,9 +7,13 @@ use crate::outcome::Outcome;
 use slideway::import::ImportFault;
 use slideway::raw_problem::RawFaults;
 use slideway_pictures::NotFinite;
+use slideway_tables::{Reason, TableError};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
+
+/// What to do where a file is in the way.
+const OVERWRITE: &str = "choose another name, or overwrite it with --force";
 
 /// Why a command could not do what it was asked to do.
 #[derive(Debug)]
@@ -48,16 +52,8 @@ pub(crate) enum Failure {
     SameOutput { path: PathBuf },
     /// The ending of a picture's file says nothing of its format.
     FileFormat { path: PathBuf, known: &'static [&'static str] },
-    /// An unfinished table is where a new one would be written.
-    Unfinished { path: PathBuf },
-    /// Another program writes the unfinished table.
-    InUse { path: PathBuf },
-    /// An unfinished table is not what was written.
-    Damaged { path: PathBuf },
-    /// There is no unfinished table.
-    NothingToResume { path: PathBuf },
-    /// The unfinished table is that of another sweep.
-    AnotherSweep { path: PathBuf, command: String },
+    /// A table cannot be written or continued.
+    Table(TableError),
     /// The ending of a table says nothing.
     UnknownEnding { path: PathBuf, known: Vec<String> },
     /// A table that is not written from beginning to end.
@@ -76,8 +72,6 @@ pub(crate) enum Failure {
     OverwritesInput { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
-    /// An unfinished table cannot be written any further.
-    CannotGoOn { path: PathBuf, error: io::Error },
     /// Parquet files need a feature that the program was built without.
     #[cfg(not(feature = "parquet"))]
     WithoutParquet,
@@ -103,6 +97,12 @@ impl From<NotFinite> for Failure {
     }
 }
 
+impl From<TableError> for Failure {
+    fn from(error: TableError) -> Self {
+        Self::Table(error)
+    }
+}
+
 impl Failure {
     /// The exit code.
     pub(crate) fn outcome(&self) -> Outcome {
@@ -121,7 +121,7 @@ impl Failure {
             }
             Self::IsDirectory { path } => format!("`{}` is a directory, not a file", path.display()),
             Self::CannotRead { path, error } => {
-                format!("`{}` cannot be read: {}", path.display(), reason(error))
+                format!("`{}` cannot be read: {}", path.display(), Reason(error))
             }
             Self::Input(_) | Self::Problem { .. } => String::new(),
             Self::Drawing { name, fault } => format!("`{name}` cannot be imported: {fault}"),
@@ -139,17 +139,7 @@ impl Failure {
             Self::FileFormat { path, .. } => {
                 format!("the extension of `{}` is not a known format", path.display())
             }
-            Self::Unfinished { path } => format!("there is an unfinished sweep: `{}`", path.display()),
-            Self::InUse { path } => format!("another sweep is writing `{}`", path.display()),
-            Self::Damaged { path } => {
-                format!("`{}` was changed since the sweep was interrupted", path.display())
-            }
-            Self::NothingToResume { path } => {
-                format!("there is no sweep to resume: `{}` is missing", path.display())
-            }
-            Self::AnotherSweep { path, command } => {
-                format!("`{}` belongs to another sweep: `{command}`", path.display())
-            }
+            Self::Table(error) => error.to_string(),
             Self::UnknownEnding { path, .. } => {
                 format!("the extension of `{}` does not determine the form of the table", path.display())
             }
@@ -178,8 +168,8 @@ impl Failure {
             Self::OverwritesInput { path } => {
                 format!("the output would overwrite its input `{}`", path.display())
             }
-            Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
-                format!("`{}` cannot be written: {}", path.display(), reason(error))
+            Self::CannotWrite { path, error } => {
+                format!("`{}` cannot be written: {}", path.display(), Reason(error))
             }
             #[cfg(not(feature = "parquet"))]
             Self::WithoutParquet => "this program was built without support for Parquet files".to_owned(),
@@ -195,7 +185,7 @@ impl Failure {
                 format!("the table would have {rows:.1e} rows; at most {most:.0e} are written")
             }
             Self::SeveralMotions => "files hold one motion, not all branches".to_owned(),
-            Self::StandardOutput { error } => format!("the answer cannot be written: {}", reason(error)),
+            Self::StandardOutput { error } => format!("the answer cannot be written: {}", Reason(error)),
         }
     }
 
@@ -215,9 +205,6 @@ impl Failure {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
-            Self::CannotGoOn { .. } => {
-                Some("the finished part is kept: make room, then repeat the command with --resume".to_owned())
-            }
             #[cfg(not(feature = "parquet"))]
             Self::WithoutParquet => Some(
                 "build it with `cargo build --release --features parquet`, or use .csv or .npz".to_owned(),
@@ -239,17 +226,9 @@ impl Failure {
             Self::FileFormat { known, .. } | Self::SeriesFormat { known, .. } => {
                 Some(format!("possible extensions: {}", known.join(", ")))
             }
-            Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            Self::OutputExists { .. } => Some(OVERWRITE.to_owned()),
             Self::FolderExists { .. } => Some("name a folder that does not exist yet".to_owned()),
-            Self::Unfinished { .. } => {
-                Some("continue it with --resume, or start over with --force".to_owned())
-            }
-            Self::InUse { .. } => Some("wait until it ends, or choose another name".to_owned()),
-            Self::Damaged { .. } => Some("start over with --force".to_owned()),
-            Self::NothingToResume { .. } => Some("omit --resume".to_owned()),
-            Self::AnotherSweep { .. } => Some(
-                "repeat that command with --resume and the same model, or start over with --force".to_owned(),
-            ),
+            Self::Table(error) => hint_on(error).map(str::to_owned),
             Self::UnknownEnding { known, .. } => {
                 Some(format!("possible extensions: {}; or use --format", known.join(", ")))
             }
@@ -272,11 +251,22 @@ impl Failure {
     }
 }
 
-/// What the system says, without its error number.
-fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    let end = text.find(" (os error").unwrap_or(text.len());
-    text[..end].to_lowercase()
+/// What to do about a table that cannot be written.
+fn hint_on(error: &TableError) -> Option<&'static str> {
+    match error {
+        TableError::Exists { .. } => Some(OVERWRITE),
+        TableError::Unfinished { .. } => Some("continue it with --resume, or start over with --force"),
+        TableError::InUse { .. } => Some("wait until it ends, or choose another name"),
+        TableError::Damaged { .. } => Some("start over with --force"),
+        TableError::NothingToResume { .. } => Some("omit --resume"),
+        TableError::AnotherSweep { .. } => {
+            Some("repeat that command with --resume and the same model, or start over with --force")
+        }
+        TableError::CannotGoOn { .. } => {
+            Some("the finished part is kept: make room, then repeat the command with --resume")
+        }
+        _ => None,
+    }
 }
 
 impl fmt::Display for Failure {

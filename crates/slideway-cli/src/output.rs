@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::paths::followed;
 use anstream::{AutoStream, ColorChoice};
 use slideway::report::{Report, Style};
+use slideway_tables::{PARTIAL, beside};
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -186,16 +187,6 @@ impl OutputFile {
             Err(error) => Err(failure(error.error)),
         }
     }
-}
-
-/// Ending of what is not finished.
-pub(crate) const PARTIAL: &str = ".partial";
-
-/// The path with something behind its name.
-pub(crate) fn beside(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(ending);
-    name.into()
 }
 
 /// Whether a file, or what is kept beside it while it is unfinished, has the place of an input.

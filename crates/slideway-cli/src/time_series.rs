@@ -1,11 +1,11 @@
 //! Time series as files.
 
 use crate::failure::Failure;
-use crate::table::Metadata;
-use crate::table::npz::{archive, number_array, text_array};
-#[cfg(feature = "parquet")]
-use crate::table::parquet::{Column, ColumnKind, GROUP, ParquetTable, Values};
 use slideway::motion::Series;
+use slideway_tables::Metadata;
+use slideway_tables::npz::{archive, number_array, text_array};
+#[cfg(feature = "parquet")]
+use slideway_tables::parquet::{Column, ColumnKind, GROUP, ParquetTable, Values};
 use std::fmt::Write;
 #[cfg(feature = "parquet")]
 use std::io;

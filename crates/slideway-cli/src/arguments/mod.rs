@@ -42,7 +42,7 @@ pub(crate) use search::SearchArguments;
 pub(crate) use simulate::{Preference, SimulateArguments};
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
-pub(crate) use sweep::{SweepArguments, TableFormat};
+pub(crate) use sweep::{SweepArguments, table_endings};
 pub(crate) use time::TimeArguments;
 
 use anstream::ColorChoice;

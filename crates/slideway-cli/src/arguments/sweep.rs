@@ -2,9 +2,11 @@
 
 use super::limits::PlottedQuantity;
 use super::{Destination, ModelArguments, PlotArguments, TimeArguments};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use slideway::fault::Faults;
 use slideway::sweep::{Sampling, Spread, SweepOptions, SweepPoints};
+use slideway_tables::TableFormat;
 use std::str::FromStr;
 
 pub(super) const HELP: &str = "\
@@ -68,7 +70,7 @@ pub(crate) struct SweepArguments {
     pub(crate) resume: bool,
 
     /// Form of the table; by default that of the output file's extension, else CSV.
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = table_format())]
     pub(crate) format: Option<TableFormat>,
 
     #[command(flatten)]
@@ -140,22 +142,13 @@ enum SamplingKind {
     Halton,
 }
 
-/// Form of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TableFormat {
-    /// Comma-separated values, with comment lines at the top.
-    Csv,
-    /// A NumPy archive.
-    Npz,
-    /// A Parquet file.
-    #[cfg(feature = "parquet")]
-    Parquet,
+/// The names of the forms of tables.
+fn table_format() -> impl TypedValueParser<Value = TableFormat> {
+    let names = TableFormat::ALL.iter().map(|form| PossibleValue::new(form.name()).help(form.description()));
+    PossibleValuesParser::new(names).map(|name| TableFormat::named(&name).expect("one of the names"))
 }
 
-impl TableFormat {
-    /// The endings of files.
-    pub(crate) fn endings() -> Vec<String> {
-        let forms = Self::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-        forms.map(|form| format!(".{}", form.get_name())).collect()
-    }
+/// The endings of tables.
+pub(crate) fn table_endings() -> Vec<String> {
+    TableFormat::ALL.iter().map(|form| format!(".{}", form.name())).collect()
 }

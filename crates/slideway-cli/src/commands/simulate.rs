@@ -4,11 +4,11 @@ use crate::arguments::{CheckFormat, Preference, SimulateArguments};
 use crate::failure::Failure;
 use crate::halt::Halt;
 use crate::input::Input;
+use crate::metadata::metadata;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
 use crate::pixels;
-use crate::table::{Metadata, unfinished};
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
@@ -23,6 +23,7 @@ use slideway::progress::Progress;
 use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
+use slideway_tables::{TableError, unfinished};
 use std::path::{Path, PathBuf};
 
 /// Rows of a table that are too many to be meant.
@@ -212,7 +213,7 @@ impl<'a> Files<'a> {
         };
         let file = table.as_ref().and_then(|(_, output)| output.path());
         if let Some(path) = file.and_then(|file| unfinished(&file)).filter(|_| !arguments.destination.force) {
-            return Err(Failure::Unfinished { path });
+            return Err(TableError::Unfinished { path }.into());
         }
         let animation = match arguments.animate.as_deref() {
             Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
@@ -253,7 +254,7 @@ impl<'a> Files<'a> {
                 None => history.times().collect(),
             };
             let series = finite(history.series(&times)).map_err(|faults| input.refused(faults))?;
-            let metadata = &Metadata::of(input);
+            let metadata = &metadata(input);
             match format {
                 SeriesFormat::Csv => output.write(&to_csv(&series))?,
                 SeriesFormat::Npz => output.write_bytes(&to_npz(&series, metadata))?,

@@ -1,19 +1,20 @@
 //! `slideway sweep`
 
-use crate::arguments::{SweepArguments, TableFormat};
+use crate::arguments::{SweepArguments, table_endings};
 use crate::failure::Failure;
 use crate::halt::Halt;
 use crate::input::Input;
+use crate::metadata::metadata;
 use crate::outcome::Outcome;
 use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
-use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
 use crate::watch::{Alarm, Watch};
 use slideway::model::Settings;
 use slideway::progress::Progress;
 use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_pictures::plot::{Extract, Extractor, SamplesPart, SamplesPlot, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
+use slideway_tables::{Continued, Encoder, Layout, PartialFile, TableFormat};
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -41,7 +42,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
         None => None,
     };
     let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
-    let encoder = Encoder::new(format, layout, Metadata::of(&input));
+    let encoder = Encoder::new(format, layout, metadata(&input));
     let work = Work { sweep: &sweep, encoder, plot };
     match path {
         Some(path) => to_file(arguments, work, (&path, &destination), watch),
@@ -53,19 +54,16 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
 /// The form of the table: what is asked for, or what the ending of the output tells.
 fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
     let path = arguments.destination.output.as_deref().filter(|path| *path != Path::new("-"));
-    let ending = path.and_then(|path| path.extension()?.to_str()).map(str::to_lowercase);
-    match (arguments.format, ending.as_deref()) {
-        (Some(format), _) => Ok(format),
-        (None, Some("csv") | None) => Ok(TableFormat::Csv),
-        (None, Some("npz")) => Ok(TableFormat::Npz),
-        #[cfg(feature = "parquet")]
-        (None, Some("parquet")) => Ok(TableFormat::Parquet),
+    let Some(path) = path.filter(|path| path.extension().is_some()) else {
+        return Ok(arguments.format.unwrap_or(TableFormat::Csv));
+    };
+    match arguments.format.or_else(|| TableFormat::of(path)) {
+        Some(format) => Ok(format),
         #[cfg(not(feature = "parquet"))]
-        (None, Some("parquet")) => Err(Failure::WithoutParquet),
-        (None, Some(_)) => {
-            let path = path.map(Path::to_owned).unwrap_or_default();
-            Err(Failure::UnknownEnding { path, known: TableFormat::endings() })
+        None if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) => {
+            Err(Failure::WithoutParquet)
         }
+        None => Err(Failure::UnknownEnding { path: path.to_owned(), known: table_endings() }),
     }
 }
 
@@ -239,7 +237,7 @@ fn to_file(
         watch.look(&Progress::of("points", state.done, sweep.points()))
     });
     if let Some(failure) = failure {
-        return Err(failure);
+        return Err(failure.into());
     }
     let is_computed = state.done == sweep.points();
     let mut follow = |part: f64| {

@@ -3,10 +3,7 @@
 //! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
 //! Checksums tell whether both files are still what was written.
 
-use super::{Encoder, npz};
-use crate::arguments::TableFormat;
-use crate::failure::Failure;
-use crate::output::{PARTIAL, beside};
+use crate::{Encoder, Metadata, TableError, TableFormat, npz};
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use slideway::sweep::SweepState;
@@ -16,6 +13,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+/// Ending of what is not finished.
+pub const PARTIAL: &str = ".partial";
 /// Version of the layout of the state.
 const SCHEMA: &str = "slideway/sweep-state/2";
 /// Endings of further files beside the table: the last state, the next one until it is whole.
@@ -42,7 +41,7 @@ struct Kept {
 }
 
 /// A table on its way.
-pub(crate) struct PartialFile {
+pub struct PartialFile {
     target: PathBuf,
     overwrite: bool,
     file: File,
@@ -53,9 +52,11 @@ pub(crate) struct PartialFile {
 }
 
 /// Where a sweep goes on.
-pub(crate) struct Continued {
-    pub(crate) file: PartialFile,
-    pub(crate) state: SweepState,
+pub struct Continued {
+    /// Where the rows go.
+    pub file: PartialFile,
+    /// What is done of it.
+    pub state: SweepState,
 }
 
 impl PartialFile {
@@ -64,23 +65,23 @@ impl PartialFile {
     /// # Errors
     /// If an unfinished one is in the way or missing, belongs to another command, or cannot be read or
     /// written.
-    pub(crate) fn open(
+    pub fn open(
         target: &Path,
         encoder: Encoder,
         (resume, overwrite): (bool, bool),
         start: SweepState,
-    ) -> Result<Continued, Failure> {
+    ) -> Result<Continued, TableError> {
         let path = beside(target, PARTIAL);
         if resume {
             return Self::reopen(target, encoder, overwrite);
         }
         let (file, is_new) = locked(&path, true)?;
         if !is_new && !overwrite {
-            return Err(Failure::Unfinished { path });
+            return Err(TableError::Unfinished { path });
         }
         // An old state must not be taken for that of the new table.
         remove(&beside(target, STATE))?;
-        file.set_len(0).map_err(|error| cannot_write(&path, error))?;
+        file.set_len(0).map_err(|error| TableError::writing(&path, error))?;
         let target = target.to_owned();
         let rows = Hasher::new();
         let mut file = Self { target, overwrite, file, encoder, bytes: 0, rows, kept_at: Instant::now() };
@@ -89,7 +90,7 @@ impl PartialFile {
             Err(error) => {
                 // There is nothing in it that would be worth to go on with.
                 let _ = fs::remove_file(&path);
-                Err(cannot_write(&path, error))
+                Err(TableError::writing(&path, error))
             }
         }
     }
@@ -102,37 +103,37 @@ impl PartialFile {
         self.keep_state(start)
     }
 
-    fn reopen(target: &Path, encoder: Encoder, overwrite: bool) -> Result<Continued, Failure> {
+    fn reopen(target: &Path, encoder: Encoder, overwrite: bool) -> Result<Continued, TableError> {
         let (path, state_path) = (beside(target, PARTIAL), beside(target, STATE));
-        let nothing = || Failure::NothingToResume { path: path.clone() };
+        let nothing = || TableError::NothingToResume { path: path.clone() };
         // Locked before the state is read: whoever still writes would change it.
         let (mut file, _) = locked(&path, false)?;
         let text = fs::read(&state_path).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => nothing(),
-            _ => Failure::CannotRead { path: state_path.clone(), error },
+            _ => TableError::reading(&state_path, error),
         })?;
-        let damaged = |path: &Path| Failure::Damaged { path: path.to_owned() };
+        let damaged = |path: &Path| TableError::Damaged { path: path.to_owned() };
         let kept: Kept = unsealed(&text)
             .and_then(|text| serde_json::from_slice(text).ok())
             .ok_or_else(|| damaged(&state_path))?;
         let same = kept.schema == SCHEMA
-            && kept.program == super::Metadata::program()
+            && kept.program == Metadata::program()
             && kept.command == encoder.metadata.command
             && kept.model == encoder.metadata.model;
         if !same {
-            return Err(Failure::AnotherSweep { path, command: kept.command });
+            return Err(TableError::AnotherSweep { path, command: kept.command });
         }
         // The beginning is written again: completing an archive may have been interrupted in the middle of
         // it.
         let head = encoder.head();
         let bytes = kept.bytes.checked_sub(head.len() as u64).ok_or_else(|| damaged(&path))?;
-        file.write_all(&head).map_err(|error| cannot_write(&path, error))?;
+        file.write_all(&head).map_err(|error| TableError::writing(&path, error))?;
         let rows = checksum(&mut file, bytes)
-            .map_err(|error| Failure::CannotRead { path: path.clone(), error })?
+            .map_err(|error| TableError::reading(&path, error))?
             .filter(|rows| rows.clone().finalize() == kept.crc)
             .ok_or_else(|| damaged(&path))?;
         // What was written behind the last state is computed again.
-        file.set_len(kept.bytes).map_err(|error| cannot_write(&path, error))?;
+        file.set_len(kept.bytes).map_err(|error| TableError::writing(&path, error))?;
         let target = target.to_owned();
         let file =
             Self { target, overwrite, file, encoder, bytes: kept.bytes, rows, kept_at: Instant::now() };
@@ -140,7 +141,7 @@ impl PartialFile {
     }
 
     /// Where the unfinished table is.
-    pub(crate) fn path(&self) -> PathBuf {
+    pub fn path(&self) -> PathBuf {
         beside(&self.target, PARTIAL)
     }
 
@@ -148,7 +149,7 @@ impl PartialFile {
     ///
     /// # Errors
     /// If they cannot be written.
-    pub(crate) fn add(&mut self, rows: &[Vec<u8>], state: &SweepState) -> Result<(), Failure> {
+    pub fn add(&mut self, rows: &[Vec<u8>], state: &SweepState) -> Result<(), TableError> {
         for rows in rows {
             self.file.write_all(rows).map_err(|error| self.cannot_go_on(error))?;
             self.rows.update(rows);
@@ -164,14 +165,14 @@ impl PartialFile {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(crate) fn keep(&mut self, state: &SweepState) -> Result<(), Failure> {
+    pub fn keep(&mut self, state: &SweepState) -> Result<(), TableError> {
         self.keep_state(state).map_err(|error| self.cannot_go_on(error))
     }
 
     fn keep_state(&mut self, state: &SweepState) -> io::Result<()> {
         let kept = Kept {
             schema: SCHEMA.to_owned(),
-            program: super::Metadata::program(),
+            program: Metadata::program(),
             command: self.encoder.metadata.command.clone(),
             model: self.encoder.metadata.model.clone(),
             bytes: self.bytes,
@@ -194,18 +195,18 @@ impl PartialFile {
     ///
     /// # Errors
     /// If it cannot be written, or a file of that name has appeared meanwhile.
-    pub(crate) fn complete(
+    pub fn complete(
         &mut self,
         go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<ControlFlow<()>, Failure> {
+    ) -> Result<ControlFlow<()>, TableError> {
         let finished = match self.finish(go_on).map_err(|error| self.cannot_go_on(error))? {
             ControlFlow::Continue(finished) => finished,
             ControlFlow::Break(()) => return Ok(ControlFlow::Break(())),
         };
         if self.target.exists() && !self.overwrite {
-            return Err(Failure::OutputExists { path: self.target.clone() });
+            return Err(TableError::Exists { path: self.target.clone() });
         }
-        fs::rename(&finished, &self.target).map_err(|error| cannot_write(&self.target, error))?;
+        fs::rename(&finished, &self.target).map_err(|error| TableError::writing(&self.target, error))?;
         remove(&beside(&self.target, STATE))?;
         if finished != self.path() {
             // Last of all: with it the lock goes, and another table may begin.
@@ -243,7 +244,7 @@ impl PartialFile {
         let Encoder { layout, metadata, .. } = &self.encoder;
         let records = (&self.file, self.bytes);
         let converted = File::create(&path).and_then(|file| {
-            let flow = super::parquet::convert(records, (layout, metadata), &file, go_on)?;
+            let flow = crate::parquet::convert(records, (layout, metadata), &file, go_on)?;
             file.sync_all()?;
             Ok(flow)
         });
@@ -256,22 +257,22 @@ impl PartialFile {
         })
     }
 
-    fn cannot_go_on(&self, error: io::Error) -> Failure {
-        Failure::CannotGoOn { path: self.path(), error }
+    fn cannot_go_on(&self, error: io::Error) -> TableError {
+        TableError::CannotGoOn { path: self.path(), error }
     }
 }
 
 /// Opens an unfinished table for this program alone, and says whether it is new; without `create` it has to
 /// be there.
-fn locked(path: &Path, create: bool) -> Result<(File, bool), Failure> {
+fn locked(path: &Path, create: bool) -> Result<(File, bool), TableError> {
     let mut attempts = 100;
     loop {
         let (file, is_new) = opened(path, create)?;
         match file.try_lock() {
-            Err(TryLockError::WouldBlock) => return Err(Failure::InUse { path: path.to_owned() }),
+            Err(TryLockError::WouldBlock) => return Err(TableError::InUse { path: path.to_owned() }),
             // Some network file systems have no locks; there it is left to the user.
             Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
-                return Err(cannot_write(path, error));
+                return Err(TableError::writing(path, error));
             }
             _ => {}
         }
@@ -281,26 +282,28 @@ fn locked(path: &Path, create: bool) -> Result<(File, bool), Failure> {
             return Ok((file, is_new));
         }
         if attempts == 0 {
-            return Err(Failure::InUse { path: path.to_owned() });
+            return Err(TableError::InUse { path: path.to_owned() });
         }
     }
 }
 
-fn opened(path: &Path, create: bool) -> Result<(File, bool), Failure> {
+fn opened(path: &Path, create: bool) -> Result<(File, bool), TableError> {
     let mut options = OpenOptions::new();
     options.read(true).write(true);
     if create {
         match options.clone().create_new(true).open(path) {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            created => return created.map(|file| (file, true)).map_err(|error| cannot_write(path, error)),
+            created => {
+                return created.map(|file| (file, true)).map_err(|error| TableError::writing(path, error));
+            }
         }
     }
     match options.open(path) {
         Ok(file) => Ok((file, false)),
         Err(error) if !create && error.kind() == io::ErrorKind::NotFound => {
-            Err(Failure::NothingToResume { path: path.to_owned() })
+            Err(TableError::NothingToResume { path: path.to_owned() })
         }
-        Err(error) => Err(cannot_write(path, error)),
+        Err(error) => Err(TableError::writing(path, error)),
     }
 }
 
@@ -347,18 +350,21 @@ fn unsealed(bytes: &[u8]) -> Option<&[u8]> {
 }
 
 /// The unfinished table of a sweep that could be continued, if there is one beside this file.
-pub(crate) fn unfinished(target: &Path) -> Option<PathBuf> {
+pub fn unfinished(target: &Path) -> Option<PathBuf> {
     beside(target, STATE).exists().then(|| beside(target, PARTIAL))
 }
 
 /// Removes a file if it is there.
-fn remove(path: &Path) -> Result<(), Failure> {
+fn remove(path: &Path) -> Result<(), TableError> {
     match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(cannot_write(path, error)),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(TableError::writing(path, error)),
         _ => Ok(()),
     }
 }
 
-fn cannot_write(path: &Path, error: io::Error) -> Failure {
-    Failure::CannotWrite { path: path.to_owned(), error }
+/// The path with something behind its name.
+pub fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
 }

@@ -1,12 +1,12 @@
 //! Tables as comma-separated values. Comment lines at the top begin with `#`.
 
-use super::{Layout, Metadata};
+use crate::{Layout, Metadata};
 use slideway::printable;
 use slideway::report::defined;
 use slideway::sweep::Rows;
 
 /// Comment lines with command and model, and the line of names.
-pub(super) fn head(layout: &Layout, metadata: &Metadata) -> Vec<u8> {
+pub(crate) fn head(layout: &Layout, metadata: &Metadata) -> Vec<u8> {
     let mut text = format!("# {}\n# {}\n", Metadata::program(), metadata.command);
     let units: Vec<String> =
         layout.varied.iter().chain(&layout.numbers).map(|(name, unit)| format!("{name} ({unit})")).collect();
@@ -35,7 +35,7 @@ fn quoted(name: &str) -> String {
 }
 
 /// One line for each row; numbers with the fewest digits that are read back as the same.
-pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
+pub(crate) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
     let mut out = Vec::with_capacity(rows.len() * (60 + 20 * rows.width));
     let mut buffer = zmij::Buffer::new();
     let mut digits = itoa::Buffer::new();

@@ -1,8 +1,8 @@
 //! Parquet files from records.
 
 use super::{Column, ColumnKind, GROUP, ParquetTable, Values};
-use crate::table::record::{Field, FieldKind, fields};
-use crate::table::{Layout, Metadata};
+use crate::record::{Field, FieldKind, fields};
+use crate::{Layout, Metadata};
 use ::parquet::data_type::ByteArray;
 use slideway::report::defined;
 use std::array;
@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 ///
 /// # Errors
 /// If a file cannot be read or written.
-pub(in crate::table) fn convert(
+pub(crate) fn convert(
     (mut records, bytes): (&File, u64),
     (layout, metadata): (&Layout, &Metadata),
     sink: &File,

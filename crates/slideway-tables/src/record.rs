@@ -1,24 +1,24 @@
 //! Rows as records of a fixed size, little-endian: the elements of a NumPy array with named fields, and what
 //! a Parquet file is made from.
 
-use super::Layout;
+use crate::Layout;
 use slideway::report::defined;
 use slideway::sweep::Rows;
 
 /// Bytes of a word of a status, a kind, a verdict.
-pub(super) const WORD: usize = 12;
+pub(crate) const WORD: usize = 12;
 
 /// A field of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Field {
-    pub(super) name: String,
-    pub(super) kind: FieldKind,
+pub(crate) struct Field {
+    pub(crate) name: String,
+    pub(crate) kind: FieldKind,
 }
 
 /// What a field holds. No word, no branch and no number stand in it as an empty word, as 0 and as not a
 /// number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum FieldKind {
+pub(crate) enum FieldKind {
     /// The number of a point: 8 bytes.
     Point,
     /// How many there are: 4 bytes.
@@ -33,7 +33,7 @@ pub(super) enum FieldKind {
 
 impl FieldKind {
     /// Bytes of the field.
-    pub(super) fn size(self) -> usize {
+    pub(crate) fn size(self) -> usize {
         match self {
             Self::Point | Self::Number => 8,
             Self::Count | Self::Branch => 4,
@@ -43,7 +43,7 @@ impl FieldKind {
 }
 
 /// The fields of a record in their order.
-pub(super) fn fields(layout: &Layout) -> Vec<Field> {
+pub(crate) fn fields(layout: &Layout) -> Vec<Field> {
     let field = |name: &str, kind| Field { name: name.to_owned(), kind };
     let number = |(name, _): &(String, &'static str)| field(name, FieldKind::Number);
     let word = |name: &str| field(name, FieldKind::Word(WORD));
@@ -62,12 +62,12 @@ pub(super) fn fields(layout: &Layout) -> Vec<Field> {
 }
 
 /// Bytes of a record.
-pub(super) fn size(layout: &Layout) -> usize {
+pub(crate) fn size(layout: &Layout) -> usize {
     fields(layout).iter().map(|field| field.kind.size()).sum()
 }
 
 /// The records of rows.
-pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
+pub(crate) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
     let mut out = Vec::with_capacity(rows.len() * size(layout));
     let word = |out: &mut Vec<u8>, word: &[u8], size: usize| {
         let end = out.len() + size;

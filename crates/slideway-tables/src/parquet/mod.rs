@@ -6,9 +6,9 @@
 
 mod records;
 
-pub(super) use records::convert;
+pub(crate) use records::convert;
 
-use super::Metadata;
+use crate::Metadata;
 use ::parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int32Type, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -21,24 +21,29 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 /// Rows of a group: as many as fit easily into memory.
-pub(crate) const GROUP: usize = 1 << 17;
+pub const GROUP: usize = 1 << 17;
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Column {
-    pub(crate) name: String,
-    pub(crate) kind: ColumnKind,
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub kind: ColumnKind,
     /// Empty for what has none.
-    pub(crate) unit: &'static str,
+    pub unit: &'static str,
 }
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ColumnKind {
+pub enum ColumnKind {
     /// Integers of 64 bits, none of them absent.
     Unsigned64,
     /// Integers of 32 bits.
-    Unsigned32 { nullable: bool },
+    Unsigned32 {
+        /// Whether some are absent.
+        nullable: bool,
+    },
     /// Numbers.
     Number,
     /// Words.
@@ -47,15 +52,19 @@ pub(crate) enum ColumnKind {
 
 /// The values of a column within a group of rows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Values {
+pub enum Values {
+    /// Of [`ColumnKind::Unsigned64`].
     Unsigned64(Vec<u64>),
+    /// Of [`ColumnKind::Unsigned32`].
     Unsigned32(Vec<Option<u32>>),
+    /// Of [`ColumnKind::Number`].
     Number(Vec<Option<f64>>),
+    /// Of [`ColumnKind::Word`].
     Word(Vec<Option<ByteArray>>),
 }
 
 /// A Parquet file that is being written.
-pub(crate) struct ParquetTable<W: Write + Send> {
+pub struct ParquetTable<W: Write + Send> {
     writer: SerializedFileWriter<W>,
 }
 
@@ -64,7 +73,7 @@ impl<W: Write + Send> ParquetTable<W> {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(crate) fn new(sink: W, columns: &[Column], metadata: &Metadata) -> io::Result<Self> {
+    pub fn new(sink: W, columns: &[Column], metadata: &Metadata) -> io::Result<Self> {
         let fields: Result<Vec<_>, _> = columns.iter().map(|column| field(column).map(Arc::new)).collect();
         let schema = fields
             .and_then(|fields| Type::group_type_builder("slideway").with_fields(fields).build())
@@ -78,7 +87,7 @@ impl<W: Write + Send> ParquetTable<W> {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(crate) fn add(&mut self, columns: impl Iterator<Item = Values>) -> io::Result<()> {
+    pub fn add(&mut self, columns: impl Iterator<Item = Values>) -> io::Result<()> {
         let add = || {
             let mut group = self.writer.next_row_group()?;
             for values in columns {
@@ -95,7 +104,7 @@ impl<W: Write + Send> ParquetTable<W> {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(crate) fn finish(mut self) -> io::Result<()> {
+    pub fn finish(mut self) -> io::Result<()> {
         self.writer.finish().map(|_| ()).map_err(failure)
     }
 }

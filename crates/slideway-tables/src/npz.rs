@@ -3,12 +3,13 @@
 //! Records are appended as they come; sizes and checksums at the beginning are filled in at the end. (The
 //! formats: PKWARE, APPNOTE.TXT 6.3.10, sections 4.3 and 4.5.3; NumPy, `numpy.lib.format`.)
 
-use super::record::{FieldKind, fields, size};
-use super::{Layout, Metadata};
+use crate::record::{FieldKind, fields, size};
+use crate::{Layout, Metadata};
 use crc32fast::Hasher;
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 
+/// The member with the rows.
 const ROWS: &str = "rows.npy";
 /// Version that a reader needs for ZIP64, and 1 January 1980, the first date of the format.
 const VERSION: u16 = 45;
@@ -25,7 +26,7 @@ struct Member {
 }
 
 /// What stands before the records, with sizes that are not known yet.
-pub(super) fn head(layout: &Layout) -> Vec<u8> {
+pub(crate) fn head(layout: &Layout) -> Vec<u8> {
     let mut head = local_header(&Member { name: ROWS.to_owned(), crc: 0, size: 0, offset: 0 });
     head.extend(array_header(layout, 0));
     head
@@ -36,7 +37,7 @@ pub(super) fn head(layout: &Layout) -> Vec<u8> {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub(super) fn finish(
+pub(crate) fn finish(
     file: &mut File,
     layout: &Layout,
     metadata: &Metadata,
@@ -84,7 +85,7 @@ pub(super) fn finish(
 }
 
 /// An archive of arrays with their names.
-pub(crate) fn archive(arrays: &[(String, Vec<u8>)]) -> Vec<u8> {
+pub fn archive(arrays: &[(String, Vec<u8>)]) -> Vec<u8> {
     let mut out = Vec::new();
     let mut members = Vec::with_capacity(arrays.len());
     for (name, content) in arrays {
@@ -102,7 +103,7 @@ pub(crate) fn archive(arrays: &[(String, Vec<u8>)]) -> Vec<u8> {
 }
 
 /// Numbers as an array.
-pub(crate) fn number_array(values: impl ExactSizeIterator<Item = f64>) -> Vec<u8> {
+pub fn number_array(values: impl ExactSizeIterator<Item = f64>) -> Vec<u8> {
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}", values.len());
     let mut out = npy_header(&header, header.len());
     values.for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
@@ -186,7 +187,7 @@ fn array_header(layout: &Layout, count: u64) -> Vec<u8> {
 }
 
 /// The type of a field as NumPy writes it.
-fn element_type(kind: FieldKind) -> String {
+pub(crate) fn element_type(kind: FieldKind) -> String {
     match kind {
         FieldKind::Point => "<u8".to_owned(),
         FieldKind::Count | FieldKind::Branch => "<u4".to_owned(),
@@ -215,7 +216,7 @@ fn npy_header(header: &str, room: usize) -> Vec<u8> {
 }
 
 /// Texts as an array of UTF-32; a single one as an array without dimensions.
-pub(crate) fn text_array(texts: &[&str], single: bool) -> Vec<u8> {
+pub fn text_array(texts: &[&str], single: bool) -> Vec<u8> {
     let length = texts.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
     let shape = if single { "()".to_owned() } else { format!("({},)", texts.len()) };
     let header = format!("{{'descr': '<U{length}', 'fortran_order': False, 'shape': {shape}, }}");

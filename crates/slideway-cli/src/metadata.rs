@@ -1,0 +1,52 @@
+//! What a table tells of this run.
+
+use crate::input::Input;
+use slideway::printable;
+use slideway_tables::Metadata;
+use std::ffi::{OsStr, OsString};
+
+/// Arguments that do not change a table.
+const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
+
+/// The command of this run and its model.
+pub(crate) fn metadata(input: &Input) -> Metadata {
+    Metadata { command: command(std::env::args_os()), model: input.text() }
+}
+
+/// The command as it may be given again, on one line.
+fn command(arguments: impl Iterator<Item = OsString>) -> String {
+    let kept = arguments.skip(1).filter(|word| !LEFT_OUT.iter().any(|left_out| word == left_out));
+    kept.fold("slideway".to_owned(), |command, word| format!("{command} {}", quoted(&word)))
+}
+
+/// A word as a shell takes it: plain, in quotes, or, if it is not printable or no UTF-8, byte by byte where
+/// it has to be.
+fn quoted(word: &OsStr) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
+    match word.to_str() {
+        Some(text) if !text.is_empty() && text.chars().all(plain) => text.to_owned(),
+        Some(text) if printable::line(text) == text => format!("'{}'", text.replace('\'', "'\\''")),
+        _ => {
+            let bytes = word.as_encoded_bytes().iter().map(|byte| match byte {
+                b'\n' => "\\n".to_owned(),
+                b'\'' | b'\\' => format!("\\{}", char::from(*byte)),
+                b' '..=b'~' => char::from(*byte).to_string(),
+                other => format!("\\{other:03o}"),
+            });
+            format!("$'{}'", bytes.collect::<String>())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_stays_on_one_line() {
+        let words =
+            ["slideway", "sweep", "it's.toml", "a\nb'\u{1b}]0;\u{9b}.toml", "--force", "--vary", "mu=0..1"];
+        let told = command(words.into_iter().map(OsString::from));
+        assert_eq!(told, r"slideway sweep 'it'\''s.toml' $'a\nb\'\033]0;\302\233.toml' --vary mu=0..1");
+    }
+}
