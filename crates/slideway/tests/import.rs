@@ -168,7 +168,7 @@ fn blocks_are_inserted() {
     assert!(has_corners(&outline(&nested, "lever"), &back), "{:?}", outline(&nested, "lever"));
 }
 
-/// A circle of radius 2 mm scaled by 3 and 1 is an ellipse, whose plate has the radius of gyration
+/// A circle of radius 2 mm scaled by 3 and 1 is an ellipse; the square of its radius of gyration is
 /// (a^2 + b^2)/4 = 10 mm^2; rows and columns are inserted each.
 #[test]
 fn blocks_are_stretched_and_repeated() {
