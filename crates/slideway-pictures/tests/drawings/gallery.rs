@@ -52,7 +52,7 @@ fn cases() -> Vec<(String, Case)> {
 
 #[test]
 fn everything_is_within_the_view_box() {
-    for (name, case, sheet) in &*CASES {
+    for (name, _, sheet) in &*CASES {
         let bounds = sheet.bounds;
         for element in &sheet.scene.elements {
             let Some(inner) = element.shape.bounds() else { continue };
@@ -66,7 +66,7 @@ fn everything_is_within_the_view_box() {
 
 #[test]
 fn no_two_texts_overlap() {
-    for (name, case, sheet) in &*CASES {
+    for (name, _, sheet) in &*CASES {
         let texts: Vec<_> = sheet.scene.texts().map(|(_, text)| text).collect();
         for (index, text) in texts.iter().enumerate() {
             for other in &texts[..index] {
@@ -80,7 +80,7 @@ fn no_two_texts_overlap() {
 /// Letters over a dimension or over hatching are hard to read: each label has a place without.
 #[test]
 fn no_text_covers_a_dimension_or_hatching() {
-    for (name, case, sheet) in &*CASES {
+    for (name, _, sheet) in &*CASES {
         let texts: Vec<_> = sheet.scene.texts().map(|(_, text)| (text, text.bounds())).collect();
         for class in [Class::Dimension, Class::Hatch] {
             for shape in of_class(&sheet.scene, class) {
@@ -97,7 +97,7 @@ fn no_text_covers_a_dimension_or_hatching() {
 /// Each value is the nearest of its colour to what it names, or a line leads there: no two stand beside one arrow.
 #[test]
 fn no_two_values_stand_beside_one_arrow() {
-    for (name, case, sheet) in &*CASES {
+    for (name, _, sheet) in &*CASES {
         let leaders: Vec<_> = of_class(&sheet.scene, Class::Leader).collect();
         for class in [Class::Reaction, Class::Friction, Class::Load, Class::Drive, Class::Velocity] {
             let arrows: Vec<&Shape> =

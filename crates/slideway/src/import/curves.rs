@@ -147,15 +147,14 @@ mod tests {
     #[test]
     fn ellipses() {
         let whole = [(10, "0"), (20, "0"), (11, "3"), (21, "0"), (40, "0.333333333333333333")];
-        let path = ellipse(&record(&whole), 1.0).unwrap();
-        assert!((area(&path) - 3.0 * PI).abs() < 2.0 * NEAR_CURVE * 6.4 * 14.0, "{}", area(&path));
+        let path = ellipse(&record(&whole), 1.0).expect("sound");
         assert!((area(&path) / (3.0 * PI) - 1.0).abs() < 1e-4, "{}", area(&path));
         for corner in &path.corners {
             assert!(((corner.at.x / 3.0).powi(2) + corner.at.y.powi(2) - 1.0).abs() < 1e-12);
         }
         let half = [&whole[..], &[(41, "0"), (42, "3.14159265358979")]].concat();
         for sign in [1.0, -1.0] {
-            let path = ellipse(&record(&half), sign).unwrap();
+            let path = ellipse(&record(&half), sign).expect("sound");
             assert!(path.corners.iter().all(|corner| corner.at.y * sign > -1e-12));
             assert!((area(&path) * sign / (1.5 * PI) - 1.0).abs() < 1e-4);
         }
@@ -184,7 +183,7 @@ mod tests {
             (10, "0"),
             (20, "1"),
         ];
-        let path = spline(&record(&quarter)).unwrap().unwrap();
+        let path = spline(&record(&quarter)).expect("numbers").expect("sound");
         assert_eq!(path.corners.len(), 2, "it is an arc");
         for corner in &path.corners {
             assert!((corner.at.norm() - 1.0).abs() < 1e-12);
@@ -209,10 +208,10 @@ mod tests {
             (10, "5"),
             (20, "0"),
         ];
-        let path = spline(&record(&bezier)).unwrap().unwrap();
+        let path = spline(&record(&bezier)).expect("numbers").expect("sound");
         let is_middle = |corner: &Corner| (corner.at - Vector2::new(2.5, 1.5)).norm() < 1e-12;
         assert!(path.corners.iter().any(is_middle), "{path:?}");
         assert!((area(&path) / -6.0 - 1.0).abs() < 1e-3, "{}", area(&path));
-        assert!(spline(&record(&bezier[..16])).unwrap().is_none(), "a control point is not whole");
+        assert!(spline(&record(&bezier[..16])).expect("numbers").is_none(), "a control point is not whole");
     }
 }

@@ -75,15 +75,15 @@ impl Layer {
                 let centre = place(record, 10, 1.0)?;
                 let angles = [record.number(50)?, record.number(51)?].map(f64::to_radians);
                 let corners = arc(centre, record.number(40)?, angles);
-                self.paths.push(Path { corners: mirrored(corners, sign), is_closed: false });
+                self.paths.push(Path { corners: mirrored(&corners, sign), is_closed: false });
             }
             "LWPOLYLINE" => {
                 let path = polyline(&light_vertices(record)?, record.flags(70)?);
-                self.paths.push(Path { corners: mirrored(path.corners, sign), ..path });
+                self.paths.push(Path { corners: mirrored(&path.corners, sign), ..path });
             }
             "POLYLINE" if record.flags(70)? & MESH == 0 => {
                 let path = polyline(&heavy_vertices(vertices)?, record.flags(70)?);
-                self.paths.push(Path { corners: mirrored(path.corners, sign), ..path });
+                self.paths.push(Path { corners: mirrored(&path.corners, sign), ..path });
             }
             "ELLIPSE" => self.paths.push(ellipse(record, sign)?),
             "SPLINE" => match spline(record)? {
@@ -134,7 +134,7 @@ fn place(record: &Record<'_>, code: i32, sign: f64) -> Result<Vector2<f64>, Impo
     Ok(Vector2::new(sign * record.number(code)?, record.number(code + 10)?))
 }
 
-fn mirrored(corners: Vec<Corner>, sign: f64) -> Vec<Corner> {
+fn mirrored(corners: &[Corner], sign: f64) -> Vec<Corner> {
     corners.iter().map(|corner| corner.map(|place| Vector2::new(sign * place.x, place.y))).collect()
 }
 

@@ -60,7 +60,9 @@ pub(super) fn sections(text: &str) -> Result<Sections<'_>, ImportFault> {
             "BLOCK" if section == "BLOCKS" => blocks.push(Block { head: record, entities: Vec::new() }),
             "ENDBLK" => {}
             _ if section == "BLOCKS" => {
-                blocks.iter_mut().last().into_iter().for_each(|block| block.entities.push(record.clone()))
+                if let Some(block) = blocks.last_mut() {
+                    block.entities.push(record);
+                }
             }
             _ if section == "ENTITIES" => entities.iter_mut().for_each(|all| all.push(record.clone())),
             _ => {}

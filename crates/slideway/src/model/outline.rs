@@ -95,14 +95,12 @@ impl Piece {
     /// The distance of a place from the circle of an arc, or from the line through both ends.
     pub(crate) fn distance(&self, place: Vector2<f64>) -> f64 {
         let way = place - self.from;
-        match self.arc {
+        if let Some((arm, _)) = self.arc {
             // |way + arm| - |arm| without cancellation where the arc is nearly straight.
-            Some((arm, _)) => (way.dot(&(way + 2.0 * arm)) / ((way + arm).norm() + arm.norm())).abs(),
-            None => {
-                let line = self.to - self.from;
-                if line.norm() > 0.0 { (line.perp(&way) / line.norm()).abs() } else { way.norm() }
-            }
+            return (way.dot(&(way + 2.0 * arm)) / ((way + arm).norm() + arm.norm())).abs();
         }
+        let line = self.to - self.from;
+        if line.norm() > 0.0 { (line.perp(&way) / line.norm()).abs() } else { way.norm() }
     }
 
     /// The number of straight pieces by which it is drawn.
