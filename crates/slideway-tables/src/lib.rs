@@ -13,6 +13,12 @@
 //! [`write_table`] merges them from [`RowSource::Shards`]. The merged table is that of the whole sweep, byte for
 //! byte, if it tells the same command of itself.
 //!
+//! # Files
+//! `writing.rs` leads rows into a table, `partial.rs` is that table until it is whole; `encoder.rs` makes bytes
+//! of rows, with `csv.rs` or `record.rs`, from whose records `npz.rs` and `parquet/` make files. `shard.rs` is
+//! what a shard tells of itself, `shards.rs` the folder of all; `parquet/reader.rs` reads their rows,
+//! `parquet/seal.rs` tells whether they are what was written.
+//!
 //! # Features
 //! - `parquet`: Parquet files, and shards. Its library takes long to build.
 
