@@ -128,7 +128,12 @@ impl<'w> Work<'w> {
 
     /// Whether the work is to end.
     pub fn is_over(self) -> bool {
-        (self.tell)(None).is_break()
+        self.flow().is_break()
+    }
+
+    /// Breaks if the work is to end: for callbacks of inner work whose own progress is not told.
+    pub fn flow(self) -> ControlFlow<()> {
+        (self.tell)(None)
     }
 }
 

@@ -4,8 +4,9 @@
 //! and, with the feature `parquet`, Parquet files. It knows no arguments and prints nothing, so that every
 //! interface writes the same bytes.
 //!
-//! [`write_table`] computes a sweep and writes its table. A table is written bit by bit to `FILE.partial` and gets its name when it is whole ([`PartialFile`]); an
-//! interrupted one can be continued. What else is made of numbers and texts takes [`npz`] and [`parquet`].
+//! [`write_table`] computes a sweep and writes its table. A table is written bit by bit to `FILE.partial` and
+//! gets its name when it is whole ([`PartialFile`]); an interrupted one can be continued. What else is made of
+//! numbers and texts takes [`npz`] and [`parquet`].
 //!
 //! # Shards
 //! A sweep may be computed in shards, each by a process or machine of its own: [`write_shard`] writes one into
@@ -21,7 +22,10 @@
 //!
 //! # Features
 //! - `parquet`: Parquet files, and shards. Its library takes long to build.
+//! - `arrow`: tables as Apache Arrow, for data frames in the same process.
 
+#[cfg(feature = "arrow")]
+pub mod arrow;
 mod csv;
 mod encoder;
 mod error;

@@ -49,12 +49,8 @@ pub(super) fn pressure(text: &str) -> Result<Limit, String> {
 /// An efficiency, such as 0.7 or 70 %.
 pub(super) fn efficiency(text: &str) -> Result<Limit, String> {
     let wanted = "above 0 and at most 1, such as `0.7` or `70 %`";
-    let ratio = match text.trim_end().strip_suffix('%') {
-        Some(percent) => percent.trim_end().parse::<f64>().map(|percent| percent / 100.0),
-        None => text.parse(),
-    };
-    match ratio {
-        Ok(value) if value > 0.0 && value <= 1.0 => Ok(Limit { value, unit: None }),
+    match limit(text, &[""], wanted)? {
+        Limit { value, .. } if value <= 1.0 => Ok(Limit { value, unit: None }),
         _ => Err(format!("it must be {wanted}")),
     }
 }

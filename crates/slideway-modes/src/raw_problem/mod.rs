@@ -161,6 +161,35 @@ impl RawProblem {
         npz::read(bytes, &mut faults)?.assemble(faults)
     }
 
+    /// The problem with these arrays: name, sizes (none for a number), and entries row by row.
+    ///
+    /// # Errors
+    /// Names, shapes and values that do not make a problem of this type.
+    ///
+    /// ```
+    /// use slideway_modes::raw_problem::{RawKind, RawProblem};
+    ///
+    /// let arrays = [("M", vec![2, 2], vec![1.0, 2.0, 2.0, 1.0]), ("q", vec![3], vec![0.0; 3])];
+    /// let faults = RawProblem::from_arrays(RawKind::Lcp, arrays).unwrap_err();
+    /// assert_eq!(faults.to_string(), "`M` is a 2 x 2 matrix, but must be a 3 x 3 matrix, as `q` has 3 entries");
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many entries as the sizes say.
+    #[cfg(any(feature = "json", feature = "npz"))]
+    pub fn from_arrays<'a>(
+        kind: RawKind,
+        arrays: impl IntoIterator<Item = (&'a str, Vec<usize>, Vec<f64>)>,
+    ) -> Result<Self, RawFaults> {
+        let array = |(name, sizes, values): (&str, Vec<usize>, Vec<f64>)| {
+            assert_eq!(sizes.iter().product::<usize>(), values.len(), "entries of {name}");
+            (name.to_owned(), Some(shape::Array { sizes, values }))
+        };
+        let arrays = arrays.into_iter().map(array).collect();
+        let kind = assemble::GivenType::Text(kind.word().to_owned());
+        assemble::Given { kind, arrays }.assemble(Vec::new())
+    }
+
     /// Its type.
     pub fn kind(&self) -> RawKind {
         match self {

@@ -1,6 +1,6 @@
 //! Whether a raw problem has exactly one solution for every right-hand side.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::{RawKind, RawProblem};
 use crate::problem::{ModeProblemError, Side};
@@ -28,7 +28,8 @@ pub struct EveryRightHandSide {
 }
 
 /// See [`EveryRightHandSide`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum EveryAnswer {
     /// Exactly one solution for every right-hand side: proven.
     One,
@@ -55,12 +56,6 @@ impl EveryAnswer {
             Self::NotComputed => "not_computed",
             Self::Jumps => "jumps",
         }
-    }
-}
-
-impl Serialize for EveryAnswer {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.word())
     }
 }
 

@@ -1,9 +1,10 @@
 //! What a figure shows, as plain data.
 
+use serde::Serialize;
 use slideway::model::{Setting, SettingKind, Settings};
 
 /// A figure: panels one below the other, each with its legend.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Figure {
     /// Headline.
     pub title: String,
@@ -56,7 +57,7 @@ pub(crate) fn headline(title: Option<&str>, shown: &str) -> String {
 }
 
 /// A pair of axes and all that is drawn in them.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Panel {
     /// Above the panel; may be empty.
     pub title: String,
@@ -81,7 +82,7 @@ pub struct Panel {
 }
 
 /// An axis.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Axis {
     /// What it measures.
     pub name: String,
@@ -94,7 +95,7 @@ pub struct Axis {
 }
 
 /// A branch of solutions, a mode, a motion: what has one colour and stroke.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Branch {
     /// In the legend.
     pub name: String,
@@ -105,7 +106,8 @@ pub struct Branch {
 }
 
 /// How a curve is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Stroke {
     /// What a mechanism can settle on: a solid line.
     Solid,
@@ -118,7 +120,7 @@ pub enum Stroke {
 }
 
 /// A quantity along a branch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Curve {
     /// Index into [`Figure::branches`].
     pub branch: usize,
@@ -131,7 +133,8 @@ pub struct Curve {
 }
 
 /// The end of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum End {
     /// Nothing to mark: the range ends, or another curve goes on.
     #[default]
@@ -143,7 +146,7 @@ pub enum End {
 }
 
 /// A point that is marked.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MarkedPoint {
     /// Where, in the units of the axes.
     pub at: [f64; 2],
@@ -152,7 +155,8 @@ pub struct MarkedPoint {
 }
 
 /// What is at a marked point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PointKind {
     /// A motion begins: a circle.
     Start,
@@ -180,7 +184,7 @@ impl PointKind {
 }
 
 /// A vertical line at a value of x.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MarkedValue {
     /// Where.
     pub at: f64,
@@ -191,7 +195,7 @@ pub struct MarkedValue {
 }
 
 /// A hatched interval of x.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Zone {
     /// Where it begins.
     pub from: f64,
@@ -204,7 +208,8 @@ pub struct Zone {
 }
 
 /// How an interval is hatched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Hatching {
     /// Lines that rise to the right: no solution.
     Rising,
@@ -215,7 +220,7 @@ pub enum Hatching {
 }
 
 /// A bar of a histogram.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bar {
     /// Its left and its right side.
     pub sides: [f64; 2],
@@ -228,7 +233,7 @@ pub struct Bar {
 }
 
 /// A coloured stretch along the x axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Band {
     /// Where it begins.
     pub from: f64,

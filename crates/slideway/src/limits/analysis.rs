@@ -7,7 +7,7 @@ use super::options::LimitsOptions;
 use super::report::{LimitsReport, SpeedLimits};
 use super::speeds::speeds;
 use super::varied::Varied;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::model::Model;
 use crate::progress::Work;
 
@@ -65,10 +65,6 @@ fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
     } else if model.is_friction_coefficient(&varied.name) {
         Ok([0.0, (2.0 * varied.present()?).max(USUAL_FRICTION)])
     } else {
-        Err(fault(FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() }))
+        Err(varied.range_needed())
     }
-}
-
-fn fault(kind: FaultKind) -> Faults {
-    Fault::general(kind).into()
 }

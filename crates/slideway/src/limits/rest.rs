@@ -6,7 +6,7 @@
 use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
 use super::scan::{bisect, kind};
 use super::vary::Vary;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -61,10 +61,7 @@ fn rest_limits_of(
     work: Work<'_>,
 ) -> Result<RestLimitsReport, Faults> {
     let varied = vary.at_rest(model)?;
-    let range = vary.ends(&varied, || {
-        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
-        Err(Fault::general(kind).into())
-    })?;
+    let range = vary.ends(&varied, || Err(varied.range_needed()))?;
     let found = |at: f64| -> Found {
         let (model, friction) = varied.model_at(at)?;
         can_rest((&model, friction), options, work)

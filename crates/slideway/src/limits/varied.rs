@@ -13,7 +13,6 @@ use crate::progress::{Progress, Work};
 use crate::report::{Solution, SolveReport};
 use crate::solve::{Parts, SolveOptions, Stages, certain_counts, solve_with_friction, states_between_faces};
 use crate::units::Unit;
-use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The name under which all coefficients of friction are scaled together.
@@ -195,8 +194,7 @@ impl Varied {
             enclosure(&model, &uncertain, &mechanism, &configuration).ok()
         };
         let Some(enclosed) = enclosed() else { return (None, 1) };
-        let mut goes_on =
-            |_: &Progress| if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let mut goes_on = |_: &Progress| work.flow();
         let result = search(&enclosed.problem, &options.search, &mut goes_on);
         (certain_counts(&enclosed, &result, options, greatest), result.nodes())
     }
@@ -216,9 +214,7 @@ impl Varied {
         }
         let options = SolveOptions::default();
         let states = |model: &Model, stages: &Stages, friction: f64| {
-            let mut goes_on = |_: &Progress| {
-                if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
+            let mut goes_on = |_: &Progress| work.flow();
             states_between_faces(model, stages.rougher(friction), greatest, &options, &mut goes_on)
         };
         let model = self.model_at(value);
@@ -235,11 +231,15 @@ impl Varied {
         let (model, _) = self.model_at(value)?;
         let options = SolveOptions::default();
         self.at(value, |stages, factor| {
-            let mut goes_on = |_: &Progress| {
-                if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
+            let mut goes_on = |_: &Progress| work.flow();
             solve_with_friction(&model, stages.rougher(factor), &options, &mut goes_on)
         })
+    }
+
+    /// The fault that it needs a range.
+    pub(crate) fn range_needed(&self) -> Faults {
+        let kind = FaultKind::RangeNeeded { what: self.in_words(), name: self.name.clone() };
+        Fault::general(kind).into()
     }
 
     fn follower(&self) -> MutexGuard<'_, Follower> {

@@ -175,8 +175,7 @@ pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], F
     if model.is_friction_coefficient(&varied.name) {
         Ok([0.0, (2.0 * present).max(1.0)])
     } else if varied.is_coordinate() || present == 0.0 {
-        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
-        Err(Fault::general(kind).into())
+        Err(varied.range_needed())
     } else {
         let ends = [present / FACTOR_AROUND, present * FACTOR_AROUND];
         Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })

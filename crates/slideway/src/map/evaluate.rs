@@ -11,7 +11,6 @@ use crate::model::{Model, Settings};
 use crate::progress::{Progress, Work, undisturbed};
 use crate::solve::{Parts, SolveOptions, Stages, Trail, states_between_faces};
 use crate::standstill::{HoldOptions, can_rest};
-use std::ops::ControlFlow;
 
 /// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least
 /// accurate of them is known.
@@ -156,8 +155,7 @@ impl Source {
         }
         let (model, friction) = model_at(&self.model, axes, values)?;
         let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
-        let mut goes_on =
-            |_: &Progress| if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let mut goes_on = |_: &Progress| work.flow();
         let (at, options) = (stages.rougher(friction), SolveOptions::default());
         let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();

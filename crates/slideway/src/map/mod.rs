@@ -144,10 +144,7 @@ impl Axis {
             ColourBy::Hold => vary.at_rest(model)?,
             _ => vary.of(model)?,
         };
-        let range = vary.ends(&varied, || {
-            let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
-            Err(Fault::general(kind).into())
-        })?;
+        let range = vary.ends(&varied, || Err(varied.range_needed()))?;
         Ok(Self { varied, range })
     }
 

@@ -14,15 +14,17 @@
 //! # Ok::<(), slideway::Faults>(())
 //! ```
 
-use crate::configuration::{Configuration, Follower, widest_gap_of_drawing};
+use crate::configuration::{Configuration, widest_gap_of_drawing};
 use crate::expression::{Dimension, Symbol};
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::FormulaId;
+use crate::influence::Influence;
+use crate::kinetics::KineticEquations;
 use crate::mechanism::{Contact, Mechanism};
 use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
 use crate::report::number::number;
-use crate::solve::Stages;
 use serde::Serialize;
+use std::cell::LazyCell;
 use std::f64::consts::TAU;
 
 /// Bare angles beyond this (rad) are taken for degrees.
@@ -80,6 +82,9 @@ impl Warning {
     }
 }
 
+/// The mechanism in its state, where it can be assembled.
+type State<'a> = LazyCell<Option<Configuration>, Box<dyn FnOnce() -> Option<Configuration> + 'a>>;
+
 /// Everything in a model that is perhaps not meant, each with its place: none of it keeps it from being
 /// solved. Settings that have been applied to the model count.
 pub fn warnings(model: &Model) -> Faults {
@@ -90,23 +95,27 @@ pub fn warnings(model: &Model) -> Faults {
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
         found.extend(gap_closed(&mechanism));
-        found.extend(far_from_drawing(&mechanism));
-        found.extend(nothing_presses(mechanism));
+        // Assembled once, and only if one of them asks.
+        let state: State<'_> = LazyCell::new(Box::new(|| Configuration::new(&mechanism).ok()));
+        found.extend(far_from_drawing(&mechanism, &state));
+        found.extend(nothing_presses(&mechanism, &state));
     }
     found
 }
 
 /// A driven mechanism without any contact force: whatever the friction, it seems to move. The forces are exactly
 /// zero, as nothing on the right-hand side of the equations is not.
-fn nothing_presses(mechanism: Mechanism) -> Option<Fault> {
+fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
     let is_rough = |contact: &Contact| contact.mu != [0.0; 2];
-    if mechanism.drives.is_empty() || !mechanism.contacts.iter().any(is_rough) {
+    let rubs = |contact: &Contact| contact.preload != [0.0; 2];
+    let contacts = &mechanism.contacts;
+    if mechanism.drives.is_empty() || !contacts.iter().any(is_rough) || contacts.iter().any(rubs) {
         return None;
     }
-    let stages = Stages::following(&mut Follower::default(), mechanism).ok()?;
-    let presses = stages.influence.normal_forces().iter().any(|force| *force != 0.0);
-    let rubs = stages.mechanism.contacts.iter().any(|contact| contact.preload != [0.0; 2]);
-    (!presses && !rubs).then(|| Fault::general(FaultKind::Doubt(Doubt::NothingPresses)))
+    mechanism.check_size().ok()?;
+    let equations = KineticEquations::new(mechanism, state.as_ref()?).ok()?;
+    let presses = Influence::new(&equations).normal_forces().iter().any(|force| *force != 0.0);
+    (!presses).then(|| Fault::general(FaultKind::Doubt(Doubt::NothingPresses)))
 }
 
 fn warning(doubt: Doubt, place: Place) -> Fault {
@@ -204,11 +213,11 @@ fn gap_closed(mechanism: &Mechanism) -> Option<Fault> {
 }
 
 /// The body that is farthest from its place in the drawing, if that is far.
-fn far_from_drawing(mechanism: &Mechanism) -> Option<Fault> {
+fn far_from_drawing(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
     if mechanism.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at) {
         return None;
     }
-    let state = Configuration::new(mechanism).ok()?;
+    let state = state.as_ref()?;
     let distance =
         |index: usize| (state.poses[index].position - mechanism.bodies[index].centre_of_mass).norm();
     let index = (0..mechanism.bodies.len()).max_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;

@@ -1,0 +1,28 @@
+"""All solutions of planar mechanisms with dry friction in sliding joints.
+
+In a mechanism with dry friction in its sliding joints the equations of motion can have no solution (it jams), one, or
+several. This package finds all of them, with their contact modes.
+
+>>> import slideway
+>>> model = slideway.Model.gallery("drawer")
+>>> answer = model.solve()
+>>> answer.status
+'one'
+>>> answer.solutions[0].normal_forces
+array([ 5.58..., -9.23...])
+>>> model.with_(mu=1.2).solve().status
+'none'
+
+Numbers are in SI units; a text may have a unit or be an expression of parameters: `model.with_(L="450 mm")`.
+Arrays cannot be written to. "No solution" is an answer, never an exception; `ModelError` has all that is wrong with a
+model.
+"""
+
+from . import modes, reports
+from ._errors import Fault, ModelError
+from ._motion import Motion
+from ._slideway import Model, gallery_models
+from ._sweep import Sweep
+
+__all__ = ["Fault", "Model", "ModelError", "Motion", "Sweep", "gallery_models", "modes", "reports"]
+__version__ = "0.1.0"

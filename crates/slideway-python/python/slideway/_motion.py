@@ -1,0 +1,81 @@
+"""A motion in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from . import _slideway, reports
+
+
+class Motion:
+    """A motion in time. `t`, `y` and `events` are as those of `scipy.integrate.solve_ivp`; `report` has all else.
+
+    >>> import slideway
+    >>> motion = slideway.Model.gallery("frictional-oscillator").simulate(3.0)
+    >>> motion.y.shape == (2, len(motion.t))
+    True
+    """
+
+    def __init__(self, motion: _slideway.Motion, report: reports.SimulateReport) -> None:
+        self._motion = motion
+        self.report = report
+        """The report: events, phases, how it ends, energy."""
+        self.t: NDArray[np.float64] = motion.times()
+        """The times of the steps of the solver (s), events included."""
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """One row for each coordinate, then one for each rate; a column for each time of `t`."""
+        return self._motion.states(self.t.tolist())
+
+    def sol(self, t: ArrayLike) -> NDArray[np.float64]:
+        """The same at other times, between which is interpolated as the solver does it. Times outside of the motion
+        are NaN."""
+        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        inside = (times >= self.t[0]) & (times <= self.t[-1])
+        states = np.full((len(self.coordinates) * 2, len(times)), np.nan)
+        states[:, inside] = self._motion.states(times[inside].tolist())
+        return states[:, 0] if np.ndim(t) == 0 else states
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of the coordinates, in the order of the rows of `y`."""
+        return [state.name for state in self.report.initial]
+
+    @property
+    def events(self) -> tuple[reports.EventReport, ...]:
+        """What happened, in chronological order."""
+        return self.report.events
+
+    @property
+    def status(self) -> reports.EndKind:
+        """Why it ends."""
+        return self.report.end.kind
+
+    def table(self, step: float | None = None, *, times: Sequence[float] | None = None) -> dict[str, NDArray[Any]]:
+        """All quantities as arrays by their names: coordinates, rates, accelerations, forces, energies, and the
+        contact mode. At the steps of the solver, in even steps (s), or at these times."""
+        wanted = self._motion.times(step) if times is None else np.asarray(times, dtype=np.float64)
+        series = self._motion.table(wanted.tolist())
+        table: dict[str, NDArray[Any]] = {column.name: column.values for column in series.columns}
+        table["mode"] = np.array(series.modes)
+        return table
+
+    def text(self, *, all_events: bool = False, color: bool = False) -> str:
+        """The log of the motion, as the command line shows it."""
+        return self._motion.text_with_all_events(color) if all_events else self.report.text(color=color)
+
+    def to_json(self) -> str:
+        """The JSON output of the command line."""
+        return self.report.to_json()
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        return f"<slideway.Motion: {len(self.events)} events, until {self.t[-1]:g} s, {self.status}>"

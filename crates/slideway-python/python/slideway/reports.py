@@ -1,0 +1,2543 @@
+"""Answers as plain data: frozen classes whose attributes are those of the JSON output, in SI units unless said otherwise.
+
+Written from the sources of the Rust crates by `tools/generate_reports.py`; not to be edited.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _mixins
+from ._answer import Record, Report
+
+__all__ = [
+    "Approach",
+    "AtRest",
+    "Attainability",
+    "Axis",
+    "Band",
+    "Bar",
+    "BeyondRange",
+    "BlowUp",
+    "Body",
+    "BodySummary",
+    "Branch",
+    "BranchReport",
+    "BranchingReport",
+    "CauseKind",
+    "CauseReport",
+    "CertificateKind",
+    "CheckReport",
+    "ClosestMode",
+    "Coefficients",
+    "ColourBy",
+    "Column",
+    "Contact",
+    "ContactRange",
+    "ContactSummary",
+    "Continuum",
+    "ContinuumPart",
+    "CoordinateAcceleration",
+    "CoordinateForm",
+    "CoordinateRange",
+    "CoordinateState",
+    "CoordinateSummary",
+    "CoordinateValue",
+    "CountLimits",
+    "Course",
+    "CourseDirection",
+    "CourseRow",
+    "CriticalContact",
+    "Curve",
+    "Direction",
+    "Drive",
+    "DriveDirection",
+    "DriveName",
+    "DriveRange",
+    "DriveReport",
+    "DriveSolution",
+    "DriveSummary",
+    "Efficiency",
+    "EfficiencyKind",
+    "EigenvalueUnit",
+    "End",
+    "EndKind",
+    "EndReaction",
+    "EndReport",
+    "EnergyReport",
+    "EventReport",
+    "EveryAnswer",
+    "EveryRightHandSide",
+    "Faces",
+    "Figure",
+    "Finding",
+    "FlutterDamping",
+    "Frictionless",
+    "FromRest",
+    "GapShare",
+    "Hatching",
+    "Hinge",
+    "HingeRange",
+    "HoldReport",
+    "HoldVerdict",
+    "InertiaSummary",
+    "InfluenceSummary",
+    "JointForm",
+    "JointMode",
+    "JointRelease",
+    "JointSummary",
+    "Known",
+    "LimitsMethod",
+    "LimitsReport",
+    "LoadReport",
+    "LockedMode",
+    "MapAxis",
+    "MapClass",
+    "MapReport",
+    "MarginKind",
+    "Margins",
+    "MarginsMissing",
+    "MarkedPoint",
+    "MarkedValue",
+    "MetEnd",
+    "MetInterval",
+    "MobilitySummary",
+    "ModeEndCause",
+    "ModeLimits",
+    "ModeMargin",
+    "ModelSummary",
+    "Named",
+    "Panel",
+    "PatternSummary",
+    "Persistence",
+    "PhaseReport",
+    "PointKind",
+    "PointStatus",
+    "Proof",
+    "Range",
+    "RangeWithoutPosition",
+    "RangeWithoutProblem",
+    "RawContinuum",
+    "RawGroup",
+    "RawKind",
+    "RawReport",
+    "RawShares",
+    "RawSolution",
+    "RawUnknown",
+    "Reactions",
+    "Rejection",
+    "Release",
+    "RestLimitsReport",
+    "Sample",
+    "SampleKind",
+    "SampledReport",
+    "Sense",
+    "Series",
+    "SimulateReport",
+    "SizeReport",
+    "Solution",
+    "SolveReport",
+    "SpanOfRest",
+    "SpeedChange",
+    "SpeedLimits",
+    "StatisticsReport",
+    "Status",
+    "Stop",
+    "Stroke",
+    "Tally",
+    "Threshold",
+    "TreeReport",
+    "UncertainMode",
+    "UncertainParameter",
+    "Uncertainty",
+    "UndecidedMode",
+    "VariedQuantity",
+    "Verdict",
+    "Warning",
+    "WarningPlace",
+    "WithinRounding",
+    "WithinRoundingAnswer",
+    "Zone",
+]
+
+Approach = Literal["below", "above"]
+"""From which side a value is approached.
+
+- `"below"`: From below.
+- `"above"`: From above."""
+
+CauseKind = Literal[
+    "start",
+    "normal_force_zero",
+    "preload_gap_ends",
+    "stops",
+    "slips",
+    "locks",
+    "reaction_limit",
+    "tips",
+    "overlap_vanishes",
+    "travel_limit",
+    "hits",
+    "meets_pad",
+    "leaves_pad",
+    "load_jumps",
+    "user",
+    "jams",
+]
+"""What an event tells of, in reports.
+
+- `"start"`: The motion begins.
+- `"normal_force_zero"`: A normal force vanishes.
+- `"preload_gap_ends"`: A preload gap closes.
+- `"stops"`: A joint stops sliding.
+- `"slips"`: Sticking joints begin to slip.
+- `"locks"`: The mode locks.
+- `"reaction_limit"`: A normal force reaches its limit.
+- `"tips"`: A guided slider tips.
+- `"overlap_vanishes"`: A block leaves its guide.
+- `"travel_limit"`: A joint reaches a limit of its travel.
+- `"hits"`: A joint hits its stop.
+- `"meets_pad"`: A joint meets the pad of its stop.
+- `"leaves_pad"`: A joint leaves the pad of its stop.
+- `"load_jumps"`: A load or drive jumps.
+- `"user"`: A function that is watched vanishes.
+- `"jams"`: It jams, and an impulse acts."""
+
+CertificateKind = Literal["proven", "on_boundary", "not_proven"]
+"""What is proven of a solution.
+
+- `"proven"`: It exists for the exact mechanism, inside of its mode.
+- `"on_boundary"`: Some normal force or determinant is zero within the rounding of the mechanism's numbers.
+- `"not_proven"`: It was found within tolerances only."""
+
+ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "hold"]
+"""What the colours of a map tell.
+
+- `"solutions"`: The number of solutions, and of states with the preload between the faces.
+- `"modes"`: The set of contact modes that have a solution.
+- `"margin"`: The factor by which all friction may grow before there are no or several solutions.
+- `"jam"`: Whether it moves as in the model, and the other way.
+- `"motion"`: What becomes of the speed of each coordinate that no drive moves, in each solution.
+- `"hold"`: Whether it can stay at rest, drives absent."""
+
+CoordinateForm = Literal["slide", "rotation", "displacement"]
+"""What a coordinate measures.
+
+- `"slide"`: The displacement of a sliding joint.
+- `"rotation"`: The angle between two bodies.
+- `"displacement"`: The displacement of a point along a line."""
+
+EfficiencyKind = Literal["driving", "braking", "held_by_friction", "no_power", "undefined"]
+"""Which way power flows.
+
+- `"driving"`: The drives push, with and without friction: power without friction over power with it.
+- `"braking"`: The load pushes and the drives brake, with and without friction: power with friction over power
+without it.
+- `"held_by_friction"`: Without friction the load would push; friction holds it, and the drives have to push.
+- `"no_power"`: Without friction the motion takes no power.
+- `"undefined"`: Without friction the drives would push, with it they brake; possible where some motions are
+not prescribed."""
+
+EigenvalueUnit = Literal["1/s^2", "1/kg"]
+"""The unit of the eigenvalues of the fast motion.
+
+- `"1/s^2"`: The model gives the stiffness of every contact.
+- `"1/kg"`: For a stiffness of 1 N/m at every contact."""
+
+End = Literal["plain", "marked", "diverges"]
+"""The end of a curve.
+
+- `"plain"`: Nothing to mark: the range ends, or another curve goes on.
+- `"marked"`: Here the branch ends or goes over into another: a dot.
+- `"diverges"`: It grows without bound."""
+
+EndKind = Literal[
+    "finished",
+    "travel_limit",
+    "overlap_vanished",
+    "reaction_limit",
+    "user_event",
+    "no_such_branch",
+    "tips",
+    "no_continuation",
+    "jammed",
+    "accumulation",
+    "step_limit",
+    "event_limit",
+    "no_value",
+    "undecided",
+    "interrupted",
+]
+"""Why a motion ends.
+
+- `"finished"`: The requested time has been reached.
+- `"travel_limit"`: A joint reaches a limit of its travel.
+- `"overlap_vanished"`: A block leaves its guide.
+- `"reaction_limit"`: A normal force reaches its limit.
+- `"user_event"`: An event of the model that stops the motion.
+- `"no_such_branch"`: The requested branch does not exist.
+- `"tips"`: A guided slider tips.
+- `"no_continuation"`: At rest, neither sticking nor sliding is possible.
+- `"jammed"`: It jams, and no impulse leads to a state from which it can continue.
+- `"accumulation"`: Events come closer and closer together.
+- `"step_limit"`: The permitted number of steps is reached.
+- `"event_limit"`: The permitted number of events is reached.
+- `"no_value"`: A load or drive has no value.
+- `"undecided"`: What follows cannot be decided.
+- `"interrupted"`: It was interrupted."""
+
+EveryAnswer = Literal["one", "not_one", "singular", "in_doubt", "not_computed", "jumps"]
+"""See `EveryRightHandSide`.
+
+- `"one"`: Exactly one solution for every right-hand side: proven.
+- `"not_one"`: Several solutions or none for some right-hand sides: proven.
+- `"singular"`: No solution or infinitely many for some right-hand sides: proven.
+- `"in_doubt"`: Undecided because determinants are too close to zero.
+- `"not_computed"`: Not decided within the limits.
+- `"jumps"`: Not decided: preloads jump with the sign."""
+
+FromRest = Literal["rests", "rests_or_moves", "moves_on", "moves_back", "moves", "neither"]
+"""What the loads do with a mechanism that has stopped, as standstill in the same position tells.
+
+- `"rests"`: It stays at rest.
+- `"rests_or_moves"`: It may stay at rest, and may begin to move.
+- `"moves_on"`: It begins to move in the direction of its rate.
+- `"moves_back"`: It begins to move against its rate.
+- `"moves"`: It begins to move; in which direction is not one answer.
+- `"neither"`: It can neither stay at rest nor begin to move with finite accelerations."""
+
+Hatching = Literal["rising", "falling", "dotted"]
+"""How an interval is hatched.
+
+- `"rising"`: Lines that rise to the right: no solution.
+- `"falling"`: Lines that fall to the right: no mechanism, no value.
+- `"dotted"`: Dots: what is shown was found at single values and is not proven between them."""
+
+HoldVerdict = Literal[
+    "holds",
+    "holds_until_pushed",
+    "holds_or_slips",
+    "moves",
+    "neither",
+    "may_hold",
+    "does_not_hold",
+]
+"""Whether a mechanism stays at rest, begins to move, may do both, or neither.
+
+- `"holds"`: It stays at rest; no state of sliding is possible.
+- `"holds_until_pushed"`: It stays at rest, but once pushed it goes on sliding, as kinetic friction is below
+static friction.
+- `"holds_or_slips"`: Friction may hold it, and yet it may begin to slide even against static friction
+(Painleve's paradox at rest).
+- `"moves"`: It cannot stay at rest, and begins to move.
+- `"neither"`: It can neither stay at rest nor begin to move with finite accelerations.
+- `"may_hold"`: Friction may hold it; motions without inertia keep the states of sliding from being known.
+- `"does_not_hold"`: It cannot stay at rest; motions without inertia keep its accelerations from being known."""
+
+JointForm = Literal["hinge", "block slider", "guided slider", "pin in slot"]
+"""What a joint is.
+
+- `"hinge"`: A hinge.
+- `"block slider"`: A block of some length in a guide, with contacts at both ends.
+- `"guided slider"`: A block that its guide holds straight, with one contact and a couple.
+- `"pin in slot"`: A pin in a slot."""
+
+Known = Literal["proven", "closed_form", "sampled", "undecided"]
+"""How the numbers of solutions in an interval are known.
+
+- `"proven"`: By the certified search for all values but those next to ends of modes: for all of
+`CountLimits::proven`.
+- `"closed_form"`: Outside `CountLimits::proven` by zeros of determinants, which were computed in rounded
+numbers.
+- `"sampled"`: Outside `CountLimits::proven` at values that were tried.
+- `"undecided"`: Not at all: at some value there is another number."""
+
+LimitsMethod = Literal["closed form", "bracketing", "independent"]
+"""How the ends of modes were found.
+
+- `"closed form"`: As zeros of determinants.
+- `"bracketing"`: Between values that were tried.
+- `"independent"`: Nothing depends on what is varied."""
+
+MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force", "pressure", "efficiency"]
+"""Which margin is meant.
+
+- `"locking"`: The factor by which kinetic friction may grow before there is no solution.
+- `"self_locking"`: The factor by which static friction may grow before a load is held however great it is.
+- `"hold"`: The factor by which static friction may be smaller while a load is held however great it is.
+- `"effort"`: Not a factor but the greatest effort of a drive, or of all (N or N m).
+- `"normal_force"`: Not a factor but the greatest normal force of a contact, or of all (N).
+- `"pressure"`: Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
+- `"efficiency"`: Not a factor but the least efficiency."""
+
+MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses"]
+"""Why margins of friction were not computed.
+
+- `"too_many_modes"`: There are too many modes.
+- `"between_faces"`: A guided slider is between its faces, which is no mode that could be followed.
+- `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face."""
+
+MetEnd = Literal["range", "margin", "jump", "no_position"]
+"""Why an interval ends in which the wanted margin is met.
+
+- `"range"`: The range ends.
+- `"margin"`: The margin is just met.
+- `"jump"`: The margin jumps.
+- `"no_position"`: The mechanism cannot be assembled or solved beyond."""
+
+ModeEndCause = Literal[
+    "nothing",
+    "range",
+    "locking",
+    "side_change",
+    "gap_closes",
+    "tipping",
+    "greatest_reaction",
+    "reversal",
+    "no_mode_problem",
+]
+"""What ends a mode where something is varied.
+
+- `"nothing"`: Nothing: it lasts however much friction grows.
+- `"range"`: The range that was looked at.
+- `"locking"`: Its determinant vanishes: normal forces grow without bound.
+- `"side_change"`: A normal force vanishes: a contact changes side.
+- `"gap_closes"`: A preload gap closes.
+- `"tipping"`: A guided slider tips.
+- `"greatest_reaction"`: A normal force reaches the greatest one that is allowed.
+- `"reversal"`: Sliding reverses.
+- `"no_mode_problem"`: Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the
+model is not allowed."""
+
+Persistence = Literal["all_values", "some_values", "undecided"]
+"""For which values of the uncertain parameters a mode has a solution.
+
+- `"all_values"`: For all, proven.
+- `"some_values"`: For some, proven; not for all, or that could not be proven.
+- `"undecided"`: Whether it has one for any value could not be decided."""
+
+PointKind = Literal["start", "stop", "jam", "end", "model"]
+"""What is at a marked point.
+
+- `"start"`: A motion begins: a circle.
+- `"stop"`: It comes to rest: a square.
+- `"jam"`: It jams: a cross.
+- `"end"`: It ends in motion: a triangle.
+- `"model"`: What the model itself has: a diagonal cross."""
+
+PointStatus = Literal[
+    "none",
+    "one",
+    "several",
+    "continuum",
+    "preload_gap",
+    "unknown",
+    "no_position",
+    "refused",
+]
+"""What became of a point.
+
+- `"none"`: No solution: friction locks the mechanism.
+- `"one"`: Exactly one.
+- `"several"`: Several, each in its own contact mode.
+- `"continuum"`: Infinitely many.
+- `"preload_gap"`: No solution, but a state in a preload gap.
+- `"unknown"`: Nothing was found, but not every pattern could be decided.
+- `"no_position"`: The mechanism cannot be assembled there, or lies outside of its travel.
+- `"refused"`: `solve` refuses the point for another reason."""
+
+Proof = Literal["proven", "not proven"]
+"""Whether a list of solutions is proven complete.
+
+- `"proven"`: It is proven complete.
+- `"not proven"`: It is not proven complete."""
+
+RawKind = Literal["lcp", "ave", "hlcp", "modes"]
+"""The type of a raw problem.
+
+- `"lcp"`: Linear complementarity problem.
+- `"ave"`: Absolute value equation.
+- `"hlcp"`: Horizontal linear complementarity problem.
+- `"modes"`: Mode problem."""
+
+RawUnknown = Literal["z", "w", "x", "normal_forces", "y", "lambda"]
+"""The names of unknowns.
+
+- `"z"`: `z` of a complementarity problem.
+- `"w"`: `w` of a complementarity problem.
+- `"x"`: `x` of an absolute value equation.
+- `"normal_forces"`: The signed normal forces of a mode problem.
+- `"y"`: `y`, the sizes of the normal forces.
+- `"lambda"`: The share lambda of an unknown in its gap."""
+
+SampleKind = Literal["finite", "infinite", "no_solution", "no_position"]
+"""What a sample says.
+
+- `"finite"`: The margin is a number.
+- `"infinite"`: No friction reaches the limit.
+- `"no_solution"`: There is no solution, of which an effort, normal force, bearing pressure or efficiency
+could be told.
+- `"no_position"`: The mechanism cannot be assembled or solved there, or a guided slider is between its faces."""
+
+Sense = Literal["model", "reversed"]
+"""A direction of motion.
+
+- `"model"`: That of the model's rates.
+- `"reversed"`: The other one."""
+
+SpeedChange = Literal[
+    "speeds_up",
+    "keeps_its_speed",
+    "slows_down",
+    "starts_forwards",
+    "starts_backwards",
+    "stays_at_rest",
+    "undecided",
+]
+"""What becomes of the speed of a coordinate, from the signs of its rate and of proven bounds of its
+acceleration.
+
+- `"speeds_up"`: Its acceleration has the direction of its rate.
+- `"keeps_its_speed"`: Its acceleration is zero within rounding.
+- `"slows_down"`: Its acceleration is opposite to its rate.
+- `"starts_forwards"`: Its rate is zero, its acceleration positive.
+- `"starts_backwards"`: Its rate is zero, its acceleration negative.
+- `"stays_at_rest"`: Its rate is zero, and its acceleration is zero within rounding.
+- `"undecided"`: Its acceleration has no proven bounds."""
+
+Status = Literal["none", "one", "several", "continuum", "preload_gap", "unknown"]
+"""How many solutions there are.
+
+- `"none"`: No solution: for a mechanism, friction locks it.
+- `"one"`: Exactly one.
+- `"several"`: Several, each in its own contact mode.
+- `"continuum"`: Infinitely many: a mode with a vanishing determinant admits a continuum.
+- `"preload_gap"`: No solution in a sign pattern was found, but there is a state with the preload between the
+faces; `partial` and `undecided_modes` show what else may be open.
+- `"unknown"`: Nothing was found, but not every pattern could be decided."""
+
+Stroke = Literal["solid", "dashed", "dotted", "dash_dotted"]
+"""How a curve is drawn.
+
+- `"solid"`: What a mechanism can settle on: a solid line.
+- `"dashed"`: A threshold, which is not attainable: dashes.
+- `"dotted"`: Between the faces of a contact with preload: dots.
+- `"dash_dotted"`: What attainability says nothing definite about: dashes and dots."""
+
+Verdict = Literal["attainable", "unattainable", "flutter", "undecided", "not_computed"]
+"""What becomes of a solution when the guides are slightly elastic (theory, section 7).
+
+- `"attainable"`: All fast motions are stable: the mechanism settles on the solution.
+- `"unattainable"`: Some fast motion leaves the solution whatever the damping of the contacts.
+- `"flutter"`: A fast oscillation grows unless the contacts are damped enough.
+- `"undecided"`: The question has no definite answer; see the reason.
+- `"not_computed"`: Not computed; see the reason."""
+
+WithinRoundingAnswer = Literal["solution", "none", "unknown"]
+"""Whether numbers that differ from the given ones only by rounding have a solution.
+
+- `"solution"`: Some such numbers have the reported solution.
+- `"none"`: No such numbers have a solution, which is proven.
+- `"unknown"`: Neither was established."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AtRest(Record):
+    """All states of rest together."""
+
+    patterns: tuple[str, ...]
+    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap."""
+    reactions: Reactions
+    """Reactions, over all these patterns."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Attainability(Record):
+    """Attainability of a solution."""
+
+    verdict: Verdict
+    """The verdict."""
+    reason: str | None = None
+    """Why it is undecided or not computed."""
+    eigenvalues: NDArray[np.float64]
+    """Finite nonzero eigenvalues lambda of the fast motion `x'' = -lambda x`: real and imaginary parts,
+    ascending. Those of `n` rigid motions (`n - d` with drives), which are zero, and of motions without mass
+    are left out."""
+    eigenvalue_unit: EigenvalueUnit
+    """Their unit."""
+    massless_motions: int
+    """Number of motions without mass that elastic guides allow; their masses tend to zero from above."""
+    depends_on_stiffness: bool | None = None
+    """Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent if
+    not tried."""
+    depends_on_mass_ratios: bool | None = None
+    """Whether the verdict depends on the ratios of the vanishing masses."""
+    flutter_damping: FlutterDamping | None = None
+    """For flutter: the damping of the contacts that suppresses it."""
+    separates: tuple[Mapping[str, Any], Mapping[str, Any]] | None = None
+    """For an unattainable solution: what becomes of the mechanism on either side of it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Axis(Record):
+    """An axis."""
+
+    name: str
+    """What it measures."""
+    unit: str
+    """The unit; empty for pure numbers."""
+    range: tuple[float, float] | None
+    """From where to where; where absent, what the curves ask for but near values at which they grow without
+    bound."""
+    logarithmic: bool
+    """Whether equal distances are equal ratios; the range is positive then."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Band(Record):
+    """A coloured stretch along the x axis."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    colour: int
+    """Index into the series of the theme, modulo their number."""
+    meaning: str
+    """What it means, for the legend."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Bar(Record):
+    """A bar of a histogram."""
+
+    sides: tuple[float, float]
+    """Its left and its right side."""
+    ends: tuple[float, float]
+    """Where it stands, and its upper end."""
+    colour: int
+    """Index into the series of the theme, modulo their number."""
+    meaning: str
+    """What it means, for the legend."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BeyondRange(Record):
+    """A nonzero unknown beyond the range of floating-point numbers of full precision: larger than 1.8e308, or
+    smaller than 2.2e-308, in size."""
+
+    name: RawUnknown
+    """The name of the unknown."""
+    index: int
+    """The index of the unknown, from 0."""
+    value: str
+    """The exact value rounded to 17 digits ("1.5e310"), or words if it was not computed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BlowUp(Record):
+    """A value at which efforts grow without bound."""
+
+    at: float
+    """The value."""
+    pattern: str
+    """The mode in which they do."""
+    side: Approach
+    """On which side of the value the mode exists."""
+    efforts: tuple[int, ...]
+    """1 or -1 for each drive whose effort grows without bound, with this sign, else 0."""
+    contacts: tuple[str, ...]
+    """The contacts whose normal forces grow without bound, too."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Body(Record):
+    """Acceleration of a body, and what is left over in its balance."""
+
+    name: str
+    """Its name."""
+    acceleration: tuple[float, float]
+    """Acceleration of the centre of mass (m/s^2)."""
+    angular_acceleration: float
+    """Angular acceleration (rad/s^2)."""
+    residual_force: float
+    """Left-over force of the recomputed balance (N)."""
+    residual_moment: float
+    """Left-over moment of the recomputed balance (N m)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BodySummary(Record):
+    """A body."""
+
+    name: str
+    """Its name."""
+    mass: float
+    """Mass (kg); 0 for a massless body."""
+    moment_of_inertia: float
+    """Moment of inertia about the centre of mass (kg m^2)."""
+    moved_by: float
+    """How far its centre of mass is from its place in the drawing (m)."""
+    turned_by: float
+    """By which angle it is turned against the drawing (rad), counter-clockwise."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Branch(Record):
+    """A branch of solutions, a mode, a motion: what has one colour and stroke."""
+
+    name: str
+    """In the legend."""
+    colour: int
+    """Index into the series of the theme, modulo their number."""
+    stroke: Stroke
+    """How it is drawn."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BranchReport(Record):
+    """A mode in which the motion could continue."""
+
+    number: int
+    """Its number, counted from 1."""
+    mode: str
+    """The mode."""
+    taken: bool
+    """Whether it was taken."""
+    continues: bool
+    """Whether it continues the motion without a jump in the forces."""
+    attainable: Verdict
+    """Whether a real mechanism can follow it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BranchingReport(Record):
+    """The report of one motion."""
+
+    branches: tuple[int, ...]
+    """The number of the phase taken at each event with several possible phases, counted from 1."""
+    motion: SimulateReport
+    """The motion."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CauseReport(Record):
+    """Why a phase ended, or what is to be reported."""
+
+    kind: CauseKind
+    """The kind of cause."""
+    of: str | None
+    """The joint, contact or function."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class CheckReport(Report):
+    """What a model consists of, and what stands in the way of solving it."""
+
+    _absent = {"steps_from_drawing": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    title: str | None
+    """The model's title."""
+    sound: bool
+    """Whether nothing stands in the way of `solve` in this state: there are no findings. (What only the
+    enumeration of the modes can tell, such as too many preload gaps, is not tried.)"""
+    findings: tuple[Finding, ...]
+    """Everything for which it would be refused."""
+    warnings: tuple[Warning, ...]
+    """What is perhaps not meant, though it does not stand in the way."""
+    mobility: MobilitySummary
+    """Degrees of freedom and determinacy."""
+    inertia: InertiaSummary
+    """Inertia of the motions that the joints leave."""
+    condition: float | None
+    """Ratio of the greatest to the least pivot of the kinetic equations, if they can be solved."""
+    assembled: bool
+    """Whether the state could be assembled; if not, what depends on it is told of the drawing."""
+    steps_from_drawing: int | None
+    """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    branch; absent where they are those of the drawing."""
+    bodies: tuple[BodySummary, ...]
+    """The bodies."""
+    joints: tuple[JointSummary, ...]
+    """The joints."""
+    contacts: tuple[ContactSummary, ...]
+    """The contacts of the sliding joints."""
+    loads: tuple[str, ...]
+    """Names of the loads."""
+    drives: tuple[DriveSummary, ...]
+    """The drives."""
+    coordinates: tuple[CoordinateSummary, ...]
+    """The chosen coordinates."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ClosestMode(Record):
+    """A mode without a solution, close to locking."""
+
+    pattern: str
+    """Its pattern."""
+    determinant: float
+    """Determinant D."""
+    oriented_determinant: float
+    """D times the product of the signs; not positive beyond locking."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint."""
+    absolute_normal_forces: NDArray[np.float64]
+    """What the mode's equations give for |N| of each contact (N); a negative value contradicts the mode."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Coefficients(Record):
+    """Static coefficients of a contact."""
+
+    contact: str
+    """Its name."""
+    mu_static: tuple[float, float]
+    """Where the normal force is positive, and where it is negative."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Column(Record):
+    """A column of numbers."""
+
+    name: str
+    """Name of the quantity, such as `phi.rate` or `upper.normal_force`."""
+    unit: str
+    """Its unit; empty for pure numbers."""
+    values: NDArray[np.float64]
+    """One for each row; None where the quantity is undefined: friction forces of sticking joints, and normal
+    forces that statics leaves open there, because they depend on how the contacts share the friction."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Contact(Record):
+    """A contact in a solution. Signs as in theory, section 1."""
+
+    name: str
+    """"joint", "joint.front" or "joint.rear"."""
+    side: int
+    """1 where the normal force is positive, -1 where it is negative, 0 where it vanishes."""
+    normal_force: float
+    """Normal force on the block along n (N)."""
+    normal_force_bounds: tuple[float, float] | None = None
+    """Proven bounds of the normal force (N); absent where there are none."""
+    friction_force: float
+    """Friction force, positive against positive sliding (N)."""
+    sliding_velocity: float
+    """Sliding velocity of the block against the guide along u (m/s)."""
+    couple: float | None = None
+    """Couple of a guided slider about the middle of the pressed face (N m)."""
+    pressure: float | None = None
+    """Mean bearing pressure, the normal force over length and width of the pad (Pa); absent without a pad."""
+    preload_share: float | None = None
+    """In a preload gap: the share of the preload friction at the face of positive normal force."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactRange(Record):
+    """Reactions of a contact."""
+
+    name: str
+    """Its name."""
+    normal_force: Range
+    """Normal force on the block, along n (N)."""
+    friction_force: Range
+    """Friction force on the block, against u (N)."""
+    couple: Range | None
+    """Couple of a guided slider (N m)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactSummary(Record):
+    """A contact."""
+
+    name: str
+    """"joint", "joint.front" or "joint.rear"."""
+    mu: tuple[float, float]
+    """Kinetic friction coefficient where the normal force is positive, and where it is negative."""
+    mu_depends_on_speed: bool = False
+    """Whether it depends on the sliding speed; it is told at that of the state."""
+    mu_static: tuple[float, float]
+    """Static friction coefficient, likewise."""
+    preload: tuple[float, float]
+    """Preload (N), likewise."""
+    sliding_velocity: float | None
+    """Sliding velocity (m/s), if the state could be assembled."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Continuum(Record):
+    """Infinitely many solutions of one mode: all convex combinations of the vertices plus all non-negative
+    multiples of the directions."""
+
+    pattern: str
+    """Its pattern."""
+    vertices: tuple[NDArray[np.float64], ...]
+    """Normal forces of the contacts at each vertex (N)."""
+    directions: tuple[NDArray[np.float64], ...]
+    """Directions in which the normal forces may grow without bound."""
+    tipping: tuple[str, ...]
+    """The guided sliders that would tip in a part of it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContinuumPart(Record):
+    """Unknowns that vary together: all convex combinations of the vertices plus all nonnegative multiples of the
+    directions."""
+
+    indices: tuple[int, ...]
+    """The unknowns, from 0; vertices and directions have one entry for each."""
+    vertices: tuple[Mapping[str, Any], ...]
+    """The vertices, up to the requested number: the ends of a segment, or the end of a ray."""
+    directions: tuple[Mapping[str, Any], ...]
+    """Directions in which the set is unbounded, up to the requested number."""
+    vertex_count: int
+    """Total number of vertices."""
+    direction_count: int
+    """Total number of directions."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoordinateAcceleration(Record):
+    """Acceleration of a chosen coordinate."""
+
+    name: str
+    """The coordinate."""
+    unit: str
+    """"m/s^2" or "rad/s^2"."""
+    acceleration: float
+    """Its acceleration."""
+    acceleration_bounds: tuple[float, float] | None = None
+    """Proven bounds of its acceleration; absent where there are none."""
+    speed: SpeedChange | None = None
+    """What becomes of its speed; absent if a drive prescribes its motion."""
+    stop: Stop | None = None
+    """If it slows down: when and where it stops if its acceleration stays as it is."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoordinateRange(Record):
+    """Acceleration of a coordinate."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """"m/s^2" or "rad/s^2"."""
+    acceleration: Range
+    """Its acceleration."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoordinateState(Record):
+    """A chosen coordinate in the state."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """"m" or "rad"."""
+    value: float
+    """Its value."""
+    rate: float
+    """Its rate."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoordinateSummary(Record):
+    """A chosen coordinate."""
+
+    name: str
+    """Its name."""
+    kind: CoordinateForm
+    """What it measures."""
+    positive: str
+    """What it means that it grows, in words."""
+    unit: str
+    """"m" or "rad"."""
+    value: float
+    """Its value in the state."""
+    rate: float
+    """Its rate."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoordinateValue(Record):
+    """A coordinate."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """Its unit."""
+    value: float
+    """Its value."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CountLimits(Record):
+    """An interval with the same number of solutions throughout."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    solutions: int
+    """Number of solutions."""
+    preload_gap_states: int
+    """Number of preload-gap states, which are counted apart."""
+    known: Known
+    """How these numbers are known."""
+    proven: NDArray[np.float64]
+    """The stretches for all values of which they are proven, both ends included. If `known` is `proven` nothing
+    of the interval lies between them but what is next to ends of modes: `CountLimits::left_out`."""
+    spacing: float | None
+    """Where they were sampled: the greatest distance between neighbouring values; else null."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Course(Record):
+    """The efforts over what is varied."""
+
+    vary: VariedQuantity
+    """What is varied."""
+    directions: tuple[CourseDirection, ...]
+    """Motion as in the model, and with all rates reversed."""
+    guarantee: str
+    """What can be missed, in words."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CourseDirection(Record):
+    """The efforts over what is varied in one direction of motion."""
+
+    direction: Sense
+    """Which direction it is."""
+    rows: tuple[CourseRow, ...]
+    """One row for each value and each solution there; a value without a solution has one row without a pattern."""
+    blow_ups: tuple[BlowUp, ...]
+    """Values at which efforts grow without bound, in ascending order."""
+    without_mode_problem: tuple[RangeWithoutProblem, ...]
+    """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CourseRow(Record):
+    """The efforts in one solution at one value."""
+
+    at: float
+    """The value."""
+    pattern: str | None
+    """The mode; null where there is no solution or no position."""
+    efforts: NDArray[np.float64] | None
+    """Of each drive (N or N m); null where they grow without bound, or without a solution."""
+    grows: tuple[int, ...]
+    """1 or -1 for each drive whose effort grows without bound there, else 0."""
+    frictionless: NDArray[np.float64] | None
+    """Without friction; null where there is no position."""
+    power: float | None
+    """Of all drives together (W)."""
+    efficiency: Efficiency | None
+    """Against the same motion without friction."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CriticalContact(Record):
+    """The contact whose coefficient of friction matters most."""
+
+    contact: str
+    """Its name."""
+    factor: float
+    """The factor by which its friction alone may grow before there is another number of solutions."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Curve(Record):
+    """A quantity along a branch."""
+
+    branch: int
+    """Index into `Figure::branches`."""
+    quantity: int
+    """Index into `Figure::quantities`."""
+    points: NDArray[np.float64]
+    """Points in the units of the axes, joined by lines; points that are not finite are left out."""
+    ends: tuple[End, End]
+    """What its beginning and its end are."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Direction(Record):
+    """The modes of the opposite direction of motion."""
+
+    modes: tuple[ModeLimits, ...]
+    """The modes."""
+    counts: tuple[CountLimits, ...]
+    """Numbers of solutions."""
+    without_mode_problem: tuple[RangeWithoutProblem, ...]
+    """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
+    between_faces_at: NDArray[np.float64] = ()
+    """Single values at which a guided slider is between its faces; absent if none was found."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Drive(Record):
+    """The effort of a drive."""
+
+    name: str
+    """The drive."""
+    unit: str
+    """"N" or "N m"."""
+    effort: float
+    """The force or torque that produces the prescribed motion."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DriveDirection(Record):
+    """The efforts in one direction of motion."""
+
+    direction: Sense
+    """Which direction it is."""
+    status: Status
+    """How many solutions there are."""
+    frictionless: Frictionless
+    """Without friction."""
+    solutions: tuple[DriveSolution, ...]
+    """Every solution, preload-gap states after the others."""
+    no_solution: float | None = None
+    """From this factor of friction on there is no solution; absent if there always is one, or it was not
+    computed."""
+    blow_ups: tuple[BlowUp, ...] | None = None
+    """Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many
+    modes."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DriveName(Record):
+    """A drive."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """Unit of its effort: "N" or "N m"."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DriveRange(Record):
+    """Effort of a drive that holds."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """"N" or "N m"."""
+    effort: Range
+    """Its effort."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class DriveReport(Report):
+    """The efforts of all drives."""
+
+    _absent = {"course": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    title: str | None
+    """The title of the model."""
+    state: tuple[CoordinateState, ...]
+    """The coordinates, with the rates of the model."""
+    drives: tuple[DriveName, ...]
+    """The drives; all lists of efforts have their order."""
+    directions: tuple[DriveDirection, ...]
+    """Motion as in the model, and with all rates reversed."""
+    course: Course | None
+    """The efforts over what is varied, if anything is."""
+    conclusion: tuple[str, ...]
+    """What it comes to, in words."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DriveSolution(Record):
+    """The efforts in a solution."""
+
+    pattern: str
+    """Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap."""
+    preload_gap: bool
+    """Whether a contact rests in its preload gap."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint."""
+    attainability: Verdict
+    """Whether a mechanism with slightly elastic guides settles on it."""
+    efforts: NDArray[np.float64]
+    """Of each drive (N or N m)."""
+    power: float
+    """Of all drives together (W)."""
+    efficiency: Efficiency
+    """Against the same motion without friction."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DriveSummary(Record):
+    """A drive."""
+
+    name: str
+    """Its name."""
+    coordinate: str
+    """The coordinate whose motion it prescribes."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Efficiency(Record):
+    """The share of power that is not lost to friction."""
+
+    is_: EfficiencyKind
+    """Which way power flows."""
+    value: float | None
+    """The share; null where it has no meaning."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EndReaction(Record):
+    """What a normal force does towards both ends of an interval."""
+
+    contact: str
+    """The contact."""
+    from_: float | None
+    """Its limit towards the beginning (N); null where it grows without bound or was not computed."""
+    to: float | None
+    """Its limit towards the end, likewise."""
+    from_grows: int
+    """1 or -1 where it grows without bound towards the beginning with this sign, else 0."""
+    to_grows: int
+    """The same towards the end."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EndReport(Record):
+    """How a motion ends."""
+
+    kind: EndKind
+    """Why it ends."""
+    words: str
+    """In words."""
+    locked: bool
+    """Whether friction locks the mechanism, so that it cannot continue to move."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EnergyReport(Record):
+    """Where the energy went (J)."""
+
+    kinetic: tuple[float, float]
+    """Kinetic energy at the start and at the end."""
+    potential: tuple[float, float]
+    """Potential energy at the start and at the end."""
+    friction: tuple[Named, ...]
+    """Dissipated by the friction of each contact."""
+    loads: tuple[Named, ...]
+    """Work of each load other than constant springs."""
+    drives: tuple[Named, ...]
+    """Work of each drive."""
+    impulses: float
+    """Lost in impulses."""
+    error: float
+    """The greatest error of the energy balance at any step."""
+    relative_error: float | None
+    """That error relative to the greatest kinetic energy, work or dissipation; null if these are no greater than
+    the error, because they are only rounding."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EventReport(Record):
+    """Something that happened at an instant."""
+
+    time: float
+    """When (s)."""
+    causes: tuple[CauseReport, ...]
+    """All simultaneous causes."""
+    words: str
+    """What happened, in words."""
+    mode: str | None
+    """The mode that follows; absent if the motion ends."""
+    branches: tuple[BranchReport, ...]
+    """All possible modes, in order of preference, if there were several."""
+    branches_left_out: bool = False
+    """Whether further modes, in which fewer joints stick, may be possible: there are too many states to try all."""
+    energy_lost: float
+    """Energy lost in impulses (J)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EveryRightHandSide(Record):
+    """Whether there is exactly one solution for every right-hand side (`q`, `b`, `right_hand_side`), with the
+    matrices as given: theory, section 5."""
+
+    answer: EveryAnswer
+    """The answer."""
+    patterns: tuple[str, ...] = ()
+    """Sign patterns that show it: for `not_one`, two whose oriented determinants have opposite signs; for
+    `singular`, one whose determinant is zero; for `in_doubt`, one whose sign was not decided; otherwise none."""
+    reason: str = ""
+    """Why it was not decided, in words; empty if it was."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Faces(Record):
+    """Parts of larger continua: their ends and faces, which the search finds as solutions of other patterns."""
+
+    solutions: str
+    """Number of solutions, as decimal text."""
+    gap_states: str
+    """Number of states in preload gaps, as decimal text."""
+    continua: str
+    """Number of continua, as decimal text."""
+    listed: bool
+    """Whether they are listed together with the others."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Figure(Record):
+    """A figure: panels one below the other, each with its legend."""
+
+    title: str
+    """Headline."""
+    subtitle: str
+    """A line below it; may be empty."""
+    panels: tuple[Panel, ...]
+    """The panels, from top to bottom."""
+    branches: tuple[Branch, ...]
+    """What colours and strokes of curves mean, in the order of the legend."""
+    quantities: tuple[str, ...]
+    """Names of what several curves of one branch show; told apart by markers if there are several."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Finding(Record):
+    """Something for which the model would be refused."""
+
+    message: str
+    """What is wrong."""
+    hint: str | None
+    """What to do about it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FlutterDamping(Record):
+    """The least damping of the contacts, `N = -kappa (gap + delta gap')`, that suppresses flutter."""
+
+    ratio: float
+    """Damping ratio `zeta = delta sqrt|lambda| / 2` of the fluttering motion."""
+    time: float | None = None
+    """The time `delta` (s); absent if the model does not give the stiffness of every contact."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Frictionless(Record):
+    """The efforts without friction."""
+
+    efforts: NDArray[np.float64]
+    """Of each drive (N or N m)."""
+    power: float
+    """Of all drives together (W)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class GapShare(Record):
+    """An unknown in its preload gap."""
+
+    index: int
+    """The index of the unknown, from 0."""
+    lambda_: float
+    """The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if it is beyond the range."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Hinge(Record):
+    """A hinge force."""
+
+    name: str
+    """The hinge."""
+    on: str
+    """The body on which the force is counted."""
+    force: tuple[float, float]
+    """Its components (N)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HingeRange(Record):
+    """Force of a hinge."""
+
+    name: str
+    """Its name."""
+    on: str
+    """The body on which it is counted."""
+    force: tuple[Range, Range]
+    """Its components along x and y (N)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class HoldReport(Report):
+    """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
+
+    _absent = {"steps_from_drawing": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    title: str | None
+    """The model's title."""
+    verdict: HoldVerdict
+    """The answer."""
+    holds: bool
+    """Whether it can stay at rest: of the verdict."""
+    state: tuple[CoordinateValue, ...]
+    """Values of the chosen coordinates."""
+    steps_from_drawing: int | None
+    """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    branch; absent where they are those of the drawing."""
+    rates_ignored: bool
+    """Whether the model gives rates that were taken as zero."""
+    released_drives: tuple[str, ...]
+    """Drives that are taken as absent."""
+    holding_drives: tuple[str, ...]
+    """Drives that hold their coordinate."""
+    load: LoadReport | None
+    """The load that is varied, if one is."""
+    at_rest: AtRest | None
+    """The states of rest, if there is one."""
+    releases: tuple[Release, ...]
+    """Every state in which it begins to move; empty also where motions without inertia kept them from being
+    sought."""
+    motions_without_inertia: tuple[str, ...]
+    """Motions of the joints without inertia; if there are any, `releases` was not sought."""
+    rest_patterns: int
+    """Patterns of contact sides that were tried for rest."""
+    release_patterns: int
+    """States of joints and contact sides that were tried for release."""
+    undecided: int
+    """Patterns of both kinds of which a linear program could not be solved."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class InertiaSummary(Record):
+    """Inertia of the motions that the joints leave."""
+
+    regular: bool
+    """Whether the mass matrix is regular on them: every motion has kinetic energy."""
+    motions_without: tuple[str, ...]
+    """The motions that have none."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class InfluenceSummary(Record):
+    """The frictionless answer and the influence coefficients."""
+
+    coordinate_accelerations: NDArray[np.float64]
+    """Accelerations of the coordinates without friction."""
+    normal_forces: NDArray[np.float64]
+    """Normal forces without friction, N(0) (N)."""
+    eta_positive: tuple[NDArray[np.float64], ...]
+    """eta_jk for friction at the faces of positive normal force; row j is the contact that answers."""
+    eta_negative: tuple[NDArray[np.float64], ...]
+    """The same at the faces of negative normal force."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointMode(Record):
+    """The contact mode of a sliding joint."""
+
+    name: str
+    """Its name."""
+    mode: str
+    """The mode in words: "tipped: lower right, upper left"."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointRelease(Record):
+    """What a sliding joint does on release."""
+
+    name: str
+    """Its name."""
+    slip: int
+    """0 if it sticks, 1 if the block begins to slide along u, -1 if against it."""
+    words: str
+    """The same in words."""
+    acceleration: Range
+    """Acceleration of the block against the guide along u (m/s^2)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointSummary(Record):
+    """A joint."""
+
+    name: str
+    """Its name."""
+    kind: JointForm
+    """What it is."""
+    joins: tuple[str, str]
+    """The bodies it joins; of a sliding joint first the block, then the guide."""
+    constraints: int
+    """Scalar constraints."""
+    direction: tuple[float, float] | None
+    """Direction `u` of a sliding joint in this state: that of `along`, turned with the guide."""
+    positive: str | None
+    """What it means that it slides in its positive direction, in words."""
+    displacement: float | None
+    """Displacement of a sliding joint (m)."""
+    overlap: float | None
+    """Supported length of a block slider (m)."""
+    stops: tuple[Stop | None, Stop | None] | None = None
+    """The stops at the least and at the greatest displacement, if there are any."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class LimitsReport(Report):
+    """For which values each mode exists."""
+
+    _absent = {"steps_from_drawing": None, "between_faces_at": (), "reversed": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    title: str | None
+    """The title of the model."""
+    vary: VariedQuantity
+    """What is varied."""
+    steps_from_drawing: int | None
+    """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    branch; absent where they are those of the drawing, and where a coordinate is varied: then `guarantee`
+    tells of it."""
+    method: LimitsMethod
+    """How the ends of modes were found."""
+    guarantee: str
+    """What the method can miss, in words."""
+    modes: tuple[ModeLimits, ...]
+    """The modes in the direction of the model's rates."""
+    counts: tuple[CountLimits, ...]
+    """Numbers of solutions in that direction."""
+    without_mode_problem: tuple[RangeWithoutProblem, ...]
+    """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed, in that
+    direction."""
+    between_faces_at: NDArray[np.float64]
+    """Single values at which a guided slider is between its faces, in that direction; absent if none was found."""
+    reversed: Direction | None
+    """The opposite direction, if it was asked for."""
+    conclusion: tuple[str, ...]
+    """What it comes to, in words."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LoadReport(Record):
+    """What is known of a load that is multiplied by a factor."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """Unit of the factor: empty for a load, "N" or "N m" for the effort of a drive."""
+    factor: float
+    """The factor at which everything else in the report is told: 1 for a load, 0 for a drive."""
+    held: tuple[Range, ...]
+    """The factors with which it can stay at rest, in ascending order."""
+    self_locking: bool
+    """Whether it can stay at rest with every factor that is great enough."""
+    threshold: Threshold
+    """From which static friction on it is self-locking."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LockedMode(Record):
+    """A mode with a vanishing determinant and no solution."""
+
+    pattern: str
+    """Its pattern."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MapAxis(Record):
+    """An axis of a map."""
+
+    name: str
+    """Its name."""
+    from_: float
+    """Where it begins (SI units)."""
+    to: float
+    """Where it ends."""
+    value: float
+    """Its value in the model."""
+    pixels: int
+    """Number of pixels."""
+    unit: str
+    """The unit in which it is to be shown; empty for pure numbers."""
+    scale: float
+    """That unit in SI units."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MapClass(Record):
+    """A class of points."""
+
+    meaning: Mapping[str, Any]
+    """What its points have in common."""
+    words: str
+    """The same in words."""
+    modes: tuple[str, ...]
+    """For modes: each of them in words."""
+    pixels: int
+    """Number of its pixels."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class MapReport(Report):
+    """A map of pixels and what their classes mean."""
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    title: str | None
+    """The title of the model."""
+    colour_by: ColourBy
+    """What the colours tell."""
+    x: MapAxis
+    """From left to right."""
+    y: MapAxis
+    """From bottom to top."""
+    classes: tuple[MapClass, ...]
+    """The classes that occur."""
+    points: int
+    """Number of points that were solved."""
+    guarantee: str
+    """What can have been missed, in words."""
+    rows: tuple[tuple[tuple[int, int], ...], ...]
+    """Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels it
+    has on end."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Margins(Record):
+    """By which factors all coefficients of friction together may grow before the answer changes."""
+
+    another_count: float | None = None
+    """Up to this factor there is the same number of solutions (and of gap states); absent if it never changes."""
+    no_solution: float | None = None
+    """Just beyond this factor there is no solution, so that nothing moves; absent if there always is one."""
+    solutions_again: float | None = None
+    """From this greater factor on there are solutions again; absent if there are none."""
+    uniqueness: float | None = None
+    """Up to this factor every load has exactly one solution (below 1: some other load has none or several
+    already); absent if that is never lost, or was not computed because preloads jump with the side of
+    contact."""
+    critical_contact: CriticalContact | None = None
+    """The contact whose friction alone changes the number of solutions first; absent if none does."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MarkedPoint(Record):
+    """A point that is marked."""
+
+    at: tuple[float, float]
+    """Where, in the units of the axes."""
+    kind: PointKind
+    """What is there."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MarkedValue(Record):
+    """A vertical line at a value of x."""
+
+    at: float
+    """Where."""
+    label: str
+    """Above the frame."""
+    asymptote: bool
+    """Whether curves grow without bound there; a heavier line then."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MetInterval(Record):
+    """An interval in which the wanted margin is met."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    from_is: MetEnd
+    """Why it begins there."""
+    to_is: MetEnd
+    """Why it ends there."""
+    from_jumps_to: float | None
+    """The margin outside of the beginning where it jumps; null where it is infinite, or does not jump."""
+    to_jumps_to: float | None
+    """The same at the end."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MobilitySummary(Record):
+    """Degrees of freedom and determinacy."""
+
+    body_coordinates: int
+    """Coordinates of all bodies: 3 b."""
+    constraints: int
+    """Scalar constraints of the joints."""
+    independent: int
+    """How many of them are independent."""
+    degrees_of_freedom: int
+    """Motions that the joints leave."""
+    determinate: bool
+    """Whether all constraints are independent, so that the reactions are determinate."""
+    singular_position: bool
+    """Whether dependent constraints are so in this position only."""
+    joints_in_excess: tuple[str, ...]
+    """The joints among which the excess lies."""
+    suggestion: str | None
+    """What would make the structure determinate."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ModeLimits(Record):
+    """An interval in which a mode has a solution."""
+
+    pattern: str
+    """Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap."""
+    signs: tuple[int, ...]
+    """The same as numbers."""
+    preload_gap: bool
+    """Whether a contact rests in its preload gap."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint, as the mechanism lies in the model's state."""
+    from_: float | None
+    """Where it begins."""
+    to: float | None
+    """Where it ends."""
+    from_is: ModeEndCause
+    """Why it begins there."""
+    to_is: ModeEndCause
+    """Why it ends there."""
+    from_at: tuple[str, ...]
+    """The contacts or guided sliders that begin it."""
+    to_at: tuple[str, ...]
+    """The contacts or guided sliders that end it."""
+    reactions: tuple[EndReaction, ...]
+    """What the normal force of each contact does towards both ends."""
+    speeds: tuple[SpeedLimits, ...]
+    """What becomes of the speed of each coordinate that no drive moves, from value to value."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ModeMargin(Record):
+    """By which factor all friction may grow before a mode ends."""
+
+    factor: float | None = None
+    """The factor; absent if the mode never ends."""
+    ends_with: ModeEndCause
+    """What ends it."""
+    contacts: tuple[str, ...]
+    """The contacts that end it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ModelSummary(Record):
+    """What a model is."""
+
+    title: str | None
+    """Its title."""
+    degrees_of_freedom: int
+    """Degrees of freedom."""
+    bodies: int
+    """Number of bodies."""
+    contacts: int
+    """Number of contacts."""
+    drives: int
+    """Number of drives."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Named(Record):
+    """A number with its name."""
+
+    name: str
+    """Its name."""
+    value: float
+    """J"""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Panel(Record):
+    """A pair of axes and all that is drawn in them."""
+
+    title: str
+    """Above the panel; may be empty."""
+    x: Axis
+    """The horizontal axis."""
+    y: Axis
+    """The vertical axis."""
+    zones: tuple[Zone, ...]
+    """Hatched intervals of x, behind everything."""
+    marked: tuple[MarkedValue, ...]
+    """Vertical lines with labels above the frame."""
+    bands: tuple[Band, ...]
+    """Coloured stretches along the x axis, such as contact modes over time."""
+    bars: tuple[Bar, ...]
+    """Bars that stand side by side or on one another."""
+    curves: tuple[Curve, ...]
+    """Curves."""
+    directed: bool
+    """Whether arrowheads on the curves show the order of their points."""
+    points: tuple[MarkedPoint, ...]
+    """Points that are marked, above the curves."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PatternSummary(Record):
+    """How many patterns had which outcome; all but `rejected` and the gap states add up to `total`."""
+
+    total: int
+    """2^r sign patterns."""
+    solution: int
+    """Patterns with a solution inside: every normal force differs from zero."""
+    boundary: int
+    """Patterns with a solution on their boundary: some normal force is zero."""
+    no_solution: int
+    """Patterns without a solution."""
+    singular_without_solution: int
+    """Patterns with a vanishing determinant and no solution."""
+    singular_with_point: int
+    """Patterns with a vanishing determinant and a single solution."""
+    singular_with_continuum: int
+    """Patterns with a vanishing determinant and a continuum of solutions."""
+    undecided: int
+    """Patterns that could not be decided within the limits of work."""
+    rejected: int
+    """Solutions and gap states that a guided slider rejects because it would tip."""
+    gap_patterns: int
+    """Patterns with gap states that were tried besides."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PhaseReport(Record):
+    """A phase and its time span."""
+
+    from_: float
+    """Its start (s)."""
+    to: float
+    """Its end (s)."""
+    mode: str
+    """The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks."""
+    sliding: tuple[int, ...]
+    """For each sliding joint the sign of its velocity, 0 where it sticks."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Range(Record):
+    """All values from `least` to `greatest`; nothing where there is no bound."""
+
+    least: float | None
+    """The least value."""
+    greatest: float | None
+    """The greatest value."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RangeWithoutPosition(Record):
+    """A range without an answer: the mechanism cannot be assembled or solved, or a guided slider is between its
+    faces."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    reason: str
+    """Why, at its first value that was tried."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RangeWithoutProblem(Record):
+    """A range in which there is no mode problem."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    reason: str
+    """Why: what is at fault in its middle."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RawContinuum(Record):
+    """Infinitely many solutions: the unknowns of each part are in its set, independently of the other parts. NaN
+    (`null` in JSON) is a nonzero value beyond the range of floating-point numbers, like that of a
+    `BeyondRange`; its sign is that of the pattern."""
+
+    pattern: str
+    """"+", "-" or "0" (in the gap) for every unknown."""
+    maximal: bool
+    """Whether it is not part of a larger continuum."""
+    parts: tuple[ContinuumPart, ...]
+    """Its parts: unknowns that vary together and, last, those that are fixed, if any."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RawGroup(Record):
+    """A group of unknowns that was searched separately."""
+
+    indices: tuple[int, ...]
+    """Its unknowns, from 0."""
+    method: str
+    """The method, in words."""
+    nodes: int
+    """Nodes visited."""
+    patterns: RawShares
+    """The fractions of its patterns that were settled by each argument; they add up to 1."""
+    proven: bool
+    """Whether every exclusion and every outcome is proven."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class RawReport(_mixins.RawReport, Report):
+    """All solutions of a raw problem."""
+
+    _absent = {"within_rounding": None, "every_right_hand_side": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    type: RawKind
+    """Type of the problem."""
+    size: int
+    """Number n of unknowns (of pairs of them in a complementarity problem)."""
+    status: Status
+    """How many solutions there are; if the search ended early, how many were found."""
+    complete: Proof
+    """Whether the list of solutions is proven complete."""
+    partial: bool
+    """Whether the search ended before all possibilities were examined."""
+    open: tuple[str, ...]
+    """What remains open, in words; empty if `complete` is `Proof::Proven`."""
+    count: str
+    """Number of solutions found that are not part of a continuum, as decimal text, because it may exceed any
+    integer type. Gap states are not included."""
+    gap_state_count: str
+    """Number of states with an unknown in its preload gap, as decimal text."""
+    continuum_count: str
+    """Number of continua that are not part of larger ones, as decimal text."""
+    faces: Faces
+    """Parts of larger continua."""
+    within_rounding: WithinRounding | None
+    """Whether there is a solution within rounding of the numbers; present only if there is none for the numbers
+    themselves."""
+    every_right_hand_side: EveryRightHandSide | None
+    """Whether every right-hand side has exactly one solution, if requested: `RawProblem::every_right_hand_side`."""
+    solutions: tuple[RawSolution, ...]
+    """The solutions, up to the requested number."""
+    gap_states: tuple[RawSolution, ...]
+    """States with an unknown in its preload gap, up to the requested number (theory, section 3)."""
+    continua: tuple[RawContinuum, ...]
+    """Infinite sets of solutions, up to the requested number."""
+    strategy: str
+    """How they were found: groups of unknowns and methods, in words."""
+    nodes: int
+    """Number of nodes visited by the search."""
+    groups: tuple[RawGroup, ...]
+    """The groups of unknowns that were searched separately."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RawShares(Record):
+    """Fractions of the patterns of a group."""
+
+    uniqueness: float
+    """Excluded by a proof that there is exactly one solution."""
+    cells: float
+    """Excluded because they are not cells of a hyperplane arrangement."""
+    propagation: float
+    """Excluded by interval propagation."""
+    relaxation: float
+    """Excluded by a linear relaxation."""
+    examined: float
+    """Solved one by one."""
+    unexplored: float
+    """Not settled."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RawSolution(Record):
+    """One solution, or one state with an unknown in its gap."""
+
+    signs: tuple[int, ...]
+    """Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes."""
+    on_boundary: bool
+    """Whether some sign outside a gap is 0: the solution is on the boundary between patterns."""
+    maximal: bool
+    """Whether it is not part of a continuum."""
+    enclosure_radius: float | None = None
+    """Maximum distance of the unknowns that have a number from the exact solution for the given numbers; absent
+    if it was not determined."""
+    residual: float | None = None
+    """The residual of the problem's equations, relative to the largest sum of sizes of terms in an equation;
+    absent if an unknown has no value at all."""
+    beyond_range: tuple[BeyondRange, ...] = ()
+    """Unknowns that exist but have no floating-point number; their value is `null`."""
+    end_of_continuum: int | None = None
+    """The first continuum in the list `continua`, from 0, of which this is an end; absent if there is none."""
+    gaps: tuple[GapShare, ...] = ()
+    """Unknowns in their gap."""
+    shares_vary: bool = False
+    """Whether the shares in `gaps` are those of one of many states whose values are otherwise equal."""
+    z: NDArray[np.float64] | None = None
+    """`z`."""
+    w: NDArray[np.float64] | None = None
+    """`w`."""
+    x: NDArray[np.float64] | None = None
+    """`x`."""
+    normal_forces: NDArray[np.float64] | None = None
+    """Signed normal forces `N_k = sigma_k y_k`."""
+    y: NDArray[np.float64] | None = None
+    """`y_k = |N_k|`."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Reactions(Record):
+    """Ranges of reactions."""
+
+    contacts: tuple[ContactRange, ...]
+    """Of the contacts."""
+    hinges: tuple[HingeRange, ...]
+    """Of the hinges."""
+    drives: tuple[DriveRange, ...]
+    """Of the drives that hold."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rejection(Record):
+    """A solution of the equations that is none of the mechanism."""
+
+    pattern: str
+    """Its pattern."""
+    joint: str
+    """The guided slider that would tip."""
+    couple: float
+    """The couple it would need (N m)."""
+    limit: float
+    """The greatest couple that its pressure gives: |N| L / 2 (N m)."""
+    normal_forces: NDArray[np.float64]
+    """Normal forces of all contacts (N)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Release(Record):
+    """A state in which the mechanism begins to move."""
+
+    joints: tuple[JointRelease, ...]
+    """What each sliding joint does."""
+    patterns: tuple[str, ...]
+    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap."""
+    coordinates: tuple[CoordinateRange, ...]
+    """Accelerations of the chosen coordinates."""
+    reactions: Reactions
+    """Reactions."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class RestLimitsReport(Report):
+    """For which values a mechanism can stay at rest."""
+
+    _absent = {"load": None}
+
+    schema: str
+    """Version of this layout: `REST_SCHEMA`."""
+    title: str | None
+    """The title of the model."""
+    vary: VariedQuantity
+    """What is varied."""
+    load: str | None
+    """The load that was named, if one was: with its present magnitude, the effort of a drive with none."""
+    spans: tuple[SpanOfRest, ...]
+    """The stretches, one after another."""
+    guarantee: str
+    """What may have been missed, in words."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Sample(Record):
+    """The margin at a value."""
+
+    at: float
+    """The value."""
+    is_: SampleKind
+    """What is known there."""
+    margin: float | None
+    """The margin; null unless it is a number."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SampledReport(Record):
+    """Rest that was not proven, but checked at four times in each step."""
+
+    time: float
+    """Total duration (s)."""
+    longest_step: float
+    """The longest step (s)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Series(Record):
+    """A motion as a table."""
+
+    columns: tuple[Column, ...]
+    """The numbers; the first column is the time."""
+    modes: tuple[str, ...]
+    """The contact mode of each row, as the pattern of its phase."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class SimulateReport(Report):
+    """A motion in time."""
+
+    _absent = {"steps_from_drawing": None, "samples": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    model: ModelSummary
+    """Summary of the model."""
+    contacts: tuple[str, ...]
+    """The names of the contacts, in the order of their signs in modes."""
+    tolerance: float
+    """Relative error permitted for each step."""
+    start: float
+    """When it begins (s)."""
+    until: float
+    """When it was requested to end (s)."""
+    stop: float
+    """When it actually ends (s)."""
+    initial: tuple[CoordinateState, ...]
+    """Coordinates and rates at the start."""
+    steps_from_drawing: int | None
+    """Number of steps in which the initial positions were followed from the drawing, each step proven to stay on
+    its assembly branch; absent if the positions are those of the drawing."""
+    last: tuple[CoordinateState, ...]
+    """Coordinates and rates at the end."""
+    events: tuple[EventReport, ...]
+    """What happened, in chronological order."""
+    phases: tuple[PhaseReport, ...]
+    """The phases, in chronological order."""
+    end: EndReport
+    """How it ends."""
+    hints: tuple[str, ...]
+    """Suggestions for a better model, in words."""
+    energy: EnergyReport
+    """Where the energy went."""
+    position_drift: float
+    """The greatest violation of the joints before each projection: of positions, in sizes of the mechanism or
+    rad."""
+    velocity_drift: float
+    """The same for velocities, per second."""
+    statistics: StatisticsReport
+    """Computational cost."""
+    samples: Series | None
+    """The motion as a table, if requested."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class SizeReport(Report):
+    """For which values a wanted margin is met."""
+
+    _absent = {"load": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    title: str | None
+    """The title of the model."""
+    vary: VariedQuantity
+    """What is varied."""
+    against: MarginKind
+    """Which margin is meant."""
+    load: str | None
+    """The load, drive or contact that it concerns; absent against locking, and where it concerns all."""
+    margin: float
+    """The wanted margin; against an effort, normal force, bearing pressure or efficiency the limit that it has
+    to keep."""
+    unit: str
+    """SI unit of the limit, empty for a pure number."""
+    both_directions: bool
+    """Whether the smaller margin of both directions of motion counts."""
+    present: Sample
+    """The margin in the model."""
+    met: tuple[MetInterval, ...]
+    """The intervals in which the wanted margin is met, in ascending order."""
+    without_position: tuple[RangeWithoutPosition, ...]
+    """Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces,
+    which is no locking."""
+    samples: tuple[Sample, ...]
+    """The margin at evenly spaced values, and where the wanted one is just met."""
+    guarantee: str
+    """What the search can miss, in words."""
+    conclusion: tuple[str, ...]
+    """What it comes to, in words."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Solution(_mixins.Solution, Record):
+    """One solution, or one state of a preload gap."""
+
+    pattern: str
+    """Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap."""
+    patterns: tuple[str, ...]
+    """All patterns that give this same solution: more than one on a boundary."""
+    signs: tuple[int, ...]
+    """Sign of each normal force, 0 where it vanishes."""
+    on_boundary: bool
+    """Whether some contact is about to change side: its normal force is zero within rounding."""
+    certificate: CertificateKind
+    """What is proven of it."""
+    margin: ModeMargin | None = None
+    """By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at once."""
+    determinant: float
+    """Determinant D of the mode's equations, eq. (6)."""
+    oriented_determinant: float
+    """D times the product of the signs; positive without friction (theory, section 5)."""
+    attainability: Attainability
+    """Whether a mechanism with slightly elastic guides settles on it."""
+    contacts: tuple[Contact, ...]
+    """The contacts, in the order of the model."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint."""
+    hinges: tuple[Hinge, ...]
+    """The hinge forces."""
+    bodies: tuple[Body, ...]
+    """The accelerations of the bodies."""
+    coordinates: tuple[CoordinateAcceleration, ...]
+    """The accelerations of the chosen coordinates."""
+    friction_exceeds_loads: bool
+    """Whether it is proven that the loads and weights push the motion and friction takes more power than they
+    give; never with drives."""
+    drives: tuple[Drive, ...]
+    """The efforts of the drives."""
+    residual: float
+    """Greatest relative residual of a body's force and moment balance, recomputed independently."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class SolveReport(_mixins.SolveReport, Report):
+    """All solutions of the kinetic problem of a mechanism in one state."""
+
+    _absent = {"steps_from_drawing": None, "patterns": None, "margins": None, "margins_missing": None, "from_rest": None, "uncertainty": None}
+
+    schema: str
+    """Version of this layout: `SCHEMA`."""
+    status: Status
+    """How many solutions there are; of those that were found if the search ended early."""
+    complete: Proof
+    """Whether these are certainly all solutions of the mechanism, rounding included."""
+    partial: bool
+    """Whether the search ended before every possibility was dealt with."""
+    open: tuple[str, ...]
+    """What remains open, in words; empty if `complete` is `Proof::Proven`."""
+    count: str
+    """Number of solutions, as decimal text: it may be beyond any integer type, and more than are listed."""
+    gap_state_count: str
+    """Number of preload-gap states, likewise."""
+    strategy: str
+    """How the solutions were found: groups of contacts and methods, in words."""
+    nodes: int
+    """Nodes of the search that were visited."""
+    model: ModelSummary
+    """What the model is."""
+    state: tuple[CoordinateState, ...]
+    """The state: chosen coordinates and their rates."""
+    rates_not_given: tuple[str, ...]
+    """The coordinates whose rates the model does not give: they are taken as zero."""
+    time: float
+    """Time of the state (s)."""
+    steps_from_drawing: int | None
+    """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    branch; absent if they are those of the drawing."""
+    patterns: PatternSummary | None
+    """The outcome of all sign patterns; absent if there are so many that not each was tried by itself."""
+    solutions: tuple[Solution, ...]
+    """The solutions, in the order of their patterns."""
+    preload_gap_states: tuple[Solution, ...]
+    """States with a contact between its faces, in which the preload friction acts (theory, section 3)."""
+    continua: tuple[Continuum, ...]
+    """Modes with a vanishing determinant that admit infinitely many solutions."""
+    undecided_modes: tuple[UndecidedMode, ...]
+    """Modes on the boundary within rounding: whether they have a solution cannot be told."""
+    locked_modes: tuple[LockedMode, ...]
+    """Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern was
+    tried."""
+    rejected: tuple[Rejection, ...]
+    """Solutions of the equations that a guided slider rejects, because it would tip."""
+    closest_modes: tuple[ClosestMode, ...]
+    """Where there is no solution: the modes with the smallest determinants. Only where every pattern was tried."""
+    jammed_groups: tuple[tuple[str, ...], ...]
+    """Where there is no solution: groups of contacts that admit none, whatever the others do."""
+    margins: Margins | None
+    """By which factors all friction may grow; absent if that was not computed."""
+    margins_missing: MarginsMissing | None
+    """Why there are no margins; absent where there are, and where they were not asked for."""
+    from_rest: FromRest | None
+    """Where some coordinate slows down: what the same loads do from rest in the same position; absent where it
+    was not asked (margins are not, drives prescribe the motion, there are many states of rest)."""
+    uncertainty: Uncertainty | None
+    """What parameters known within bounds leave certain; absent if there are none. Everything else in the report
+    holds for the middle of their ranges."""
+    influence: InfluenceSummary
+    """Accelerations and normal forces without friction, and the influence coefficients."""
+    condition: float
+    """Greatest factor by which rounding in the kinetic equations may be amplified."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SpanOfRest(Record):
+    """A stretch with one answer."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    holds: bool | None
+    """Whether it can stay at rest; null where that was not decided, and where there is no answer."""
+    reason: str | None = None
+    """Why there is no answer, if there is none."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SpeedLimits(Record):
+    """An interval of a mode in which the speed of a coordinate changes one way."""
+
+    coordinate: str
+    """The coordinate."""
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends: where the acceleration vanishes, or the mode ends."""
+    speed: SpeedChange
+    """What becomes of the speed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StatisticsReport(Record):
+    """Cost of a simulation."""
+
+    steps: int
+    """Steps that were accepted."""
+    repeated: int
+    """Steps that were repeated with a shorter length."""
+    evaluations: int
+    """Evaluations of the equations."""
+    events: int
+    """Events."""
+    sampled: SampledReport | None = None
+    """Unproven rest under loads that vary with time, if there is any."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stop(Record):
+    """When and where a coordinate stops if its acceleration stays as it is."""
+
+    time: float
+    """The time until then: t = |v|/|a| (s)."""
+    distance: float
+    """The way until then: v^2 / (2 |a|) (m or rad)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Tally(Record):
+    """Numbers of points, rows and kinds of outcome, so far."""
+
+    points: int
+    """Points, inserted ones included."""
+    breakpoints: int
+    """Inserted points."""
+    rows: int
+    """Rows."""
+    statuses: Mapping[PointStatus, int]
+    """Points by what became of them; inserted ones are left out."""
+    solutions: Mapping[int, int]
+    """Points by their number of solutions; inserted ones are left out."""
+    boundary_rows: int
+    """Rows on the boundary between modes."""
+    refusals: Mapping[PointStatus, tuple[int, str]]
+    """The first point of each kind that was not solved, and why."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Threshold(Record):
+    """The static friction from which on the load alone, however great, is held."""
+
+    varied: str
+    """What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter."""
+    present: float
+    """Its value in the model: 1 for the factor."""
+    value: float | None
+    """Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
+    nothing if no friction suffices."""
+    coefficients: tuple[Coefficients, ...]
+    """Static coefficients of every contact at the threshold."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class TreeReport(Report):
+    """The report of all motions."""
+
+    schema: str
+    """Version of this layout."""
+    complete: bool
+    """Whether these are all motions."""
+    histories: tuple[BranchingReport, ...]
+    """The motions."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class UncertainMode(Record):
+    """A mode that exists for some values of the uncertain parameters, or perhaps does."""
+
+    pattern: str
+    """Its pattern."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint."""
+    persistence: Persistence
+    """For which values it has a solution."""
+    normal_force_bounds: NDArray[np.float64] | None = None
+    """Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are none."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class UncertainParameter(Record):
+    """A parameter that is known within bounds."""
+
+    name: str
+    """Its name."""
+    from_: float
+    """Its lower bound (SI units)."""
+    to: float
+    """Its upper bound."""
+    value: float
+    """The value for which the rest of the report holds: the middle."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Uncertainty(Record):
+    """What is certain for all values of parameters that are known within bounds only."""
+
+    parameters: tuple[UncertainParameter, ...]
+    """The parameters and their bounds."""
+    least_solutions: int
+    """For every value there are at least so many solutions."""
+    most_solutions: int | None = None
+    """For every value there are at most so many solutions; absent if that could not be proven."""
+    modes: tuple[UncertainMode, ...]
+    """The modes that exist for some value, and those of which that could not be ruled out."""
+    parts: int
+    """The parts into which the ranges were divided."""
+    open: tuple[str, ...]
+    """Why parts of the ranges could not be searched; empty if all were."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class UndecidedMode(Record):
+    """A mode whose outcome is not decided within the bounds of the mechanism's numbers."""
+
+    pattern: str
+    """Its pattern."""
+    joints: tuple[JointMode, ...]
+    """The contact mode of each sliding joint."""
+    contacts: tuple[str, ...]
+    """The contacts whose normal force may be zero; none if the determinant may."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class VariedQuantity(Record):
+    """What is varied, in SI units."""
+
+    name: str
+    """Its name."""
+    unit: str
+    """Its unit; empty where there is none, or none is known."""
+    from_: float
+    """Where the range begins."""
+    to: float
+    """Where it ends."""
+    value: float
+    """Its value in the model."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Warning(Record):
+    """A warning as a report tells it."""
+
+    kind: str
+    """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
+    "great_friction" or "nothing_presses"."""
+    place: WarningPlace | None
+    """Where it lies; null where it concerns the input as a whole."""
+    message: str
+    """What is perhaps not meant."""
+    hint: str
+    """What to do about it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WarningPlace(Record):
+    """Where a warning lies."""
+
+    source: str
+    """"model" for the model file, "setting" for a setting such as `--set`."""
+    from_: int
+    """Its first byte in that text."""
+    to: int
+    """The byte behind it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WithinRounding(Record):
+    """Solutions for numbers that differ from the given ones only by rounding."""
+
+    relative: float
+    """Every number may differ by this fraction of its size."""
+    answer: WithinRoundingAnswer
+    """Whether such numbers have a solution."""
+    z: NDArray[np.float64] | None = None
+    """`z`."""
+    w: NDArray[np.float64] | None = None
+    """`w`."""
+    x: NDArray[np.float64] | None = None
+    """`x`."""
+    normal_forces: NDArray[np.float64] | None = None
+    """Signed normal forces `N_k = sigma_k y_k`."""
+    y: NDArray[np.float64] | None = None
+    """`y_k = |N_k|`."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Zone(Record):
+    """A hatched interval of x."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
+    hatching: Hatching
+    """How it is hatched."""
+    meaning: str
+    """What it means, for the legend."""
+
+
+HINTS: Final[Mapping[str, Mapping[str, str]]] = {
+    "Attainability": {"eigenvalues": "pairs"},
+    "ClosestMode": {"absolute_normal_forces": "array"},
+    "Column": {"values": "array"},
+    "CountLimits": {"proven": "pairs"},
+    "CourseRow": {"efforts": "array", "frictionless": "array"},
+    "Curve": {"points": "pairs"},
+    "Direction": {"between_faces_at": "array"},
+    "DriveSolution": {"efforts": "array"},
+    "Frictionless": {"efforts": "array"},
+    "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array"},
+    "LimitsReport": {"between_faces_at": "array"},
+    "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},
+    "RawSolution": {"z": "array", "w": "array", "x": "array", "normal_forces": "array", "y": "array"},
+    "Rejection": {"normal_forces": "array"},
+    "UncertainMode": {"normal_force_bounds": "pairs"},
+    "WithinRounding": {"z": "array", "w": "array", "x": "array", "normal_forces": "array", "y": "array"},
+}
+"""Lists of numbers that are arrays, and classes whose name serialization does not tell, by class and field."""

@@ -1,0 +1,210 @@
+//! A report as Python holds it: plain data that become objects when they are asked for.
+
+use crate::fault::Texts;
+use crate::to_python::{fields, instance, to_python};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use slideway::Report;
+use slideway::configuration::Configuration;
+use slideway::limits::Curves;
+use slideway::map::MapReport;
+use slideway::mechanism::Mechanism;
+use slideway::model::Settings;
+use slideway::report::{SolveReport, Style};
+use slideway_pictures::NotFinite;
+use slideway_pictures::drawing::svg::{self, Colours, Frame};
+use slideway_pictures::drawing::{Shown, sheet};
+use slideway_pictures::theme::{DARK, LIGHT, Theme};
+use std::any::Any;
+use std::sync::Arc;
+
+/// What every report can do without its type.
+trait AnyReport: Send + Sync {
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>>;
+    fn json(&self) -> String;
+    fn text(&self, style: Style) -> String;
+    fn any(&self) -> &dyn Any;
+}
+
+impl<R: Report + Send + Sync + 'static> AnyReport for R {
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        fields(py, self)
+    }
+
+    fn json(&self) -> String {
+        Report::json(self)
+    }
+
+    fn text(&self, style: Style) -> String {
+        Report::text(self, style)
+    }
+
+    fn any(&self) -> &dyn Any {
+        self
+    }
+}
+
+/// The model of which something was asked.
+#[derive(Debug, Clone)]
+pub(crate) struct Asked {
+    /// With its settings.
+    pub(crate) model: slideway::Model,
+    /// The text of the model, and the settings, for faults and titles.
+    pub(crate) text: Arc<str>,
+    pub(crate) settings: Settings,
+}
+
+impl Asked {
+    /// What is wrong with it.
+    pub(crate) fn refused(&self, py: Python<'_>, faults: &slideway::Faults) -> PyErr {
+        Texts { model: &self.text, settings: &self.settings }.error(py, faults)
+    }
+
+    /// Its drawing, with solutions if there are any.
+    pub(crate) fn drawing(
+        &self,
+        py: Python<'_>,
+        report: Option<&SolveReport>,
+        (shown, theme): (Shown, &'static Theme),
+    ) -> PyResult<String> {
+        let mechanism = Mechanism::new(&self.model).map_err(|faults| self.refused(py, &faults))?;
+        let configuration = Configuration::new(&mechanism).map_err(|faults| self.refused(py, &faults))?;
+        let Some(sheet) = sheet(&mechanism, &configuration, report, shown) else {
+            let count = report.map_or(0, |report| report.solutions.len());
+            let message = format!("there is no solution of this number: {count} are listed");
+            return Err(PyValueError::new_err(message));
+        };
+        let frame = Frame {
+            bounds: sheet.bounds,
+            title: &sheet.title,
+            description: &sheet.description,
+            width: None,
+            colours: Colours::Theme(*theme),
+        };
+        svg::write(&sheet.scene, &frame).map_err(not_finite)
+    }
+}
+
+/// A picture with numbers that cannot be drawn.
+pub(crate) fn not_finite(error: NotFinite) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// The theme of this name.
+pub(crate) fn theme(name: &str) -> PyResult<&'static Theme> {
+    match name {
+        "light" => Ok(&LIGHT),
+        "dark" => Ok(&DARK),
+        _ => Err(PyValueError::new_err(format!("theme must be 'light' or 'dark', not {name:?}"))),
+    }
+}
+
+/// A report, and what its pictures are made of.
+#[pyclass(frozen, module = "slideway._slideway")]
+pub(crate) struct Answer {
+    report: Box<dyn AnyReport>,
+    asked: Option<Asked>,
+    curves: Option<Curves>,
+}
+
+impl Answer {
+    /// The report as an object of its class in `slideway.reports`, whose attributes are made when one of them
+    /// is first asked for.
+    pub(crate) fn object<'py, R: Report + Send + Sync + 'static>(
+        py: Python<'py>,
+        class: &str,
+        report: R,
+        asked: Option<Asked>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        Self { report: Box::new(report), asked, curves: None }.in_class(py, class)
+    }
+
+    /// The same with the curves of its plot.
+    pub(crate) fn with_curves<'py, R: Report + Send + Sync + 'static>(
+        py: Python<'py>,
+        class: &str,
+        (report, curves): (R, Curves),
+        asked: Asked,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        Self { report: Box::new(report), asked: Some(asked), curves: Some(curves) }.in_class(py, class)
+    }
+
+    fn in_class<'py>(self, py: Python<'py>, class: &str) -> PyResult<Bound<'py, PyAny>> {
+        let attributes = PyDict::new(py);
+        attributes.set_item("_answer", self.into_pyobject(py)?)?;
+        instance(py, class, attributes)
+    }
+
+    fn is<R: 'static>(&self) -> Option<&R> {
+        self.report.any().downcast_ref()
+    }
+
+    fn asked(&self) -> PyResult<&Asked> {
+        self.asked.as_ref().ok_or_else(|| PyTypeError::new_err("there is no model to draw"))
+    }
+}
+
+#[pymethods]
+impl Answer {
+    /// The attributes of the report.
+    #[pyo3(signature = () -> "dict[str, object]")]
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.report.fields(py)
+    }
+
+    /// The JSON output.
+    fn json(&self, py: Python<'_>) -> String {
+        py.detach(|| self.report.json())
+    }
+
+    /// The text output, with colours for a terminal if wanted.
+    fn text(&self, py: Python<'_>, color: bool) -> String {
+        let style = if color { Style::Colour } else { Style::Plain };
+        py.detach(|| self.report.text(style))
+    }
+
+    /// A drawing of the mechanism and its solutions, or of one of them, counted from 1, as SVG.
+    #[pyo3(signature = (theme_name, solution = None))]
+    fn drawing(&self, py: Python<'_>, theme_name: &str, solution: Option<usize>) -> PyResult<String> {
+        let report = self.is::<SolveReport>();
+        let shown = solution.map_or(Shown::All, Shown::Solution);
+        self.asked()?.drawing(py, report, (shown, theme(theme_name)?))
+    }
+
+    /// The plot as SVG.
+    fn plot_svg(&self, theme_name: &str) -> PyResult<String> {
+        let theme = theme(theme_name)?;
+        let asked = self.asked()?;
+        if let Some(map) = self.is::<MapReport>() {
+            return slideway_pictures::map::to_svg(map, &asked.settings, theme).map_err(not_finite);
+        }
+        slideway_pictures::plot::to_svg(&self.plotted()?, theme).map_err(not_finite)
+    }
+
+    /// The plot as plain data.
+    #[pyo3(signature = () -> "slideway.reports.Figure")]
+    fn figure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.plotted()?)
+    }
+
+    /// The classes of the pixels of a map, row by row from the bottom.
+    fn pixels(&self) -> PyResult<Vec<usize>> {
+        let map = self.is::<MapReport>().ok_or_else(|| PyTypeError::new_err("this is no map"))?;
+        Ok(map.pixels())
+    }
+}
+
+impl Answer {
+    fn plotted(&self) -> PyResult<slideway_pictures::plot::Figure> {
+        use slideway::{drive::DriveReport, limits::LimitsReport, size::SizeReport};
+        use slideway_pictures::plot::{drive_figure, limits_figure, size_figure};
+        let figure = match (self.is::<LimitsReport>(), &self.curves) {
+            (Some(report), Some(curves)) => Some(limits_figure(report, curves)),
+            _ => self.is::<SizeReport>().map(size_figure),
+        };
+        let figure = figure.or_else(|| self.is::<DriveReport>().and_then(drive_figure));
+        let figure = figure.ok_or_else(|| PyTypeError::new_err("this answer has no plot"))?;
+        Ok(figure.changed_by(&self.asked()?.settings))
+    }
+}

@@ -1,0 +1,83 @@
+//! What methods take: numbers or texts, names with ranges.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyString};
+use slideway::limits::Vary;
+use slideway::model::{Setting, SettingKind, Settings, Value};
+use slideway::{Model, UnitSystem};
+
+/// A number in SI units, or a text with a unit or an expression, such as `"75 deg"`.
+pub(crate) fn value(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if let Ok(text) = object.cast::<PyString>() {
+        return Ok(Value::from(text.to_string_lossy().as_ref()));
+    }
+    let wanted = || format!("{name} must be a number in SI units or a text such as \"75 deg\"");
+    if object.is_instance_of::<PyBool>() {
+        return Err(PyTypeError::new_err(format!("{}, not {}", wanted(), object.repr()?)));
+    }
+    match object.extract::<f64>() {
+        Ok(number) if number.is_finite() => Ok(Value::from(number)),
+        Ok(number) => Err(PyValueError::new_err(format!("{}, not {number}", wanted()))),
+        Err(_) => {
+            let kind = object.get_type().name()?;
+            Err(PyTypeError::new_err(format!("{}, not of type {kind}", wanted())))
+        }
+    }
+}
+
+/// What `with_` changes: parameters and coordinates by their names, rates, the time.
+pub(crate) fn settings(
+    model: &Model,
+    named: Option<&Bound<'_, PyDict>>,
+    [at, rate]: [Option<&Bound<'_, PyDict>>; 2],
+    time: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Settings> {
+    let mut settings = Settings::default();
+    let is_coordinate = |name: &str| model.coordinates.iter().any(|known| *known.name == *name);
+    let is_parameter = |name: &str| model.parameters.iter().any(|known| *known.name == *name);
+    let kinds = [(named, None), (at, Some(SettingKind::Position)), (rate, Some(SettingKind::Rate))];
+    for (given, kind) in kinds {
+        for (name, given) in given.into_iter().flatten() {
+            let name: String = name.extract().map_err(|_| PyTypeError::new_err("names must be texts"))?;
+            let is_position = is_coordinate(&name) && !is_parameter(&name);
+            let usual = if is_position { SettingKind::Position } else { SettingKind::Parameter };
+            let kind = kind.unwrap_or(usual);
+            settings = settings.with(Setting::new(kind, &name, value(&name, &given)?));
+        }
+    }
+    match time {
+        Some(time) => Ok(settings.time(value("time", time)?)),
+        None => Ok(settings),
+    }
+}
+
+/// What is varied, and over which range.
+pub(crate) fn vary(name: &str, [from, to]: [Option<&Bound<'_, PyAny>>; 2]) -> PyResult<Vary> {
+    match (from, to) {
+        (None, None) => Ok(Vary::usual(name)),
+        (Some(from), Some(to)) => Ok(Vary::between(name, value("start", from)?, value("stop", to)?)),
+        _ => Err(PyTypeError::new_err("start and stop must be given together")),
+    }
+}
+
+/// The same of a pair of ends.
+pub(crate) fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyResult<Vary> {
+    let Some(range) = range else { return Ok(Vary::usual(name)) };
+    let wanted = || format!("the range of {name} must be a pair of its ends");
+    let ends: Vec<Bound<'_, PyAny>> = range.extract().map_err(|_| PyTypeError::new_err(wanted()))?;
+    match &*ends {
+        [from, to] => vary(name, [Some(from), Some(to)]),
+        _ => Err(PyTypeError::new_err(wanted())),
+    }
+}
+
+/// The system of units of this name.
+pub(crate) fn units(name: &str) -> PyResult<UnitSystem> {
+    match name {
+        "as-typed" => Ok(UnitSystem::AsTyped),
+        "SI" => Ok(UnitSystem::Si),
+        "mm" => Ok(UnitSystem::Millimetres),
+        _ => Err(PyValueError::new_err(format!("units must be 'as-typed', 'SI' or 'mm', not {name:?}"))),
+    }
+}

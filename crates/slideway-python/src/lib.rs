@@ -1,0 +1,37 @@
+//! The private module `_slideway` of the Python package `slideway`: the library's functions and reports, converted.
+//!
+//! What Python sees is in `python/slideway`: classes of the reports (`reports.py`, written from the sources of the
+//! library), plots, and what notebooks show. Nothing is computed here.
+//!
+//! # Files
+//! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
+//! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
+//! `motion.rs` a motion with its table, `to_python.rs` turns values into objects, `fault.rs` faults into
+//! exceptions, `sweep.rs` tables of many points, `modes.rs` problems given by matrices.
+
+#![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
+
+mod answer;
+mod arguments;
+mod fault;
+mod model;
+mod modes;
+mod motion;
+mod sweep;
+mod to_python;
+mod work;
+
+/// The private half of the package; see `slideway`.
+#[pyo3::pymodule(gil_used = false)]
+mod _slideway {
+    #[pymodule_export]
+    use crate::answer::Answer;
+    #[pymodule_export]
+    use crate::model::{Model, gallery_models};
+    #[pymodule_export]
+    use crate::modes::{hlcp, lcp, mode_problem, solve};
+    #[pymodule_export]
+    use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::sweep::Table;
+}

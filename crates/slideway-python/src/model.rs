@@ -1,0 +1,747 @@
+//! The class `slideway.Model`: a model with its settings, and a method for each question.
+
+use crate::answer::{Answer, Asked, theme};
+use crate::arguments::{settings, units, value, vary, vary_between};
+use crate::fault::Texts;
+use crate::motion::{self, Motion};
+use crate::sweep;
+use crate::work::Watch;
+use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use slideway::fault::{Fault, FaultKind, nearest};
+use slideway::limits::{Quantity, curves_with, rest_limits_with};
+use slideway::map::{ColourBy, map_with};
+use slideway::mechanism::Mechanism;
+use slideway::model::{Setting, SettingKind, Settings};
+use slideway::modes::{Limits, SearchOptions};
+use slideway::motion::{Thorough, simulate_all, simulate_with};
+use slideway::progress::Callback;
+use slideway::size::{Against, size_with};
+use slideway::solve::solve_with;
+use slideway::standstill::hold_with;
+use slideway::units::Unit;
+use slideway::{
+    DriveOptions, Faults, HoldOptions, LimitsOptions, MapOptions, SimulateOptions, SizeOptions, SolveOptions,
+    UnitSystem, gallery,
+};
+use slideway_pictures::drawing::Shown;
+use std::collections::hash_map::DefaultHasher;
+use std::hash::{Hash, Hasher};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A planar mechanism with dry friction, in one state: a model file and what was changed in it. It never changes;
+/// `with_` gives another one.
+#[pyclass(frozen, module = "slideway", name = "Model")]
+#[derive(Clone)]
+pub(crate) struct Model {
+    asked: Asked,
+    units: Option<UnitSystem>,
+}
+
+impl Model {
+    fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let asked = |model| Asked { model, text: Arc::from(text), settings: Settings::default() };
+        match py.detach(|| slideway::Model::parse(text)) {
+            Ok(model) => Ok(Self { asked: asked(model), units: None }),
+            Err(faults) => Err(Texts { model: text, settings: &Settings::default() }.error(py, &faults)),
+        }
+    }
+
+    fn refused(&self, py: Python<'_>, faults: &Faults) -> PyErr {
+        self.asked.refused(py, faults)
+    }
+
+    /// Runs a question, and raises what is wrong with it, or that its time was up.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        (time_limit, progress): (Option<f64>, Option<Py<PyAny>>),
+        question: impl FnOnce(&slideway::Model, &mut Callback<'_>) -> Result<Option<T>, Faults> + Send,
+    ) -> PyResult<T> {
+        let model = &self.asked.model;
+        let ended =
+            Watch::new(time_limit, progress)?.run(py, |callback| question(model, callback).transpose())?;
+        ended.whole()?.map_err(|faults| self.refused(py, &faults))
+    }
+
+    fn changed(&self, py: Python<'_>, settings: &Settings) -> PyResult<Self> {
+        let refused = |faults| Texts { model: &self.asked.text, settings }.error(py, &faults);
+        let model = self.asked.model.with(settings).map_err(refused)?;
+        let mut all = self.asked.settings.clone();
+        for setting in settings.entries() {
+            all = all.with(setting.clone());
+        }
+        Ok(Self { asked: Asked { model, settings: all, ..self.asked.clone() }, units: self.units })
+    }
+
+    fn in_system(&self, system: UnitSystem) -> Self {
+        let model = self.asked.model.clone().with_units(system);
+        Self { asked: Asked { model, ..self.asked.clone() }, units: Some(system) }
+    }
+
+    /// Everything that makes two models the same.
+    fn identity(&self) -> (&str, &[Setting], Option<UnitSystem>) {
+        (&self.asked.text, self.asked.settings.entries(), self.units)
+    }
+
+    /// A time of an argument (s).
+    fn time(&self, py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<f64> {
+        let setting = Setting::new(SettingKind::Time, name, value(name, given)?);
+        let settings = Settings::default().with(setting.clone());
+        let refused = |faults| Texts { model: &self.asked.text, settings: &settings }.error(py, &faults);
+        self.asked.model.setting_value(&setting).map_err(refused)
+    }
+}
+
+#[pymethods]
+impl Model {
+    /// A model from its text, in the language of model files.
+    ///
+    /// Raises `ModelError` with everything that is wrong with it.
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str) -> PyResult<Self> {
+        Self::new(py, text)
+    }
+
+    /// A model from a file.
+    ///
+    /// Raises `ModelError` with everything that is wrong with it, `OSError` if it cannot be read.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let too_large =
+            || Faults::from(Fault::general(FaultKind::TooLarge { limit: slideway::model::SIZE_LIMIT }));
+        let nothing = Texts { model: "", settings: &Settings::default() };
+        if std::fs::metadata(&path)?.len() > slideway::model::SIZE_LIMIT {
+            return Err(nothing.error(py, &too_large()));
+        }
+        let bytes = std::fs::read(&path)?;
+        match slideway::Model::parse_bytes(&bytes) {
+            Ok(_) => Self::new(py, &String::from_utf8_lossy(&bytes)),
+            Err(faults) => {
+                let text = String::from_utf8_lossy(&bytes);
+                Err(Texts { model: &text, settings: &Settings::default() }.error(py, &faults))
+            }
+        }
+    }
+
+    /// A model of the gallery, such as `"drawer"`; `gallery_models()` has their names.
+    #[staticmethod]
+    fn gallery(py: Python<'_>, name: &str) -> PyResult<Self> {
+        let Some(found) = gallery::find(name) else {
+            let names = || gallery::MODELS.iter().map(|model| model.name);
+            let meant = nearest(name, names()).map(|near| format!("; did you mean {near:?}?"));
+            let message = format!("there is no model {name:?} in the gallery{}", meant.unwrap_or_default());
+            return Err(PyKeyError::new_err(message));
+        };
+        Self::new(py, found.text)
+    }
+
+    /// The text of the model, without what was changed.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.asked.text
+    }
+
+    /// Its title, if it has one.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.asked.model.title.as_deref()
+    }
+
+    /// The names of its parameters.
+    #[getter]
+    fn parameters(&self) -> Vec<&str> {
+        self.asked.model.parameters.iter().map(|parameter| &*parameter.name).collect()
+    }
+
+    /// The names of its coordinates.
+    #[getter]
+    fn coordinates(&self) -> Vec<&str> {
+        self.asked.model.coordinates.iter().map(|coordinate| &*coordinate.name).collect()
+    }
+
+    /// What was changed in the text, such as `["mu=0.5", "at alpha=75 deg"]`.
+    #[getter]
+    fn settings(&self) -> Vec<String> {
+        let told = |setting: &Setting| match setting.kind {
+            SettingKind::Position => format!("at {}", setting.text()),
+            SettingKind::Rate => format!("rate {}", setting.text()),
+            _ => setting.text(),
+        };
+        self.asked.settings.entries().iter().map(told).collect()
+    }
+
+    /// The same model with other values: parameters and coordinates by their names, or positions (`at`) and rates
+    /// (`rate`) of coordinates by theirs, and the time of the state. A number is in SI units; a text may have a
+    /// unit or be an expression of parameters: `model.with_(mu=0.5, alpha="75 deg", rate={"x": "2 m/s"})`.
+    ///
+    /// `units` are those in which texts show numbers: "as-typed", "SI" or "mm".
+    ///
+    /// Raises `ModelError` for names that do not exist and values that make no sense.
+    #[pyo3(signature = (*, at = None, rate = None, time = None, units = None, **values))]
+    fn with_(
+        &self,
+        py: Python<'_>,
+        at: Option<&Bound<'_, PyDict>>,
+        rate: Option<&Bound<'_, PyDict>>,
+        time: Option<&Bound<'_, PyAny>>,
+        units: Option<&str>,
+        values: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let settings = settings(&self.asked.model, values, [at, rate], time)?;
+        let changed = self.changed(py, &settings)?;
+        match units {
+            Some(name) => Ok(changed.in_system(crate::arguments::units(name)?)),
+            None => Ok(changed),
+        }
+    }
+
+    /// What the model consists of, what would keep it from being solved, and what is perhaps not meant in it.
+    #[pyo3(signature = () -> "slideway.reports.CheckReport")]
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let report = py.detach(|| slideway::check(&self.asked.model));
+        let report = report.map_err(|faults| self.refused(py, &faults))?;
+        Answer::object(py, "CheckReport", report, Some(self.asked.clone()))
+    }
+
+    /// All solutions of the equations of motion in this state, with their contact modes.
+    ///
+    /// `margins=False` leaves out by which factors friction may grow, which is most of the work. At most
+    /// `max_solutions` are listed; all are counted. The search ends after `max_nodes` nodes or `time_limit`
+    /// seconds; the answer is then partial.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (*, margins = true, max_solutions = 100, max_nodes = None, max_found = None,
+        time_limit = None, progress = None) -> "slideway.reports.SolveReport")]
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        margins: bool,
+        max_solutions: usize,
+        max_nodes: Option<u64>,
+        max_found: Option<usize>,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = SolveOptions::default().margins(margins).most(max_solutions);
+        let options = options.search(search(max_nodes, max_found));
+        let model = &self.asked.model;
+        let watch = Watch::new(time_limit, progress)?;
+        let report = watch.run(py, |callback| solve_with(model, &options, callback))?.so_far();
+        let report = report.map_err(|faults| self.refused(py, &faults))?;
+        Answer::object(py, "SolveReport", report, Some(self.asked.clone()))
+    }
+
+    /// For which values of a parameter, a coordinate, or of `"friction"`, the factor on all coefficients of
+    /// friction, each contact mode exists, and how many solutions there are.
+    ///
+    /// Without `start` and `stop`, coefficients of friction and `"friction"` have a usual range. `quantity` is
+    /// what the plot of the answer shows: "normal-force", "friction", "acceleration" or "effort".
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (vary_name, start = None, stop = None, *, max_reaction = None, both_directions = false,
+        effort = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
+        progress = None) -> "slideway.reports.LimitsReport")]
+    fn limits<'py>(
+        &self,
+        py: Python<'py>,
+        vary_name: &str,
+        start: Option<&Bound<'_, PyAny>>,
+        stop: Option<&Bound<'_, PyAny>>,
+        max_reaction: Option<f64>,
+        both_directions: bool,
+        effort: u64,
+        quantity: &str,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = LimitsOptions::new(vary(vary_name, [start, stop])?)
+            .max_reaction(max_reaction)
+            .both_directions(both_directions)
+            .effort(effort);
+        let quantity = match quantity {
+            "normal-force" => Quantity::NormalForce,
+            "friction" => Quantity::Friction,
+            "acceleration" => Quantity::Acceleration,
+            "effort" => Quantity::Effort,
+            _ => {
+                let known = "'normal-force', 'friction', 'acceleration' or 'effort'";
+                return Err(PyValueError::new_err(format!("quantity must be {known}, not {quantity:?}")));
+            }
+        };
+        let found = self.ask(py, (time_limit, progress), |model, callback| {
+            curves_with(model, &options, quantity, callback)
+        })?;
+        Answer::with_curves(py, "LimitsReport", found, self.asked.clone())
+    }
+
+    /// Whether the mechanism stays at rest, under which loads, and how it begins to move. The rates are taken as
+    /// zero.
+    ///
+    /// With `load`, the name of a load or drive or `"gravity"`, which factors of it are held; with `vary`, from
+    /// which value of that static friction on it is held however great it is. `drives` are "release" (absent) or
+    /// "hold".
+    #[pyo3(signature = (load = None, *, vary = None, drives = "release", time_limit = None,
+        progress = None) -> "slideway.reports.HoldReport")]
+    fn hold<'py>(
+        &self,
+        py: Python<'py>,
+        load: Option<String>,
+        vary: Option<String>,
+        drives: &str,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = hold_options(load, vary, drives)?;
+        let report =
+            self.ask(py, (time_limit, progress), |model, callback| hold_with(model, &options, callback))?;
+        Answer::object(py, "HoldReport", report, Some(self.asked.clone()))
+    }
+
+    /// For which values of a parameter, a coordinate or `"friction"` the mechanism can stay at rest.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (vary_name, start, stop, *, load = None, drives = "release", time_limit = None,
+        progress = None) -> "slideway.reports.RestLimitsReport")]
+    fn rest_limits<'py>(
+        &self,
+        py: Python<'py>,
+        vary_name: &str,
+        start: &Bound<'_, PyAny>,
+        stop: &Bound<'_, PyAny>,
+        load: Option<String>,
+        drives: &str,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = hold_options(load, None, drives)?;
+        let vary = vary(vary_name, [Some(start), Some(stop)])?;
+        let report = self.ask(py, (time_limit, progress), |model, callback| {
+            rest_limits_with(model, &vary, &options, callback)
+        })?;
+        Answer::object(py, "RestLimitsReport", report, Some(self.asked.clone()))
+    }
+
+    /// For which values of a quantity a wanted margin against locking is met, or a limit kept: one of `margin` (a
+    /// factor on friction), `max_effort` (N or N m), `max_normal_force` (N), `max_pressure` (Pa) and
+    /// `min_efficiency` (from 0 to 1). Texts may have units, such as `max_effort="30 N"`.
+    ///
+    /// A margin is `against` "locking" in motion, "self-locking" at rest under `load`, or "hold", that the load
+    /// is held. `load` is also the drive of an effort, or the contact of a normal force or pressure.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (vary_name, start = None, stop = None, *, margin = None, max_effort = None,
+        max_normal_force = None, max_pressure = None, min_efficiency = None, against = "locking", load = None,
+        both_directions = false, time_limit = None, progress = None) -> "slideway.reports.SizeReport")]
+    fn size<'py>(
+        &self,
+        py: Python<'py>,
+        vary_name: &str,
+        start: Option<&Bound<'_, PyAny>>,
+        stop: Option<&Bound<'_, PyAny>>,
+        margin: Option<&Bound<'_, PyAny>>,
+        max_effort: Option<&Bound<'_, PyAny>>,
+        max_normal_force: Option<&Bound<'_, PyAny>>,
+        max_pressure: Option<&Bound<'_, PyAny>>,
+        min_efficiency: Option<&Bound<'_, PyAny>>,
+        against: &str,
+        load: Option<String>,
+        both_directions: bool,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [
+            ("margin", margin),
+            ("max_effort", max_effort),
+            ("max_normal_force", max_normal_force),
+            ("max_pressure", max_pressure),
+            ("min_efficiency", min_efficiency),
+        ];
+        let given: Vec<_> = given.into_iter().filter_map(|(name, value)| Some((name, value?))).collect();
+        let [(name, wanted)] = *given else {
+            let names = "margin, max_effort, max_normal_force, max_pressure and min_efficiency";
+            return Err(PyTypeError::new_err(format!("exactly one of {names} must be given")));
+        };
+        let (wanted, typed_in) = limit(name, wanted)?;
+        let (load, is_load_used) = (load.clone(), load.is_some() && name == "min_efficiency");
+        if is_load_used {
+            let fault = Fault::general(FaultKind::LoadUnused { load: load.unwrap_or_default() });
+            return Err(self.refused(py, &fault.into()));
+        }
+        let against = match name {
+            "max_effort" => Against::Effort { drive: load },
+            "max_normal_force" => Against::NormalForce { contact: load },
+            "max_pressure" => Against::Pressure { contact: load },
+            "min_efficiency" => Against::Efficiency,
+            _ => self.against(py, against, load)?,
+        };
+        let options = SizeOptions::new(vary(vary_name, [start, stop])?, wanted)
+            .against(against)
+            .both_directions(both_directions)
+            .typed_in(typed_in);
+        let report =
+            self.ask(py, (time_limit, progress), |model, callback| size_with(model, &options, callback))?;
+        Answer::object(py, "SizeReport", report, Some(self.asked.clone()))
+    }
+
+    /// Which efforts the drives need against friction, and how efficient that is; with `vary`, a coordinate or
+    /// parameter, over its range `between=(start, stop)` in so many `rows`.
+    #[pyo3(signature = (vary = None, between = None, *, rows = 41, time_limit = None,
+        progress = None) -> "slideway.reports.DriveReport")]
+    fn drive<'py>(
+        &self,
+        py: Python<'py>,
+        vary: Option<&str>,
+        between: Option<&Bound<'_, PyAny>>,
+        rows: usize,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let vary = vary.map(|name| vary_between(name, between)).transpose()?;
+        let options = DriveOptions::default().vary(vary).rows(rows);
+        let report = self.ask(py, (time_limit, progress), |model, callback| {
+            slideway::drive::drive_with(model, &options, callback)
+        })?;
+        Answer::object(py, "DriveReport", report, Some(self.asked.clone()))
+    }
+
+    /// A map of the plane of two quantities: `model.map(mu=(0, 1), alpha=("0 deg", "90 deg"))`, x first.
+    ///
+    /// `colour_by` is what the colours tell: "solutions", "modes", "margin", "jam", "motion" or "hold"; `size` the
+    /// number of pixels in each direction; `probe` the distance of pixels that are looked at first.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (*, colour_by = "solutions", size = None, probe = None, time_limit = None,
+        progress = None, **axes) -> "slideway.reports.MapReport")]
+    fn map<'py>(
+        &self,
+        py: Python<'py>,
+        colour_by: &str,
+        size: Option<(usize, usize)>,
+        probe: Option<usize>,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+        axes: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let mut varied = Vec::new();
+        for (name, range) in axes.into_iter().flatten() {
+            let range = (!range.is_none()).then_some(&range);
+            varied.push(vary_between(&name.extract::<String>()?, range)?);
+        }
+        let Ok([x, y]) = <[_; 2]>::try_from(varied) else {
+            return Err(PyTypeError::new_err(
+                "two quantities must be given, such as map(mu=(0, 1), x=(0, 0.3))",
+            ));
+        };
+        let mut options = MapOptions::new(x, y).colour_by(colours(colour_by)?);
+        if let Some((width, height)) = size {
+            options = options.size(width, height);
+        }
+        if let Some(pixels) = probe {
+            options = options.probe(pixels);
+        }
+        let report =
+            self.ask(py, (time_limit, progress), |model, callback| map_with(model, &options, callback))?;
+        Answer::object(py, "MapReport", report, Some(self.asked.clone()))
+    }
+
+    /// All solutions at every point of a grid, or of random samples: a table, a `Sweep`.
+    ///
+    /// Each quantity that is varied, a parameter, a coordinate, `"COORDINATE.rate"` (by `**{"x.rate": ...}`),
+    /// `friction` (the factor on all coefficients) or `time`, has its values: an array, a list of numbers or texts
+    /// with units, or a text such as "0..0.8:801" (evenly spaced, both ends included) or "0.01..1:50:log". The last
+    /// one varies fastest. With `samples=N` these are distributions: "0.1..0.5", "uniform(0.1, 0.5)",
+    /// "normal(0.3, 0.05)", "lognormal(0.3, 0.2)"; `sampling` is "random" or "halton", and the same `seed` gives the
+    /// same samples.
+    ///
+    /// `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
+    /// whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
+    /// bodies and hinge forces.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
+        attainability = false, all_columns = false, time_limit = None, progress = None,
+        **values) -> "slideway.Sweep")]
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        samples: Option<u64>,
+        sampling: &str,
+        seed: u64,
+        breakpoints: bool,
+        attainability: bool,
+        all_columns: bool,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+        values: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if samples == Some(0) {
+            return Err(PyValueError::new_err("samples must be at least 1"));
+        }
+        let sampling = sweep::spread(sampling)?;
+        let question = sweep::Question { samples, sampling, seed, breakpoints, attainability, all_columns };
+        let options = question.options(&|faults| self.refused(py, &faults), values)?;
+        let table = sweep::table(py, &self.asked, &options, &Watch::new(time_limit, progress)?)?;
+        py.import("slideway._sweep")?.getattr("Sweep")?.call1((table,))
+    }
+
+    /// The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and
+    /// `events` are as those of `scipy.integrate.solve_ivp`.
+    ///
+    /// `mode` is the contact mode to begin with, `branches` which of several possible modes to take at each
+    /// decision (from 1), `prefer` the "rule" of the book or "sliding", `tolerance` the relative error of a step.
+    /// With `all_branches` all motions are followed, at most so many: then the answer is a `TreeReport`.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (until, *, mode = None, branches = None, prefer = "rule", all_branches = None,
+        tolerance = 1e-8, longest_step = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
+        time_limit = None, progress = None) -> "slideway.Motion")]
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        until: &Bound<'_, PyAny>,
+        mode: Option<&str>,
+        branches: Option<Vec<usize>>,
+        prefer: &str,
+        all_branches: Option<usize>,
+        tolerance: f64,
+        longest_step: Option<&Bound<'_, PyAny>>,
+        max_steps: usize,
+        max_events: usize,
+        max_reaction: Option<f64>,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let refused = |faults: Faults| self.refused(py, &faults);
+        let mechanism = Mechanism::new(&self.asked.model).map_err(refused)?;
+        let (start, end) = (mechanism.time, self.time(py, "until", until)?);
+        if end <= start {
+            return Err(refused(Fault::general(FaultKind::NothingToSimulate { start, end }).into()));
+        }
+        let prefers_sliding = match prefer {
+            "rule" => false,
+            "sliding" => true,
+            _ => {
+                return Err(PyValueError::new_err(format!(
+                    "prefer must be 'rule' or 'sliding', not {prefer:?}"
+                )));
+            }
+        };
+        let branches = branches.unwrap_or_default();
+        if branches.contains(&0) {
+            return Err(PyValueError::new_err("branches are counted from 1"));
+        }
+        let longest_step = longest_step.map(|step| self.time(py, "longest_step", step)).transpose()?;
+        let mut options = SimulateOptions::new(end - start)
+            .tolerance(tolerance)
+            .longest_step(longest_step)
+            .most_steps(max_steps)
+            .most_events(max_events)
+            .reaction_limit(max_reaction)
+            .branches(branches.iter().map(|branch| branch - 1))
+            .prefers_sliding(prefers_sliding)
+            .with_events_of(&mechanism);
+        options.initial = mode.map(|mode| initial(&mechanism, mode)).transpose().map_err(refused)?;
+        let configuration = slideway::configuration::Configuration::new(&mechanism).map_err(refused)?;
+        let watch = Watch::new(time_limit, progress)?;
+        let asked = self.asked.clone();
+        if let Some(most) = all_branches {
+            let tree = watch.run(py, |callback| {
+                simulate_all(&mechanism, &configuration, &options, (&mut Thorough, most), callback)
+            })?;
+            return motion::tree(py, &tree.so_far().map_err(refused)?, &options, asked);
+        }
+        let history = watch.run(py, |callback| {
+            simulate_with(&mechanism, &configuration, &options, &mut Thorough, callback)
+        })?;
+        Motion::object(py, history.so_far().map_err(refused)?, options, asked)
+    }
+
+    /// The mechanism alone as SVG.
+    #[pyo3(signature = (theme_name = "light"))]
+    fn _drawing(&self, py: Python<'_>, theme_name: &str) -> PyResult<String> {
+        self.asked.drawing(py, None, (Shown::Mechanism, theme(theme_name)?))
+    }
+
+    fn __repr__(&self) -> String {
+        let title = self.asked.model.title.clone().unwrap_or_else(|| "without a title".to_owned());
+        let settings = self.settings();
+        let settings =
+            if settings.is_empty() { String::new() } else { format!(", with {}", settings.join(", ")) };
+        format!("<slideway.Model: {title}{settings}>")
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| self.identity() == other.get().identity())
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.asked.text.hash(&mut hasher);
+        for setting in self.asked.settings.entries() {
+            setting.text().hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+
+    fn __copy__(&self) -> Self {
+        self.clone()
+    }
+
+    #[pyo3(signature = (_memo) -> "Model")]
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.clone()
+    }
+
+    #[pyo3(signature = () -> "tuple[object, ...]")]
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let settings = PyTuple::new(py, self.asked.settings.entries().iter().map(kept).collect::<Vec<_>>())?;
+        let units = self.units.map(|units| match units {
+            UnitSystem::Si => "SI",
+            UnitSystem::Millimetres => "mm",
+            UnitSystem::AsTyped => "as-typed",
+        });
+        let restore = py.get_type::<Self>().getattr("_restore")?;
+        (restore, (self.text(), settings, units)).into_pyobject(py)
+    }
+
+    /// The model that was pickled.
+    #[staticmethod]
+    #[pyo3(signature = (text, kept_settings, units_name))]
+    fn _restore(
+        py: Python<'_>,
+        text: &str,
+        kept_settings: Vec<(String, String, Bound<'_, PyAny>)>,
+        units_name: Option<&str>,
+    ) -> PyResult<Self> {
+        let mut settings = Settings::default();
+        for (kind, name, given) in kept_settings {
+            let kind = match &*kind {
+                "at" => SettingKind::Position,
+                "rate" => SettingKind::Rate,
+                "time" => SettingKind::Time,
+                _ => SettingKind::Parameter,
+            };
+            settings = settings.with(Setting::new(kind, &name, value(&name, &given)?));
+        }
+        let model = Self::new(py, text)?.changed(py, &settings)?;
+        match units_name {
+            Some(name) => Ok(model.in_system(units(name)?)),
+            None => Ok(model),
+        }
+    }
+}
+
+impl Model {
+    fn against(&self, py: Python<'_>, against: &str, load: Option<String>) -> PyResult<Against> {
+        let refused = |kind: FaultKind| Err(self.refused(py, &Fault::general(kind).into()));
+        match (against, load) {
+            ("locking", None) => Ok(Against::Locking),
+            ("self-locking", Some(load)) => Ok(Against::SelfLocking { load }),
+            ("hold", Some(load)) => Ok(Against::Hold { load }),
+            ("locking", Some(load)) => refused(FaultKind::LoadUnused { load }),
+            ("self-locking" | "hold", None) => {
+                let known = self.asked.model.loads.iter().map(|load| load.name.to_string()).collect();
+                refused(FaultKind::LoadNeeded { known })
+            }
+            _ => {
+                let known = "'locking', 'self-locking' or 'hold'";
+                Err(PyValueError::new_err(format!("against must be {known}, not {against:?}")))
+            }
+        }
+    }
+}
+
+/// A setting as what is pickled of it.
+fn kept(setting: &Setting) -> (&'static str, String, KeptValue) {
+    let kind = match setting.kind {
+        SettingKind::Position => "at",
+        SettingKind::Rate => "rate",
+        SettingKind::Time => "time",
+        _ => "",
+    };
+    let kept = match &setting.value {
+        slideway::Value::Number(number) => KeptValue::Number(*number),
+        other => KeptValue::Text(other.to_string()),
+    };
+    (kind, setting.name.clone(), kept)
+}
+
+/// A value as what is pickled of it.
+#[derive(IntoPyObject)]
+enum KeptValue {
+    Number(f64),
+    Text(String),
+}
+
+/// A limit, with the unit in which it was typed.
+fn limit(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(f64, Option<Unit>)> {
+    let (number, unit) = match value(name, given)? {
+        slideway::Value::Number(number) => (number, None),
+        text => {
+            let text = text.to_string();
+            let read = Unit::of_quantity(&text);
+            let read = read.ok_or_else(|| PyValueError::new_err(format!("{name} cannot be {text:?}")))?;
+            (read.0, Some(read.1))
+        }
+    };
+    let is_allowed = number > 0.0 && (name != "min_efficiency" || number <= 1.0);
+    let wanted = if name == "min_efficiency" { "above 0 and at most 1" } else { "greater than zero" };
+    if is_allowed {
+        Ok((number, unit))
+    } else {
+        Err(PyValueError::new_err(format!("{name} must be {wanted}")))
+    }
+}
+
+/// The limits of a search.
+fn search(max_nodes: Option<u64>, max_found: Option<usize>) -> SearchOptions {
+    let defaults = SearchOptions::default();
+    let limits = Limits { solutions: max_found.unwrap_or(defaults.limits.solutions), ..defaults.limits };
+    SearchOptions { nodes: max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
+}
+
+fn hold_options(load: Option<String>, vary: Option<String>, drives: &str) -> PyResult<HoldOptions> {
+    let holds = match drives {
+        "release" => false,
+        "hold" => true,
+        _ => {
+            return Err(PyValueError::new_err(format!("drives must be 'release' or 'hold', not {drives:?}")));
+        }
+    };
+    let mut options = HoldOptions::default().hold_drives(holds);
+    (options.load, options.vary) = (load, vary);
+    Ok(options)
+}
+
+fn colours(name: &str) -> PyResult<ColourBy> {
+    match name {
+        "solutions" => Ok(ColourBy::Solutions),
+        "modes" => Ok(ColourBy::Modes),
+        "margin" => Ok(ColourBy::Margin),
+        "jam" => Ok(ColourBy::Jam),
+        "motion" => Ok(ColourBy::Motion),
+        "hold" => Ok(ColourBy::Hold),
+        _ => {
+            let known = "'solutions', 'modes', 'margin', 'jam', 'motion' or 'hold'";
+            Err(PyValueError::new_err(format!("colour_by must be {known}, not {name:?}")))
+        }
+    }
+}
+
+/// A contact mode without its blanks.
+fn initial(mechanism: &Mechanism, mode: &str) -> Result<String, Faults> {
+    let pattern: String = mode.chars().filter(|sign| !sign.is_whitespace()).collect();
+    let contacts = &mechanism.contacts;
+    if pattern.len() == contacts.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
+        return Ok(pattern);
+    }
+    let contacts = contacts.iter().map(|contact| contact.name.to_string()).collect();
+    Err(Fault::general(FaultKind::MalformedMode { text: mode.to_owned(), contacts }).into())
+}
+
+/// The names of the models of the gallery, each with a line that says what it is.
+#[pyfunction]
+#[pyo3(signature = () -> "dict[str, str]")]
+pub(crate) fn gallery_models(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let models = PyDict::new(py);
+    for model in gallery::MODELS {
+        models.set_item(model.name, model.summary())?;
+    }
+    Ok(models)
+}

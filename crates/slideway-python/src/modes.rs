@@ -1,0 +1,135 @@
+//! Problems given by matrices: private half of `slideway.modes`.
+
+use crate::answer::Answer;
+use crate::work::Watch;
+use numpy::{AllowTypeChange, PyArrayLikeDyn};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use slideway::raw_problem::{Listing, RawFaults, RawKind, RawProblem, solve_with};
+use slideway_modes::{Limits, SearchOptions};
+
+/// An array of Python as its name, sizes and entries.
+type Array<'n> = (&'n str, Vec<usize>, Vec<f64>);
+
+/// An array, or what can become one.
+fn array<'n>(name: &'n str, given: &Bound<'_, PyAny>) -> PyResult<Array<'n>> {
+    let refused = |error: PyErr| {
+        let message = format!("{name} must be an array of real numbers: {error}");
+        if error.is_instance_of::<PyTypeError>(given.py()) {
+            PyTypeError::new_err(message)
+        } else {
+            PyValueError::new_err(message)
+        }
+    };
+    let numpy = given.py().import("numpy")?;
+    let array = numpy.call_method1("asarray", (given,)).map_err(refused)?;
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    if !"fiu".contains(&kind) {
+        return Err(refused(PyTypeError::new_err(format!("its dtype is {}", array.getattr("dtype")?))));
+    }
+    let array: PyArrayLikeDyn<'_, f64, AllowTypeChange> = array.extract().map_err(refused)?;
+    let view = array.as_array();
+    Ok((name, view.shape().to_vec(), view.iter().copied().collect()))
+}
+
+/// What a search may cost, and what is listed.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
+    max_solutions: usize,
+    max_nodes: Option<u64>,
+    max_found: Option<usize>,
+    all_faces: bool,
+    uniqueness: bool,
+    time_limit: Option<f64>,
+    progress: Option<Py<PyAny>>,
+}
+
+fn answer<'py>(
+    py: Python<'py>,
+    kind: RawKind,
+    arrays: Vec<PyResult<Array<'_>>>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let arrays = arrays.into_iter().collect::<PyResult<Vec<_>>>()?;
+    let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());
+    let problem = RawProblem::from_arrays(kind, arrays).map_err(refused)?;
+    let defaults = SearchOptions::default();
+    let limits =
+        Limits { solutions: options.max_found.unwrap_or(defaults.limits.solutions), ..defaults.limits };
+    let nodes = options.max_nodes.unwrap_or(defaults.nodes);
+    let search = SearchOptions { nodes, limits, ..defaults };
+    let listing = Listing { most: options.max_solutions, all_faces: options.all_faces };
+    let watch = Watch::new(options.time_limit, options.progress)?;
+    let report = watch.run(py, |callback| {
+        let mut report = solve_with(&problem, &search, listing, callback)?;
+        if options.uniqueness {
+            report.every_right_hand_side = problem.every_right_hand_side(callback).ok();
+        }
+        Ok::<_, slideway_modes::ModeProblemError>(report)
+    })?;
+    let report = report.so_far().map_err(|error| PyValueError::new_err(error.to_string()))?;
+    Answer::object(py, "RawReport", report, None)
+}
+
+/// All solutions of `A x + B |x| = b`.
+#[pyfunction]
+#[pyo3(signature = (a, b, right_hand_side, options) -> "slideway.reports.RawReport")]
+pub(crate) fn solve<'py>(
+    py: Python<'py>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
+    right_hand_side: &Bound<'_, PyAny>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let arrays = vec![array("A", a), array("B", b), array("b", right_hand_side)];
+    answer(py, RawKind::Ave, arrays, options)
+}
+
+/// All solutions of `w = M z + q`.
+#[pyfunction]
+#[pyo3(signature = (m, q, options) -> "slideway.reports.RawReport")]
+pub(crate) fn lcp<'py>(
+    py: Python<'py>,
+    m: &Bound<'_, PyAny>,
+    q: &Bound<'_, PyAny>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    answer(py, RawKind::Lcp, vec![array("M", m), array("q", q)], options)
+}
+
+/// All solutions of `A w - B z = q`.
+#[pyfunction]
+#[pyo3(signature = (a, b, q, options) -> "slideway.reports.RawReport")]
+pub(crate) fn hlcp<'py>(
+    py: Python<'py>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
+    q: &Bound<'_, PyAny>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    answer(py, RawKind::Hlcp, vec![array("A", a), array("B", b), array("q", q)], options)
+}
+
+/// All solutions of a mode problem.
+#[pyfunction]
+#[pyo3(signature = (columns_positive, columns_negative, right_hand_side, jumps, options)
+    -> "slideway.reports.RawReport")]
+pub(crate) fn mode_problem<'py>(
+    py: Python<'py>,
+    columns_positive: &Bound<'_, PyAny>,
+    columns_negative: &Bound<'_, PyAny>,
+    right_hand_side: &Bound<'_, PyAny>,
+    jumps: Option<(Bound<'_, PyAny>, Bound<'_, PyAny>)>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut arrays = vec![
+        array("columns_positive", columns_positive),
+        array("columns_negative", columns_negative),
+        array("right_hand_side", right_hand_side),
+    ];
+    if let Some((positive, negative)) = &jumps {
+        arrays.extend([array("jumps_positive", positive), array("jumps_negative", negative)]);
+    }
+    answer(py, RawKind::Modes, arrays, options)
+}

@@ -1,0 +1,128 @@
+//! A motion as Python holds it: its report, its table, its pictures.
+
+use crate::answer::{Answer, Asked, not_finite, theme};
+use crate::to_python::{frozen_array, to_python};
+use numpy::PyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use slideway::motion::{self, History, Series, SimulateOptions};
+use slideway::report::{Style, finite};
+use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway_pictures::plot::{Figure, to_svg};
+use std::sync::Arc;
+
+/// Rows of a table that are too many to be meant.
+const MOST_ROWS: f64 = 1e7;
+
+/// A motion: private half of `slideway.Motion`.
+#[pyclass(frozen, module = "slideway._slideway")]
+pub(crate) struct Motion {
+    history: Arc<History>,
+    options: SimulateOptions,
+    asked: Asked,
+}
+
+impl Motion {
+    /// The motion as an object of `slideway.Motion`.
+    pub(crate) fn object(
+        py: Python<'_>,
+        history: History,
+        options: SimulateOptions,
+        asked: Asked,
+    ) -> PyResult<Bound<'_, PyAny>> {
+        let report =
+            finite(motion::report(&history, &options)).map_err(|faults| asked.refused(py, &faults))?;
+        let report = Answer::object(py, "SimulateReport", report, Some(asked.clone()))?;
+        let motion = Self { history: Arc::new(history), options, asked };
+        py.import("slideway._motion")?.getattr("Motion")?.call1((motion, report))
+    }
+
+    fn series(&self, py: Python<'_>, times: &[f64]) -> Series {
+        py.detach(|| self.history.series(times))
+    }
+
+    fn figure(&self, phase_portrait: bool) -> Figure {
+        let figure = if phase_portrait { portrait_figure } else { motion_figure };
+        figure(&self.history).changed_by(&self.asked.settings)
+    }
+}
+
+#[pymethods]
+impl Motion {
+    /// The times of the steps of the solver, or those in even steps.
+    #[pyo3(signature = (step = None) -> "numpy.ndarray")]
+    fn times<'py>(&self, py: Python<'py>, step: Option<f64>) -> PyResult<Bound<'py, PyAny>> {
+        let times = match step {
+            None => self.history.times().collect(),
+            Some(step) if step > 0.0 && (self.history.stop() - self.history.start()) / step <= MOST_ROWS => {
+                self.history.times_in_steps(step)
+            }
+            Some(step) => {
+                let message = format!("step must be positive, for at most {MOST_ROWS:e} rows, not {step}");
+                return Err(PyValueError::new_err(message));
+            }
+        };
+        frozen_array(py, times)
+    }
+
+    /// The table at these times.
+    #[pyo3(signature = (times) -> "slideway.reports.Series")]
+    fn table<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyAny>> {
+        let series = self.series(py, &times);
+        to_python(py, &series)
+    }
+
+    /// Coordinates, then their rates, one row for each, at these times.
+    #[pyo3(signature = (times) -> "numpy.ndarray")]
+    fn states<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let series = self.series(py, &times);
+        // Behind the time, the table has three columns for each coordinate: value, rate and acceleration.
+        let count = self.history.mechanism.coordinates.len();
+        let row = |column: usize| {
+            series.columns[column].values.iter().map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<_>>()
+        };
+        let values = (0..count).map(|index| row(1 + 3 * index));
+        let rates = (0..count).map(|index| row(2 + 3 * index));
+        let rows: Vec<Vec<f64>> = values.chain(rates).collect();
+        PyArray2::from_vec2(py, &rows).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// The report as text, with all events.
+    fn text_with_all_events(&self, color: bool) -> String {
+        let style = if color { Style::Colour } else { Style::Plain };
+        motion::report(&self.history, &self.options).text_with_all_events(style)
+    }
+
+    /// The plot as plain data.
+    #[pyo3(signature = (phase_portrait) -> "slideway.reports.Figure")]
+    fn plotted<'py>(&self, py: Python<'py>, phase_portrait: bool) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.figure(phase_portrait))
+    }
+
+    /// The plot as SVG.
+    fn plot_svg(&self, theme_name: &str, phase_portrait: bool) -> PyResult<String> {
+        to_svg(&self.figure(phase_portrait), theme(theme_name)?).map_err(not_finite)
+    }
+
+    /// A moving picture as a page.
+    #[pyo3(signature = (theme_name, slow_motion = None))]
+    fn animation(&self, py: Python<'_>, theme_name: &str, slow_motion: Option<f64>) -> PyResult<String> {
+        if slow_motion.is_some_and(|factor| !(factor > 0.0 && factor.is_finite())) {
+            return Err(PyValueError::new_err("slow_motion must be a positive number"));
+        }
+        let theme = theme(theme_name)?;
+        let page = py.detach(|| animation(&self.history, &AnimationOptions { slow_motion }, theme).to_html());
+        page.map_err(not_finite)
+    }
+}
+
+/// All motions, as an object of `slideway.reports.TreeReport`.
+pub(crate) fn tree<'py>(
+    py: Python<'py>,
+    tree: &motion::Tree,
+    options: &SimulateOptions,
+    asked: Asked,
+) -> PyResult<Bound<'py, PyAny>> {
+    let report = finite(motion::tree_report(tree, options)).map_err(|faults| asked.refused(py, &faults))?;
+    Answer::object(py, "TreeReport", report, Some(asked))
+}

@@ -1,0 +1,398 @@
+//! Serializable values as objects of Python: a struct becomes an instance of the class of its name in
+//! `slideway.reports`, a sequence a tuple (or an array where the class says so), a unit variant its word.
+
+use numpy::PyArray1;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyString, PyTuple};
+use serde::ser::{self, Serialize};
+use std::fmt;
+
+/// The classes of `slideway.reports`, and what they say of their fields.
+struct Classes {
+    module: Py<PyModule>,
+    hints: Py<PyDict>,
+    set_attribute: Py<PyAny>,
+}
+
+static CLASSES: PyOnceLock<Classes> = PyOnceLock::new();
+
+impl Classes {
+    fn get(py: Python<'_>) -> PyResult<&'static Self> {
+        CLASSES.get_or_try_init(py, || {
+            let module = py.import("slideway.reports")?;
+            let hints = module.getattr("HINTS")?.cast_into::<PyDict>()?.unbind();
+            let object = py.import("builtins")?.getattr("object")?;
+            let set_attribute = object.getattr("__setattr__")?.unbind();
+            Ok(Self { module: module.unbind(), hints, set_attribute })
+        })
+    }
+}
+
+/// An instance of a class of `slideway.reports` with these attributes, without its constructor.
+pub(crate) fn instance<'py>(
+    py: Python<'py>,
+    class: &str,
+    attributes: Bound<'py, PyDict>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let classes = Classes::get(py)?;
+    let class = classes.module.bind(py).getattr(class)?;
+    let object = class.call_method1("__new__", (&class,))?;
+    classes.set_attribute.bind(py).call1((&object, "__dict__", attributes))?;
+    Ok(object)
+}
+
+/// A value as an object of Python.
+pub(crate) fn to_python<'py, T: Serialize + ?Sized>(
+    py: Python<'py>,
+    value: &T,
+) -> PyResult<Bound<'py, PyAny>> {
+    value.serialize(Serializer { py, hint: None }).map_err(|error| error.0)
+}
+
+/// The fields of a struct as a dictionary.
+pub(crate) fn fields<'py, T: Serialize + ?Sized>(py: Python<'py>, value: &T) -> PyResult<Bound<'py, PyDict>> {
+    let object = to_python(py, value)?;
+    Ok(object.getattr("__dict__")?.cast_into::<PyDict>()?)
+}
+
+/// An exception within serialization.
+#[derive(Debug)]
+struct Error(PyErr);
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl ser::Error for Error {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self(PyTypeError::new_err(message.to_string()))
+    }
+}
+
+impl From<PyErr> for Error {
+    fn from(error: PyErr) -> Self {
+        Self(error)
+    }
+}
+
+type Made<'py> = Result<Bound<'py, PyAny>, Error>;
+
+#[derive(Clone)]
+struct Serializer<'py> {
+    py: Python<'py>,
+    /// What the class with this value in a field says of it.
+    hint: Option<String>,
+}
+
+impl<'py> Serializer<'py> {
+    fn made<T: IntoPyObject<'py>>(&self, value: T) -> Made<'py> {
+        Ok(value.into_bound_py_any(self.py)?)
+    }
+
+    /// The same for what is within.
+    fn plain(&self) -> Self {
+        Self { py: self.py, hint: None }
+    }
+}
+
+macro_rules! numbers {
+    ($($name:ident: $type:ty),*) => {
+        $(fn $name(self, value: $type) -> Made<'py> {
+            self.made(value)
+        })*
+    };
+}
+
+impl<'py> ser::Serializer for Serializer<'py> {
+    type Ok = Bound<'py, PyAny>;
+    type Error = Error;
+    type SerializeSeq = Sequence<'py>;
+    type SerializeTuple = Sequence<'py>;
+    type SerializeTupleStruct = Sequence<'py>;
+    type SerializeTupleVariant = Variant<Sequence<'py>>;
+    type SerializeMap = Fields<'py>;
+    type SerializeStruct = Fields<'py>;
+    type SerializeStructVariant = Variant<Fields<'py>>;
+
+    numbers! {
+        serialize_i8: i8, serialize_i16: i16, serialize_i32: i32, serialize_i64: i64,
+        serialize_u8: u8, serialize_u16: u16, serialize_u32: u32, serialize_u64: u64,
+        serialize_f32: f32, serialize_f64: f64
+    }
+
+    fn serialize_bool(self, value: bool) -> Made<'py> {
+        Ok(pyo3::types::PyBool::new(self.py, value).to_owned().into_any())
+    }
+
+    fn serialize_char(self, value: char) -> Made<'py> {
+        self.serialize_str(value.encode_utf8(&mut [0; 4]))
+    }
+
+    fn serialize_str(self, value: &str) -> Made<'py> {
+        Ok(PyString::new(self.py, value).into_any())
+    }
+
+    fn serialize_bytes(self, value: &[u8]) -> Made<'py> {
+        Ok(pyo3::types::PyBytes::new(self.py, value).into_any())
+    }
+
+    fn serialize_none(self) -> Made<'py> {
+        self.serialize_unit()
+    }
+
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Made<'py> {
+        value.serialize(self)
+    }
+
+    fn serialize_unit(self) -> Made<'py> {
+        Ok(self.py.None().into_bound(self.py))
+    }
+
+    fn serialize_unit_struct(self, _name: &'static str) -> Made<'py> {
+        self.serialize_unit()
+    }
+
+    fn serialize_unit_variant(self, _name: &'static str, _index: u32, variant: &'static str) -> Made<'py> {
+        self.serialize_str(variant)
+    }
+
+    fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _name: &'static str, value: &T) -> Made<'py> {
+        value.serialize(self)
+    }
+
+    fn serialize_newtype_variant<T: Serialize + ?Sized>(
+        self,
+        _name: &'static str,
+        _index: u32,
+        variant: &'static str,
+        value: &T,
+    ) -> Made<'py> {
+        let inner = value.serialize(self.plain())?;
+        one(self.py, variant, inner)
+    }
+
+    fn serialize_seq(self, length: Option<usize>) -> Result<Sequence<'py>, Error> {
+        Ok(Sequence { items: Vec::with_capacity(length.unwrap_or(0)), of: self })
+    }
+
+    fn serialize_tuple(self, length: usize) -> Result<Sequence<'py>, Error> {
+        self.serialize_seq(Some(length))
+    }
+
+    fn serialize_tuple_struct(self, _name: &'static str, length: usize) -> Result<Sequence<'py>, Error> {
+        self.serialize_seq(Some(length))
+    }
+
+    fn serialize_tuple_variant(
+        self,
+        _name: &'static str,
+        _index: u32,
+        variant: &'static str,
+        length: usize,
+    ) -> Result<Variant<Sequence<'py>>, Error> {
+        Ok(Variant { variant, inner: self.serialize_seq(Some(length))? })
+    }
+
+    fn serialize_map(self, _length: Option<usize>) -> Result<Fields<'py>, Error> {
+        let class = self.hint.clone();
+        Fields::new(self.py, class.as_deref())
+    }
+
+    fn serialize_struct(self, name: &'static str, _length: usize) -> Result<Fields<'py>, Error> {
+        // Variants of enums that are no words have the name of the enum, and no class.
+        let has_class = Classes::get(self.py)?.module.bind(self.py).hasattr(name)?;
+        Fields::new(self.py, has_class.then_some(name))
+    }
+
+    fn serialize_struct_variant(
+        self,
+        _name: &'static str,
+        _index: u32,
+        variant: &'static str,
+        _length: usize,
+    ) -> Result<Variant<Fields<'py>>, Error> {
+        Ok(Variant { variant, inner: Fields::new(self.py, None)? })
+    }
+}
+
+/// `{variant: inner}`
+fn one<'py>(py: Python<'py>, variant: &str, inner: Bound<'py, PyAny>) -> Made<'py> {
+    let dict = PyDict::new(py);
+    dict.set_item(variant, inner)?;
+    Ok(dict.into_any())
+}
+
+struct Sequence<'py> {
+    items: Vec<Bound<'py, PyAny>>,
+    of: Serializer<'py>,
+}
+
+impl<'py> Sequence<'py> {
+    fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        // What a class says of a field holds for the items of a list, but for arrays.
+        let hint = self.of.hint.clone().filter(|hint| hint != "array" && hint != "pairs");
+        self.items.push(value.serialize(Serializer { py: self.of.py, hint })?);
+        Ok(())
+    }
+
+    fn done(self) -> Made<'py> {
+        let py = self.of.py;
+        let number = |item: &Bound<'py, PyAny>| item.extract::<f64>().unwrap_or(f64::NAN);
+        match self.of.hint.as_deref() {
+            Some("array") => Ok(frozen_array(py, self.items.iter().map(number).collect())?),
+            Some("pairs") => {
+                let pair = |item: &Bound<'py, PyAny>| item.extract::<[f64; 2]>().unwrap_or([f64::NAN; 2]);
+                let flat = frozen_array(py, self.items.iter().flat_map(pair).collect())?;
+                Ok(flat.call_method1("reshape", (-1, 2))?)
+            }
+            _ => Ok(PyTuple::new(py, self.items)?.into_any()),
+        }
+    }
+}
+
+/// A NumPy array that cannot be written to.
+pub(crate) fn frozen_array(py: Python<'_>, numbers: Vec<f64>) -> PyResult<Bound<'_, PyAny>> {
+    let array = PyArray1::from_vec(py, numbers).into_any();
+    array.call_method1("setflags", (false,))?;
+    Ok(array)
+}
+
+macro_rules! sequences {
+    ($($trait:ident: $method:ident),*) => {
+        $(impl<'py> ser::$trait for Sequence<'py> {
+            type Ok = Bound<'py, PyAny>;
+            type Error = Error;
+
+            fn $method<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+                self.push(value)
+            }
+
+            fn end(self) -> Made<'py> {
+                self.done()
+            }
+        })*
+    };
+}
+
+sequences! {
+    SerializeSeq: serialize_element, SerializeTuple: serialize_element, SerializeTupleStruct: serialize_field
+}
+
+/// The attribute for a field: words that Python keeps for itself get an underscore.
+fn attribute(field: &str) -> &str {
+    match field {
+        "from" => "from_",
+        "lambda" => "lambda_",
+        other => other,
+    }
+}
+
+/// The fields of a struct, or the entries of a map.
+struct Fields<'py> {
+    dict: Bound<'py, PyDict>,
+    class: Option<String>,
+    hints: Option<Bound<'py, PyDict>>,
+    key: Option<Bound<'py, PyAny>>,
+}
+
+impl<'py> Fields<'py> {
+    fn new(py: Python<'py>, class: Option<&str>) -> Result<Self, Error> {
+        let hints = match class {
+            Some(class) => Classes::get(py)?.hints.bind(py).get_item(class)?,
+            None => None,
+        };
+        let hints = hints.map(Bound::cast_into::<PyDict>).transpose().map_err(PyErr::from)?;
+        Ok(Self { dict: PyDict::new(py), class: class.map(str::to_owned), hints, key: None })
+    }
+
+    fn set<T: Serialize + ?Sized>(&mut self, key: &Bound<'py, PyAny>, value: &T) -> Result<(), Error> {
+        let hint = match &self.hints {
+            Some(hints) => hints.get_item(key)?.map(|hint| hint.extract()).transpose()?,
+            None => None,
+        };
+        self.dict.set_item(key, value.serialize(Serializer { py: key.py(), hint })?)?;
+        Ok(())
+    }
+
+    fn done(self) -> Made<'py> {
+        match self.class {
+            Some(class) => Ok(instance(self.dict.py(), &class, self.dict)?),
+            None => Ok(self.dict.into_any()),
+        }
+    }
+}
+
+impl<'py> ser::SerializeStruct for Fields<'py> {
+    type Ok = Bound<'py, PyAny>;
+    type Error = Error;
+
+    fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Error> {
+        let key = PyString::intern(self.dict.py(), attribute(key)).into_any();
+        self.set(&key, value)
+    }
+
+    fn end(self) -> Made<'py> {
+        self.done()
+    }
+}
+
+impl<'py> ser::SerializeMap for Fields<'py> {
+    type Ok = Bound<'py, PyAny>;
+    type Error = Error;
+
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), Error> {
+        self.key = Some(to_python(self.dict.py(), key)?);
+        Ok(())
+    }
+
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        let key = self.key.take().ok_or_else(|| Error(PyTypeError::new_err("a value without a key")))?;
+        self.set(&key, value)
+    }
+
+    fn end(self) -> Made<'py> {
+        self.done()
+    }
+}
+
+/// A variant with values.
+struct Variant<I> {
+    variant: &'static str,
+    inner: I,
+}
+
+impl<'py> ser::SerializeTupleVariant for Variant<Sequence<'py>> {
+    type Ok = Bound<'py, PyAny>;
+    type Error = Error;
+
+    fn serialize_field<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        self.inner.push(value)
+    }
+
+    fn end(self) -> Made<'py> {
+        let py = self.inner.of.py;
+        one(py, self.variant, self.inner.done()?)
+    }
+}
+
+impl<'py> ser::SerializeStructVariant for Variant<Fields<'py>> {
+    type Ok = Bound<'py, PyAny>;
+    type Error = Error;
+
+    fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Error> {
+        let key = PyString::intern(self.inner.dict.py(), attribute(key)).into_any();
+        self.inner.set(&key, value)
+    }
+
+    fn end(self) -> Made<'py> {
+        let py = self.inner.dict.py();
+        one(py, self.variant, self.inner.done()?)
+    }
+}
