@@ -9,6 +9,7 @@ use command::{Run, command, slideway};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -144,18 +145,18 @@ fn an_ended_shard_has_no_name() {
     };
     let limited = shard(&[&sweep[..], &["--time-limit", "1s"]].concat(), "2/2", &results);
     assert!(limited.stderr.contains(" of 50001 points; they are kept in"), "{}", limited.stderr);
+    assert!(limited.stderr.contains("the same command continues from there"), "{}", limited.stderr);
     ended(Some(limited.code), Some(3));
     let arguments = [&sweep[..], &["--shard", "2/2", "--output", text(&results)]].concat();
     for (signal, code) in [("-INT", Some(130)), ("-KILL", None)] {
+        let written = fs::metadata(&partial).unwrap().len();
         let mut child = command(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        // While one process computes a shard no other one does.
         let begun = Instant::now();
-        let second = loop {
-            let second = slideway(&[&arguments[..], &["--time-limit", "1ms"]].concat());
-            if second.code != 3 || begun.elapsed() > Duration::from_secs(20) {
-                break second;
-            }
-        };
+        while fs::metadata(&partial).unwrap().len() <= written && begun.elapsed() < Duration::from_mins(1) {
+            sleep(Duration::from_millis(2));
+        }
+        // While one process computes a shard no other one does.
+        let second = slideway(&arguments);
         assert!(second.stderr.contains("another sweep is writing"), "{} {}", second.code, second.stderr);
         assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
         ended(child.wait().unwrap().code(), code);
