@@ -74,7 +74,7 @@ pub(crate) enum Failure {
     /// The work was ended before there was an answer, or this file.
     Halted { halt: Halt, path: Option<PathBuf> },
     /// A sweep was ended before it was done; what is done is kept if it goes to a file.
-    Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
+    Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf>, of_shard: bool },
     /// A motion was interrupted, and its table so far is kept.
     MotionInterrupted { path: PathBuf },
     /// An output, or what is kept beside it while it is unfinished, would take the place of the input.
@@ -173,12 +173,12 @@ impl Failure {
             Self::Halted { halt, path: Some(path) } => {
                 format!("{} before `{}` was done; it is not written", halt.in_words(), path.display())
             }
-            Self::Unswept { halt, done, points, path: Some(path) } => format!(
+            Self::Unswept { halt, done, points, path: Some(path), .. } => format!(
                 "{} after {done} of {points} points; they are kept in `{}`",
                 halt.in_words(),
                 path.display()
             ),
-            Self::Unswept { halt, done, points, path: None } => {
+            Self::Unswept { halt, done, points, path: None, .. } => {
                 format!("{} after {done} of {points} points", halt.in_words())
             }
             Self::MotionInterrupted { path } => {
@@ -271,6 +271,9 @@ impl Failure {
             ),
             Self::Halted { halt: Halt::TimeLimit(_), .. } => {
                 Some("allow more time with --time-limit, or ask for less, such as a smaller range".to_owned())
+            }
+            Self::Unswept { path: Some(_), of_shard: true, .. } => {
+                Some("the same command continues from there".to_owned())
             }
             Self::Unswept { path: Some(_), .. } => {
                 Some("the same command with --resume continues from there".to_owned())

@@ -7,7 +7,7 @@ mod command;
 
 use command::{Run, command, slideway};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -43,7 +43,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn merged_shards_are_one_run() {
     for axes in [
         &["--vary", "mu_1=0..0.8:3001"][..],
-        &["--vary", "mu_1=0..0.8:51", "--vary", "alpha=1.1..1.4:21", "--attainability"],
+        &["--vary", "mu_1=0..0.8:51", "--vary", "alpha=1.1 rad..1.4 rad:21", "--attainability"],
         &["--vary", "mu_1=normal(0.4, 0.1)", "--samples", "2500", "--seed", "3"],
     ] {
         let folder = TempDir::new().unwrap();
@@ -122,54 +122,66 @@ fn a_shard_that_is_there_is_not_computed_again() {
     }
 }
 
-/// A table of 24 contacts, a tenth of a second for each point.
-fn slow_sweep(folder: &Path) -> (PathBuf, [&'static str; 3]) {
+/// The arguments of a sweep of so many points, some hundredths of a second for each: 24 contacts.
+fn slow_sweep(folder: &Path, points: u64) -> Vec<String> {
     let path = folder.join("boom.toml");
     fs::write(&path, slideway(&["models", "telescopic-boom", "--stages", "6"]).stdout).unwrap();
-    (path, ["--vary", "friction=0.5..0.9:81", "--no-breakpoints"])
+    let axis = format!("friction=0.5..0.9:{points}");
+    ["sweep", text(&path), "--vary", &axis, "--no-breakpoints"].map(str::to_owned).to_vec()
 }
 
-/// A time limit, a signal to end and one that kills: nothing stands under the name of the shard, and the same
-/// command goes on.
+/// A time limit, a signal to end and one that kills: nothing stands under the name of the shard.
+#[test]
+fn an_ended_shard_has_no_name() {
+    let folder = TempDir::new().unwrap();
+    let results = folder.path().join("results");
+    let sweep = slow_sweep(folder.path(), 100_001);
+    let sweep: Vec<&str> = sweep.iter().map(String::as_str).collect();
+    let path = results.join("shard-2-of-2.parquet");
+    let partial = results.join("shard-2-of-2.parquet.partial");
+    let ended = |code: Option<i32>, expected: Option<i32>| {
+        assert_eq!(code, expected);
+        assert!(!path.exists() && partial.exists());
+    };
+    let limited = shard(&[&sweep[..], &["--time-limit", "1s"]].concat(), "2/2", &results);
+    assert!(limited.stderr.contains(" of 50001 points; they are kept in"), "{}", limited.stderr);
+    assert!(limited.stderr.contains("the same command continues from there"), "{}", limited.stderr);
+    ended(Some(limited.code), Some(3));
+    let arguments = [&sweep[..], &["--shard", "2/2", "--output", text(&results)]].concat();
+    for (signal, code) in [("-INT", Some(130)), ("-KILL", None)] {
+        let written = fs::metadata(&partial).unwrap().len();
+        let mut child = command(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let begun = Instant::now();
+        while fs::metadata(&partial).unwrap().len() <= written && begun.elapsed() < Duration::from_mins(1) {
+            sleep(Duration::from_millis(2));
+        }
+        // While one process computes a shard no other one does.
+        let second = slideway(&arguments);
+        assert!(second.stderr.contains("another sweep is writing"), "{} {}", second.code, second.stderr);
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        ended(child.wait().unwrap().code(), code);
+    }
+    let missing = merge(&results, &[]);
+    assert!(missing.stderr.contains("there are no shards"), "{}", missing.stderr);
+}
+
+/// The same command goes on with it, whatever its time limit was.
 #[test]
 fn an_ended_shard_goes_on_with_the_same_bytes() {
     let folder = TempDir::new().unwrap();
     let [ended, whole] = ["ended", "whole"].map(|name| folder.path().join(name));
-    let (model, axes) = slow_sweep(folder.path());
-    let sweep = [&["sweep", text(&model)], &axes[..]].concat();
-    let path = ended.join("shard-2-of-2.parquet");
-    let partial = ended.join("shard-2-of-2.parquet.partial");
-    let limited = shard(&[&sweep[..], &["--time-limit", "1s"]].concat(), "2/2", &ended);
-    assert_eq!(limited.code, 3, "{}", limited.stderr);
-    assert!(limited.stderr.contains(" of 41 points; they are kept in"), "{}", limited.stderr);
-    assert!(!path.exists() && partial.exists());
-
-    let arguments = [&sweep[..], &["--shard", "2/2", "--output", text(&ended)]].concat();
-    for (signal, code) in [("-INT", Some(130)), ("-KILL", None)] {
-        let mut child = command(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        sleep(Duration::from_millis(700));
-        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
-        assert_eq!(child.wait().unwrap().code(), code);
-        assert!(!path.exists() && partial.exists());
+    let sweep = slow_sweep(folder.path(), 61);
+    let sweep: Vec<&str> = sweep.iter().map(String::as_str).collect();
+    for limit in ["1ms", "100ms"] {
+        let limited = shard(&[&sweep[..], &["--time-limit", limit]].concat(), "2/2", &ended);
+        assert!(limited.code == 3 || limit != "1ms", "{} {}", limited.code, limited.stderr);
     }
-    let missing = merge(&ended, &[]);
-    assert!(missing.stderr.contains("there are no shards"), "{}", missing.stderr);
-
-    // While one process computes a shard no other one does.
-    let mut first = command(&arguments).stdout(Stdio::null()).spawn().unwrap();
-    let begun = Instant::now();
-    let second = loop {
-        let second = slideway(&[&arguments[..], &["--time-limit", "1ms"]].concat());
-        if second.code != 3 || begun.elapsed() > Duration::from_secs(20) {
-            break second;
-        }
-    };
-    assert!(second.stderr.contains("another sweep is writing"), "{} {}", second.code, second.stderr);
-    assert!(first.wait().unwrap().success());
-
-    assert_eq!(shard(&sweep, "2/2", &whole).code, 0);
-    assert!(fs::read(&path).unwrap() == fs::read(whole.join("shard-2-of-2.parquet")).unwrap());
-    assert_eq!(names(&ended), ["shard-2-of-2.parquet"]);
+    for folder in [&ended, &whole] {
+        assert_eq!(shard(&sweep, "2/2", folder).code, 0);
+        assert_eq!(names(folder), ["shard-2-of-2.parquet"]);
+    }
+    let [ended, whole] = [ended, whole].map(|folder| fs::read(folder.join("shard-2-of-2.parquet")).unwrap());
+    assert!(ended == whole);
 }
 
 #[test]
@@ -245,7 +257,7 @@ fn bad_arguments_are_told() {
         assert!(run.code == 2 && run.stderr.contains(part), "{arguments:?}: {}", run.stderr);
     }
     let run = slideway(&[&sweep[..], &["--merge", "results"]].concat());
-    assert!(run.code == 2 && run.stderr.contains("'--merge <FOLDER>' cannot be used with"), "{}", run.stderr);
+    assert!(run.code == 2 && run.stderr.contains("cannot be used with '--merge"), "{}", run.stderr);
     let run = merge(Path::new("nowhere"), &[]);
     assert!(run.code == 2 && run.stderr.contains("`nowhere` cannot be read"), "{}", run.stderr);
 }

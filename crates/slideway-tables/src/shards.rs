@@ -114,6 +114,43 @@ impl ShardFile {
 }
 
 /// All shards of one sweep.
+///
+/// ```
+/// use slideway::model::Settings;
+/// use slideway::progress::Progress;
+/// use slideway::sweep::{Breakpoints, GridAxis, Shard, SweepOptions};
+/// use slideway_tables::{
+///     Control, Encoder, Metadata, Resume, RowSource, ShardedSweep, Shards, TableFormat, Written, write_shard,
+///     write_table, written_shard,
+/// };
+/// use std::ops::ControlFlow;
+///
+/// let folder = tempfile::tempdir()?;
+/// let results = folder.path().join("results");
+/// let model = slideway::gallery::find("drawer").expect("in the gallery").text.to_owned();
+/// let metadata = Metadata { command: "a sweep of the drawer".to_owned(), model };
+/// let options = SweepOptions::grid([GridAxis::linear("mu", 0.0, 1.0, 101)]).breakpoints(false);
+/// let sharded = ShardedSweep { metadata, settings: Settings::default(), options };
+///
+/// let mut callback = |_: &Progress| ControlFlow::Continue(());
+/// let mut control = Control { goes_on: &|| true, callback: &mut callback };
+/// for shard in Shard::all(2) {
+///     if written_shard(&sharded, shard, &results)?.is_none() {
+///         let sweep = sharded.sweep(Breakpoints::default())?;
+///         write_shard(&sharded, (&sweep, shard), (&results, false), &mut control)?;
+///     }
+/// }
+///
+/// let shards = Shards::find(&results, control.callback)?.expect("the callback does not break");
+/// let encoder = Encoder::new(TableFormat::Npz, shards.layout(), sharded.metadata.clone());
+/// let path = folder.path().join("drawer.npz");
+/// let how = (path.as_path(), Resume::No, false);
+/// let written = write_table(RowSource::Shards(&shards), encoder, how, &mut control)?;
+/// let Written::Whole(state) = written else { panic!("nothing ends it") };
+/// // It jams from mu = L / (2 a) = 2/3 on (book, chapter Limits): at 0.67 and the 33 points behind it.
+/// assert_eq!((state.tally.solutions[&1], state.tally.solutions[&0]), (67, 34));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Shards {
     sweep: Sweep,

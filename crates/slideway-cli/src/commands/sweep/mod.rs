@@ -201,5 +201,6 @@ fn unswept(mut watch: Watch, state: &SweepState, sweep: &Sweep, path: Option<Pat
     // The alarm may have ended it.
     let _ = watch.look(&Progress::of("points", state.done, sweep.points()));
     let halt = watch.finish().unwrap_or(Halt::Interrupted);
-    Failure::Unswept { halt, done: state.done, points: sweep.points(), path }
+    let of_shard = sweep.of_shard().is_some();
+    Failure::Unswept { halt, done: state.done, points: sweep.points(), path, of_shard }
 }
