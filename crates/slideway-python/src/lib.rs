@@ -7,7 +7,7 @@
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
 //! `motion.rs` a motion with its table, `to_python.rs` turns values into objects, `fault.rs` faults into
-//! exceptions, `sweep.rs` tables of many points, `modes.rs` problems given by matrices.
+//! exceptions, `sweep.rs` tables of many points, `shards.rs` those in parts, `modes.rs` problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
@@ -17,6 +17,7 @@ mod fault;
 mod model;
 mod modes;
 mod motion;
+mod shards;
 mod sweep;
 mod to_python;
 mod work;
@@ -33,5 +34,7 @@ mod _slideway {
     #[pymodule_export]
     use crate::motion::Motion;
     #[pymodule_export]
-    use crate::sweep::{Table, merge};
+    use crate::shards::merge;
+    #[pymodule_export]
+    use crate::sweep::Table;
 }

@@ -4,8 +4,8 @@ use crate::answer::{Answer, Asked, theme};
 use crate::arguments::{settings, units, value, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
-use crate::sweep;
 use crate::work::Watch;
+use crate::{shards, sweep};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -490,7 +490,7 @@ impl Model {
         let shard = shard.map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))?;
         match (shard, output) {
             (Some(shard), Some(folder)) => {
-                sweep::write_shard(py, &self.asked, (options, shard), (&folder, &watch))?
+                shards::write_shard(py, &self.asked, (options, shard), (&folder, &watch))?
                     .into_bound_py_any(py)
             }
             (None, Some(_)) => {

@@ -1,7 +1,7 @@
 //! Sweeps: all solutions at many points as one table, shared with NumPy and data frames without a copy.
 
 use crate::answer::Asked;
-use crate::arguments::value;
+use crate::arguments::{numbers, value};
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -16,11 +16,8 @@ use slideway::sweep::{
     GridAxis, Rows, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
 };
 use slideway_tables::arrow::Batches;
-use slideway_tables::{
-    Control, Encoder, Layout, Metadata, RowSource, ShardedSweep, Shards, TableError, Written, shard_path,
-};
+use slideway_tables::{Encoder, Layout, RowSource, TableError};
 use std::error::Error;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is asked of a sweep beside its axes.
@@ -75,12 +72,13 @@ fn grid(refused: &dyn Fn(Faults) -> PyErr, name: &str, values: &Bound<'_, PyAny>
     if let Ok(number) = value(name, values) {
         return Ok(GridAxis::listed(name, [number]));
     }
-    if let Ok(numbers) = values.extract::<numpy::PyArrayLike1<'_, f64, numpy::AllowTypeChange>>() {
-        let numbers = numbers.as_array();
+    if let Ok((sizes, numbers)) = numbers(name, values)
+        && sizes.len() == 1
+    {
         if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
             return Err(PyValueError::new_err(format!("the values of {name} must be finite, not {number}")));
         }
-        return Ok(GridAxis::listed(name, numbers.iter().copied()));
+        return Ok(GridAxis::listed(name, numbers));
     }
     let wanted =
         || format!("{name} must be an array or list of numbers or texts, or a text such as \"0..1:101\"");
@@ -128,7 +126,11 @@ impl Table {
     }
 
     /// The rows of a source, as long as nothing ends the work.
-    fn of(py: Python<'_>, (source, layout): (RowSource<'_>, Layout), watch: &Watch) -> PyResult<Self> {
+    pub(crate) fn of(
+        py: Python<'_>,
+        (source, layout): (RowSource<'_>, Layout),
+        watch: &Watch,
+    ) -> PyResult<Self> {
         let mut state = source.sweep().start();
         let points = source.sweep().points();
         let ended = watch.run_beside(py, |callback| {
@@ -157,19 +159,24 @@ impl Table {
 }
 
 /// That there was no time for all points.
-fn unfinished(state: &SweepState, points: u64) -> PyErr {
+pub(crate) fn unfinished(state: &SweepState, points: u64) -> PyErr {
     let done = state.done;
     PyTimeoutError::new_err(format!("the sweep was not done within time_limit: {done} of {points} points"))
 }
 
 /// What is wrong with files.
-fn os_error(error: &TableError) -> PyErr {
+pub(crate) fn os_error(error: &TableError) -> PyErr {
     let hint = error.source().map(|source| format!(": {source}")).unwrap_or_default();
     PyOSError::new_err(format!("{error}{hint}"))
 }
 
 /// A sweep of a model that is ready to be computed, with its exact ends of modes.
-fn prepared(py: Python<'_>, asked: &Asked, options: &SweepOptions, watch: &Watch) -> PyResult<Sweep> {
+pub(crate) fn prepared(
+    py: Python<'_>,
+    asked: &Asked,
+    options: &SweepOptions,
+    watch: &Watch,
+) -> PyResult<Sweep> {
     let model = &asked.model;
     let sweep = watch.run_beside(py, |callback| Sweep::new_with(model, options, callback).transpose())?;
     sweep.whole()?.map_err(|faults| asked.refused(py, &faults))
@@ -186,47 +193,6 @@ pub(crate) fn table(
     let sweep = shard.map_or_else(|| whole.clone(), |shard| whole.shard(shard));
     let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
     Table::of(py, (RowSource::Sweep(&sweep), layout), watch)
-}
-
-/// Computes a shard of a sweep and writes it into a folder, unless it is there; its path.
-pub(crate) fn write_shard(
-    py: Python<'_>,
-    asked: &Asked,
-    (options, shard): (SweepOptions, Shard),
-    (folder, watch): (&Path, &Watch),
-) -> PyResult<PathBuf> {
-    let metadata =
-        Metadata { command: "slideway for Python: Model.sweep".to_owned(), model: asked.text.to_string() };
-    let sharded = ShardedSweep { metadata, settings: asked.settings.clone(), options };
-    let is_there =
-        slideway_tables::written_shard(&sharded, shard, folder).map_err(|error| os_error(&error))?;
-    if is_there.is_none() {
-        let whole = prepared(py, asked, &sharded.options, watch)?;
-        let written = watch.run_beside(py, |callback| {
-            let mut callback = |progress: &Progress| callback(progress);
-            let mut control = Control { goes_on: &|| true, callback: &mut callback };
-            slideway_tables::write_shard(&sharded, (&whole, shard), (folder, false), &mut control)
-        })?;
-        if let Written::Early { state, .. } = written.so_far().map_err(|error| os_error(&error))? {
-            return Err(unfinished(&state, whole.shard(shard).points()));
-        }
-    }
-    Ok(shard_path(folder, shard))
-}
-
-/// One table of all shards in a folder.
-#[pyfunction]
-#[pyo3(signature = (folder, *, time_limit = None, progress = None) -> "slideway.Sweep")]
-pub(crate) fn merge(
-    py: Python<'_>,
-    folder: PathBuf,
-    time_limit: Option<f64>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Bound<'_, PyAny>> {
-    let watch = Watch::new(time_limit, progress)?;
-    let found = watch.run_beside(py, |callback| Shards::find(&folder, callback).transpose())?;
-    let shards = found.whole()?.map_err(|error| os_error(&error))?;
-    Table::of(py, (RowSource::Shards(&shards), shards.layout()), &watch)?.object(py)
 }
 
 #[pymethods]

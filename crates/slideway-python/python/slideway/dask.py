@@ -12,12 +12,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import dask.dataframe as dd
+import pandas
+import pyarrow
+import pyarrow.parquet
+
 from . import __version__
 from ._slideway import Model
 
 if TYPE_CHECKING:
-    import dask.dataframe
-    import pandas
     from distributed import Client
 
 __all__ = ["sweep"]
@@ -36,7 +39,7 @@ def sweep(
     chunk_seconds: float = 5.0,
     options: Mapping[str, Any] | None = None,
     **values: Any,
-) -> dask.dataframe.DataFrame:
+) -> dd.DataFrame:
     """All solutions at every point of a sweep, computed by the workers of a cluster.
 
     Parameters
@@ -79,17 +82,15 @@ def sweep(
     ...     frame = slideway.dask.sweep(model, client, mu=np.linspace(0, 1, 10**7))
     ...     frame.groupby("status").size().compute()
     """
-    import dask.dataframe as dd
-
     _compare_versions(client)
     question = dict(options or {}) | values
-    meta = model.sweep(**question, shard=(1, 1 << 31)).to_pandas()
+    meta = _frame(pyarrow.table(model.sweep(**question, shard=(1, 1 << 31))))
     if shards is None:
         shards = _shards(model, question, chunk_seconds)
     parts = list(range(1, shards + 1))
     folder = None if output is None else str(Path(output).absolute())
-    # Arrays are sent once, not with each task.
-    [held] = client.scatter([(model, question)], broadcast=True)
+    # Arrays are sent once, not with each task; as a task, so that they are there again if their worker dies.
+    held = client.submit(_held, model, question)
     name = f"slideway-sweep-{held.key[-16:]}-{shards}" + ("" if folder is None else "-files")
     futures = [
         client.submit(_part, held, (part, shards), folder, key=f"{name}-{part}", retries=_RETRIES, pure=True)
@@ -131,16 +132,25 @@ def _shards(model: Model, question: Mapping[str, Any], chunk_seconds: float) -> 
     return max(1, min(of, round((end - start) * of / chunk_seconds)))
 
 
+def _held(model: Model, question: Mapping[str, Any]) -> tuple[Model, Mapping[str, Any]]:
+    """A task: what all others need."""
+    return model, question
+
+
 def _part(held: tuple[Model, Mapping[str, Any]], shard: tuple[int, int], folder: str | None) -> pandas.DataFrame | str:
     """A task: a shard as rows, or as the path of its file."""
     model, question = held
     if folder is not None:
         return str(model.sweep(**question, shard=shard, output=folder))
-    return model.sweep(**question, shard=shard).to_pandas()
+    return _frame(pyarrow.table(model.sweep(**question, shard=shard)))
 
 
 def _read(path: str) -> pandas.DataFrame:
-    import pyarrow.parquet
+    return _frame(pyarrow.parquet.read_table(path))
 
-    return pyarrow.parquet.read_table(path).to_pandas()
+
+def _frame(table: pyarrow.Table) -> pandas.DataFrame:
+    """Words as Dask has them, whether the rows come from memory or from a file."""
+    words = {pyarrow.string(): pandas.StringDtype("pyarrow")}
+    return table.to_pandas(types_mapper=words.get)
 
