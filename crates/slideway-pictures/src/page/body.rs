@@ -33,8 +33,15 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
         Ok(report) => answer(report),
         Err(refused) => {
             let reasons = all(refused, |line| format!("<p>{}</p>\n", text(line)));
-            let words = "The kinetic problem has no answer in this state.";
-            format!("<p class=\"answer\" id=\"answer\"><strong>{words}</strong></p>\n{reasons}")
+            let words = match page.rest {
+                Ok(rest) => format!("At rest: {}", rest.answer()),
+                Err(_) => "The kinetic problem has no answer in this state.".to_owned(),
+            };
+            let motion = if page.rest.is_ok() { "<p>In motion it has no answer:</p>\n" } else { "" };
+            format!(
+                "<p class=\"answer\" id=\"answer\"><strong>{}</strong></p>\n{motion}{reasons}",
+                text(&words)
+            )
         }
     };
     let margins = if summary(page).is_empty() { "" } else { "<a href=\"#margins\">Margins</a>" };

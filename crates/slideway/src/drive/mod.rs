@@ -132,6 +132,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         course,
         conclusion: Vec::new(),
     };
+    report.suit_units();
     report.conclusion = text::conclusion(&report, locked(model.has_guided_sliders()));
     finite(report)
 }

@@ -32,6 +32,23 @@ pub struct DriveReport {
     pub conclusion: Vec<String>,
 }
 
+impl DriveReport {
+    /// Has its efforts and powers shown in units in which those of the model's state read well.
+    pub(super) fn suit_units(&mut self) {
+        let units: Vec<&'static str> = self.drives.iter().map(|drive| drive.unit).collect();
+        let values = |efforts: &[f64], power: f64| -> Vec<(&'static str, f64)> {
+            units.iter().copied().zip(efforts.iter().copied()).chain([("W", power)]).collect()
+        };
+        let of_direction = |direction: &DriveDirection| {
+            let free = values(&direction.frictionless.efforts, direction.frictionless.power);
+            let solutions = direction.solutions.iter().flat_map(|one| values(&one.efforts, one.power));
+            free.into_iter().chain(solutions).collect::<Vec<_>>()
+        };
+        let values: Vec<_> = self.directions.iter().flat_map(of_direction).collect();
+        self.units = std::mem::take(&mut self.units).suited_to(values);
+    }
+}
+
 /// A drive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]

@@ -39,7 +39,8 @@ impl Writer<'_> {
     fn head(&self) -> String {
         let mut head = format!(
             "# Outlines and points of a DXF drawing, in {}; each layer is a body. To be completed: the masses, the joints\n\
-             # (below are those that points in one place suggest), loads, and coordinates.\n",
+             # (below are those that points in one place suggest), loads, and coordinates. `slideway check` on this file says\n\
+             # what is still missing.\n",
             self.unit
         );
         if !self.bodies.left_out.is_empty() {

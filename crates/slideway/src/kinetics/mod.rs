@@ -23,7 +23,7 @@ pub(crate) use loads::{Applied, unit_effort as effort_forces};
 pub use loads::{Wrench, load_wrenches};
 pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows};
 
-use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
+use crate::configuration::{Configuration, ContactGeometry, motion_in_words, moved_by};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
@@ -147,7 +147,7 @@ impl KineticEquations {
         let assembled = Assembled::new(mechanism, configuration)?;
         let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows } = assembled;
         let factorization = factor(matrix).map_err(|singular| {
-            Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular)
+            Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
         })?;
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
     }
@@ -359,8 +359,9 @@ impl<T: Real> Builder<'_, T> {
 }
 
 impl Builder<'_> {
-    /// Which motion or drive makes the equations singular: read off a vector that they map to zero.
-    fn singular_fault(&self, singular: &Singular) -> Fault {
+    /// Which motion or drive makes the equations singular: read off a vector that they map to zero. The motion is
+    /// told in the sense in which the loads move it.
+    fn singular_fault(&self, singular: &Singular, load: &DVector<f64>) -> Fault {
         let Singular { null_vector, weights, condition } = singular;
         let bodies = 3 * self.mechanism.bodies.len();
         let efforts = self.layout.len() - self.layout.drives;
@@ -385,7 +386,8 @@ impl Builder<'_> {
                 FaultKind::Overflow { quantity }
             });
         };
-        let motion = motion_in_words(self.mechanism, self.configuration, &accelerations);
+        let motion = moved_by(accelerations, &load.rows(0, bodies).into_owned());
+        let motion = motion_in_words(self.mechanism, self.configuration, &motion);
         Fault::new(FaultKind::MotionWithoutInertia { motion }, self.mechanism.bodies[first].place.clone())
     }
 

@@ -446,6 +446,11 @@ impl Mechanism {
 }
 
 impl Mechanism {
+    /// Whether no drive moves a coordinate, counted from 0.
+    pub(crate) fn is_free(&self, coordinate: usize) -> bool {
+        self.drives.iter().all(|drive| drive.coordinate.index() != coordinate)
+    }
+
     /// Refuses more contacts than can be dealt with, before any matrix is built.
     ///
     /// # Errors

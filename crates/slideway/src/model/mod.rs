@@ -56,6 +56,7 @@ mod value;
 
 pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
+pub(crate) use formula::POSITIVE;
 pub use formula::{Allowed, Formula, Origin, Varies};
 pub use outline::OutlineCorner;
 pub use range::ParameterRange;
