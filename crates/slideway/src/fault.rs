@@ -243,6 +243,8 @@ pub enum FaultKind {
     NoneOf { owner: String, one_of: Vec<&'static str> },
     #[error("{owner} has a `{first}` without a `{second}`")]
     Without { owner: String, first: &'static str, second: &'static str },
+    #[error("the outline of {body} has a `{{ through = .. }}` that is not the only one between two corners")]
+    OutlineArcs { body: String },
 
     // Names.
     #[error("there is no {what} named `{name}`")]

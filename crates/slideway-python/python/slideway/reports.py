@@ -51,6 +51,7 @@ __all__ = [
     "CountLimits",
     "Course",
     "CourseDirection",
+    "CourseMode",
     "CourseRow",
     "CriticalContact",
     "Curve",
@@ -1020,10 +1021,22 @@ class CourseDirection(Record):
     """Which direction it is."""
     rows: tuple[CourseRow, ...]
     """One row for each value and each solution there; a value without a solution has one row without a pattern."""
+    modes: tuple[CourseMode, ...]
+    """The modes of the rows, each once."""
     blow_ups: tuple[BlowUp, ...]
     """Values at which efforts grow without bound, in ascending order."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
     """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CourseMode(Record):
+    """A mode that occurs."""
+
+    pattern: str
+    """One sign for each contact."""
+    words: str
+    """The contact modes of all sliding joints, in words."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -39,7 +39,7 @@ mod text;
 
 pub(crate) use efforts::Efforts;
 pub use report::{
-    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport,
+    Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
     DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense,
 };
 

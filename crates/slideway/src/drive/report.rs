@@ -176,10 +176,22 @@ pub struct CourseDirection {
     /// One row for each value and each solution there; a value without a solution has one row without a
     /// pattern.
     pub rows: Vec<CourseRow>,
+    /// The modes of the rows, each once.
+    pub modes: Vec<CourseMode>,
     /// Values at which efforts grow without bound, in ascending order.
     pub blow_ups: Vec<BlowUp>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+}
+
+/// A mode that occurs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct CourseMode {
+    /// One sign for each contact.
+    pub pattern: String,
+    /// The contact modes of all sliding joints, in words.
+    pub words: String,
 }
 
 /// The efforts in one solution at one value.

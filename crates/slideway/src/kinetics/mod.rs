@@ -19,8 +19,8 @@ mod system;
 
 pub(crate) use elastic::MasslessMotions;
 pub(crate) use influences::{Accuracy, Elimination, Influences};
-pub use loads::Wrench;
 pub(crate) use loads::{Applied, unit_effort as effort_forces};
+pub use loads::{Wrench, load_wrenches};
 pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows};
 
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words, moved_by};
@@ -164,7 +164,7 @@ impl KineticEquations {
     ) -> Result<DVector<f64>, Fault> {
         let mut forces = DVector::zeros(self.load.len());
         let builder = Builder { mechanism, configuration, layout: &self.layout };
-        for wrench in &loads::of_one(mechanism, configuration, load)? {
+        for wrench in &load_wrenches(mechanism, configuration, load)? {
             builder.add(wrench, |row, value| forces[row] += value);
         }
         Ok(self.without_noise(&self.factorization.solve(&[&forces])[0]))

@@ -4,11 +4,12 @@ use super::Sampling;
 use crate::expression::{TO, ends_of_range};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::model::Value;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// What to sweep over.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SweepOptions {
     /// The points.
@@ -61,7 +62,8 @@ impl SweepOptions {
 }
 
 /// The points of a sweep.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum SweepPoints {
     /// Every combination of the values on these axes.
@@ -88,7 +90,7 @@ impl SweepPoints {
 /// assert_eq!("mu=0..0.8:801".parse(), Ok(GridAxis::linear("mu", "0", "0.8", 801)));
 /// assert_eq!(GridAxis::listed("l", ["25 mm", "35 mm"]).to_string(), "l=25 mm,35 mm");
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct GridAxis {
     /// The name of a parameter or coordinate, `COORDINATE.rate`, `friction` for the common factor of all
@@ -99,7 +101,8 @@ pub struct GridAxis {
 }
 
 /// The values of a quantity on a grid.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "each variant says what its values mean")]
 pub enum GridValues {
@@ -184,7 +187,7 @@ fn grid_values(text: &str) -> Result<GridValues, AxisProblem> {
 ///
 /// assert_eq!("mu=normal(0.3, 0.05)".parse(), Ok(SampledAxis::normal("mu", "0.3", "0.05")));
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SampledAxis {
     /// The name of a quantity, as on a grid.
@@ -194,7 +197,8 @@ pub struct SampledAxis {
 }
 
 /// The distribution of a quantity.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "each variant says what its values mean")]
 pub enum SampledValues {
