@@ -1,6 +1,7 @@
 //! What to sweep over: the axes of a grid, or quantities with their distributions.
 
 use super::Sampling;
+use crate::expression::{TO, ends_of_range};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::model::Value;
 use serde::{Deserialize, Serialize};
@@ -303,15 +304,13 @@ pub(super) fn fault(text: &str, problem: AxisProblem) -> Faults {
 fn name_and_values(text: &str) -> Result<(&str, &str), AxisProblem> {
     let (name, values) = text.split_once('=').ok_or(AxisProblem::Malformed)?;
     let (name, values) = (name.trim(), values.trim());
-    if values.contains("...") {
-        return Err(AxisProblem::ThreeDots);
-    }
+    ends_of_range(values).map_err(|_| AxisProblem::ThreeDots)?;
     if name.is_empty() || values.is_empty() { Err(AxisProblem::Malformed) } else { Ok((name, values)) }
 }
 
 /// Both ends of `FROM..TO`.
 fn range(text: &str) -> Option<(Value, Value)> {
-    let (from, to) = text.split_once("..")?;
+    let (from, to) = text.split_once(TO)?;
     Some((from.trim().into(), to.trim().into()))
 }
 
