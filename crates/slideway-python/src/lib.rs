@@ -17,6 +17,7 @@ mod fault;
 mod model;
 mod modes;
 mod motion;
+#[cfg(feature = "parquet")]
 mod shards;
 mod sweep;
 mod to_python;
@@ -33,6 +34,7 @@ mod _slideway {
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]
     use crate::motion::Motion;
+    #[cfg(feature = "parquet")]
     #[pymodule_export]
     use crate::shards::merge;
     #[pymodule_export]

@@ -4,9 +4,8 @@ use crate::answer::{Answer, Asked, theme};
 use crate::arguments::{settings, units, value, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
+use crate::sweep;
 use crate::work::Watch;
-use crate::{shards, sweep};
-use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -21,7 +20,7 @@ use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
-use slideway::sweep::Shard;
+use slideway::sweep::{Shard, SweepOptions};
 use slideway::units::Unit;
 use slideway::{
     DriveOptions, Faults, HoldOptions, LimitsOptions, MapOptions, SimulateOptions, SizeOptions, SolveOptions,
@@ -30,7 +29,7 @@ use slideway::{
 use slideway_pictures::drawing::Shown;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A planar mechanism with dry friction, in one state: a model file and what was changed in it. It never changes;
@@ -489,10 +488,7 @@ impl Model {
         let shard = shard.map(|(number, of)| Shard::new(number, of)).transpose();
         let shard = shard.map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))?;
         match (shard, output) {
-            (Some(shard), Some(folder)) => {
-                shards::write_shard(py, &self.asked, (options, shard), (&folder, &watch))?
-                    .into_bound_py_any(py)
-            }
+            (Some(shard), Some(folder)) => self.shard(py, (options, shard), (&folder, &watch)),
             (None, Some(_)) => {
                 Err(PyTypeError::new_err("output is for a shard: give shard=(number, of), too"))
             }
@@ -647,6 +643,29 @@ impl Model {
 }
 
 impl Model {
+    /// Writes a shard of a sweep into a folder; its path.
+    #[cfg(feature = "parquet")]
+    fn shard<'py>(
+        &self,
+        py: Python<'py>,
+        question: (SweepOptions, Shard),
+        (folder, watch): (&Path, &Watch),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let path = crate::shards::write_shard(py, &self.asked, question, (folder, watch))?;
+        Ok(path.into_pyobject(py)?.into_any())
+    }
+
+    #[cfg(not(feature = "parquet"))]
+    fn shard<'py>(
+        &self,
+        _py: Python<'py>,
+        _question: (SweepOptions, Shard),
+        _written: (&Path, &Watch),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let message = format!("{}: this slideway was built without Parquet files", self.__repr__());
+        Err(pyo3::exceptions::PyNotImplementedError::new_err(message))
+    }
+
     fn against(&self, py: Python<'_>, against: &str, load: Option<String>) -> PyResult<Against> {
         let refused = |kind: FaultKind| Err(self.refused(py, &Fault::general(kind).into()));
         match (against, load) {
