@@ -6,7 +6,7 @@
 //! # Files
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
-//! `motion.rs` a motion with its table, `to_python.rs` turns values into objects, `fault.rs` faults into
+//! `motion.rs` a motion with its table, `pictures.rs` colours and pixels, `to_python.rs` turns values into objects, `fault.rs` faults into
 //! exceptions, `modes.rs` are problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
@@ -17,6 +17,7 @@ mod fault;
 mod model;
 mod modes;
 mod motion;
+mod pictures;
 mod to_python;
 mod work;
 
@@ -31,4 +32,6 @@ mod _slideway {
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]
     use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::pictures::{png, printable, theme};
 }

@@ -32,6 +32,13 @@ impl Scale {
         let share = (value - from) / (to - from);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
+
+    /// The value at a place.
+    pub(super) fn value(&self, place: f64) -> f64 {
+        let share = (place - self.places[0]) / (self.places[1] - self.places[0]);
+        let [from, to] = self.values;
+        if self.logarithmic { from * (to / from).powf(share) } else { from + share * (to - from) }
+    }
 }
 
 /// The distance between ticks at 1, 2 or 5 times a power of ten that gives about `wanted` of them.

@@ -18,10 +18,22 @@ Arrays cannot be written to. "No solution" is an answer, never an exception; `Mo
 model.
 """
 
-from . import modes, reports
+from . import modes, plotting, reports
+from ._display import Animation, Drawing
 from ._errors import Fault, ModelError
 from ._motion import Motion
 from ._slideway import Model, gallery_models
 
-__all__ = ["Fault", "Model", "ModelError", "Motion", "gallery_models", "modes", "reports"]
+__all__ = [
+    "Animation",
+    "Drawing",
+    "Fault",
+    "Model",
+    "ModelError",
+    "Motion",
+    "gallery_models",
+    "modes",
+    "plotting",
+    "reports",
+]
 __version__ = "0.1.0"
