@@ -23,6 +23,7 @@ from ._display import Animation, Drawing
 from ._errors import Fault, ModelError
 from ._motion import Motion
 from ._slideway import Model, gallery_models
+from ._sweep import Sweep
 
 __all__ = [
     "Animation",
@@ -31,6 +32,7 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
+    "Sweep",
     "gallery_models",
     "modes",
     "plotting",
