@@ -165,11 +165,18 @@ impl Answer {
         py.detach(|| self.report.text(style))
     }
 
-    /// A drawing of the mechanism and its solutions, or of one of them, counted from 1, as SVG.
-    #[pyo3(signature = (theme_name, solution = None))]
-    fn drawing(&self, py: Python<'_>, theme_name: &str, solution: Option<usize>) -> PyResult<String> {
+    /// A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
+    /// 1, as SVG.
+    #[pyo3(signature = (theme_name, solution = None, gap_state = None))]
+    fn drawing(
+        &self,
+        py: Python<'_>,
+        theme_name: &str,
+        solution: Option<usize>,
+        gap_state: Option<usize>,
+    ) -> PyResult<String> {
         let report = self.is::<SolveReport>();
-        let shown = solution.map_or(Shown::All, Shown::Solution);
+        let shown = solution.map(Shown::Solution).or(gap_state.map(Shown::GapState)).unwrap_or(Shown::All);
         self.asked()?.drawing(py, report, (shown, theme(theme_name)?))
     }
 

@@ -107,24 +107,19 @@ def model_html(model: _slideway.Model) -> str:
     return _block(f'{title}{changes}<div class="beside"><div>{picture}</div><div>{tables}{notes}</div></div>')
 
 
-def solve_html(answer: _slideway.Answer) -> str:
-    """Solutions: words first, then the drawing of each contact mode beside its forces."""
+def solve_html(answer: _slideway.Answer, count: int) -> str:
+    """So many solutions: words first, then the drawing of each contact mode beside its forces; states of preload gaps
+    likewise."""
     if not _has_pictures(answer):
         return text_html(answer)
     head, *states = answer.parts()
+    pictures = [answer.drawing("light", number + 1) for number in range(count)]
+    pictures += [answer.drawing("light", gap_state=number + 1) for number in range(len(states) - count)]
     shown = "".join(
-        f'<div class="beside"><div>{state}</div><div>{_image(_drawing(answer, number))}</div></div>'
-        for number, state in enumerate(states, 1)
+        f'<div class="beside"><div>{state}</div><div>{_image(picture)}</div></div>'
+        for state, picture in zip(states, pictures, strict=True)
     )
     return _block(head + (shown or _image(answer.drawing("light"))))
-
-
-def _drawing(answer: _slideway.Answer, number: int) -> str:
-    """The drawing of a solution; of the mechanism with all of them for a state of a preload gap."""
-    try:
-        return answer.drawing("light", number)
-    except ValueError:
-        return answer.drawing("light")
 
 
 def limits_html(answer: _slideway.Answer) -> str:

@@ -130,7 +130,7 @@ class SolveReport:
         return _display.Drawing(self._answer.drawing(theme, solution))
 
     def _repr_html_(self) -> str:
-        return _display.solve_html(self._answer)
+        return _display.solve_html(self._answer, len(self.solutions))
 
     def __iter__(self) -> Iterator[reports.Solution]:
         return iter(self.solutions)
