@@ -179,6 +179,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_value_at_the_place_of_a_value_is_that_value() {
+        for logarithmic in [false, true] {
+            let scale = Scale { values: [0.1, 50.0], places: [20.0, 300.0], logarithmic };
+            for value in [0.1, 0.7, 12.0, 50.0] {
+                let found = scale.value(scale.place(value));
+                assert!((found - value).abs() < 1e-12 * value.max(1.0), "{found} for {value}");
+            }
+        }
+    }
+
+    #[test]
     fn ticks_are_round() {
         let table =
             [([0.0, 0.8], 8, 0.1), ([0.0, 1.0], 5, 0.2), ([-37.0, 41.0], 6, 20.0), ([0.0, 3e-3], 6, 5e-4)];

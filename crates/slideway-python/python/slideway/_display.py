@@ -17,7 +17,8 @@ from . import _slideway
 if TYPE_CHECKING:
     from ._motion import Motion
 
-# Tables and words; all names are those of pages, within one element.
+# Tables and words; all names are those of pages, within one element, which is named twice where notebooks have rules
+# of their own.
 STYLE = """<style>
 .slideway { line-height: 1.45; max-width: 70rem; }
 .slideway h3 { font-size: 1.05rem; margin: .9rem 0 .3rem; }
@@ -29,9 +30,9 @@ STYLE = """<style>
 .slideway .wide { overflow-x: auto; }
 .slideway img { max-width: 100%; height: auto; margin: 0; }
 .slideway table { border-collapse: collapse; margin: .4rem 0; font-size: .9rem; }
-.slideway table th { text-align: left; font-weight: 600; }
-.slideway table th, .slideway table td { padding: .1rem 1rem .1rem 0; vertical-align: top; text-align: left; }
-.slideway table td.number, .slideway table th.number { text-align: right; font-variant-numeric: tabular-nums; }
+.slideway table th { font-weight: 600; }
+.slideway.slideway table th, .slideway.slideway table td { padding: .1rem 1rem .1rem 0; vertical-align: top; text-align: left; }
+.slideway.slideway table td.number, .slideway.slideway table th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .slideway pre { white-space: pre-wrap; font-size: .85rem; line-height: 1.35; }
 .slideway iframe { width: 100%; border: 0; aspect-ratio: 4 / 3; min-height: 30rem; }
 </style>"""
