@@ -34,7 +34,7 @@ STYLE = """<style>
 .slideway.slideway table th, .slideway.slideway table td { padding: .1rem 1rem .1rem 0; vertical-align: top; text-align: left; }
 .slideway.slideway table td.number, .slideway.slideway table th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .slideway pre { white-space: pre-wrap; font-size: .85rem; line-height: 1.35; }
-.slideway iframe { width: 100%; border: 0; aspect-ratio: 4 / 3; min-height: 30rem; }
+.slideway iframe { width: 100%; border: 0; aspect-ratio: 4 / 3; min-height: 38rem; }
 </style>"""
 
 
