@@ -17,7 +17,6 @@ from . import _slideway
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.transforms import Transform
 
     from . import reports
 
@@ -295,28 +294,21 @@ class _Painter:
         """Coloured stretches below the frame."""
         if not self.panel.bands:
             return
-        from matplotlib.patches import Rectangle
+        from matplotlib.lines import Line2D
+        from matplotlib.transforms import ScaledTranslation
 
-        below = self._below(0.0)
+        down = ScaledTranslation(0.0, -(3.0 + BAND / 2) * INCH, self.ax.figure.dpi_scale_trans)
+        below = self.ax.get_xaxis_transform() + down
         least, greatest = self.drawn.x
         for band in self.panel.bands:
-            start, end = max(band.from_, least), min(band.to, greatest)
-            if start < end:
-                place, size = (start, -(3.0 + BAND) * INCH), (end - start, BAND * INCH)
-                patch = Rectangle(
-                    place, *size, transform=below, facecolor=self._series(band.colour), linewidth=0.0, clip_on=False
+            ends = (max(band.from_, least), min(band.to, greatest))
+            if ends[0] < ends[1]:
+                line = Line2D(
+                    ends, (0.0, 0.0), transform=below, color=self._series(band.colour), linewidth=BAND * POINT,
+                    solid_capstyle="butt", clip_on=False, gid="band",
                 )
-                self.ax.add_patch(patch)
+                self.ax.add_artist(line)
         self.ax.tick_params(axis="x", length=0.0, pad=(BAND + 7.0) * POINT)
-
-    def _below(self, distance: float) -> Transform:
-        """From values of x and inches above the lower edge of the frame, less a distance (px)."""
-        from matplotlib.transforms import ScaledTranslation, blended_transform_factory
-
-        scale = self.ax.figure.dpi_scale_trans
-        edge = scale + ScaledTranslation(0.0, 0.0, self.ax.transAxes)
-        down = ScaledTranslation(0.0, -distance * INCH, scale)
-        return blended_transform_factory(self.ax.transData, edge) + down
 
     def _legend(self) -> float:
         """The legend below the panel; returns its height (px)."""
