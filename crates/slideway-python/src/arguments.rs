@@ -3,7 +3,7 @@
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString};
-use slideway::limits::Vary;
+use slideway::limits::{Quantity, Vary};
 use slideway::model::{Setting, SettingKind, Settings, Value};
 use slideway::{Model, UnitSystem};
 
@@ -79,5 +79,19 @@ pub(crate) fn units(name: &str) -> PyResult<UnitSystem> {
         "SI" => Ok(UnitSystem::Si),
         "mm" => Ok(UnitSystem::Millimetres),
         _ => Err(PyValueError::new_err(format!("units must be 'as-typed', 'SI' or 'mm', not {name:?}"))),
+    }
+}
+
+/// The quantity of a plot of this name.
+pub(crate) fn quantity(name: &str) -> PyResult<Quantity> {
+    match name {
+        "normal-force" => Ok(Quantity::NormalForce),
+        "friction" => Ok(Quantity::Friction),
+        "acceleration" => Ok(Quantity::Acceleration),
+        "effort" => Ok(Quantity::Effort),
+        _ => {
+            let known = "'normal-force', 'friction', 'acceleration' or 'effort'";
+            Err(PyValueError::new_err(format!("quantity must be {known}, not {name:?}")))
+        }
     }
 }

@@ -7,7 +7,8 @@
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
 //! `motion.rs` a motion with its table, `pictures.rs` colours and pixels, `to_python.rs` turns values into objects,
-//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `modes.rs` problems given by matrices.
+//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `sweep_plot.rs`
+//! their plots, `modes.rs` problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
@@ -19,6 +20,7 @@ mod modes;
 mod motion;
 mod pictures;
 mod sweep;
+mod sweep_plot;
 mod to_python;
 mod work;
 

@@ -10,7 +10,7 @@ use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use slideway::fault::{Fault, FaultKind, nearest};
-use slideway::limits::{Quantity, curves_with, rest_limits_with};
+use slideway::limits::{curves_with, rest_limits_with};
 use slideway::map::{ColourBy, map_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Setting, SettingKind, Settings};
@@ -276,16 +276,7 @@ impl Model {
             .max_reaction(max_reaction)
             .both_directions(both_directions)
             .effort(effort);
-        let quantity = match quantity {
-            "normal-force" => Quantity::NormalForce,
-            "friction" => Quantity::Friction,
-            "acceleration" => Quantity::Acceleration,
-            "effort" => Quantity::Effort,
-            _ => {
-                let known = "'normal-force', 'friction', 'acceleration' or 'effort'";
-                return Err(PyValueError::new_err(format!("quantity must be {known}, not {quantity:?}")));
-            }
-        };
+        let quantity = crate::arguments::quantity(quantity)?;
         let found = self.ask(py, (time_limit, progress), |model, callback| {
             curves_with(model, &options, quantity, callback)
         })?;

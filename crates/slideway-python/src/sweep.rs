@@ -2,6 +2,7 @@
 
 use crate::answer::Asked;
 use crate::arguments::value;
+use crate::sweep_plot::SweepFigure;
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -111,6 +112,8 @@ pub(crate) fn spread(name: &str) -> PyResult<Spread> {
 /// All solutions at the points of a sweep: private half of `slideway.Sweep`.
 #[pyclass(frozen, module = "slideway._slideway")]
 pub(crate) struct Table {
+    pub(crate) asked: Asked,
+    pub(crate) options: SweepOptions,
     sweep: Sweep,
     state: SweepState,
     layout: Layout,
@@ -134,7 +137,10 @@ pub(crate) fn table(py: Python<'_>, asked: &Asked, options: &SweepOptions, watch
         records
     })?;
     match ended {
-        Ended::Done(records) => Ok(Table { sweep, state, layout, records: Arc::new(records) }),
+        Ended::Done(records) => {
+            let (asked, options, records) = (asked.clone(), options.clone(), Arc::new(records));
+            Ok(Table { asked, options, sweep, state, layout, records })
+        }
         Ended::TimeUp(_) => {
             let done = state.done;
             let message = format!("the sweep was not done within time_limit: {done} of {points} points");
@@ -209,6 +215,19 @@ impl Table {
     #[pyo3(signature = () -> "slideway.reports.Tally")]
     fn tally<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.state.tally)
+    }
+
+    /// The plot of a quantity along every branch, or of its distribution over samples. All points are computed
+    /// again: the table does not hold what a plot needs.
+    #[pyo3(signature = (quantity, time_limit = None, progress = None))]
+    fn plot(
+        &self,
+        py: Python<'_>,
+        quantity: &str,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<SweepFigure> {
+        SweepFigure::of(py, self, crate::arguments::quantity(quantity)?, &Watch::new(time_limit, progress)?)
     }
 
     /// What the sweep comes to, in words.

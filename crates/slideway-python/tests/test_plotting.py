@@ -140,6 +140,34 @@ def test_a_motion_has_panels_over_time_and_a_phase_portrait():
     portrait.figure.canvas.draw()
 
 
+def test_a_sweep_is_drawn_over_what_is_varied(klepp):
+    sweep = klepp.sweep(mu_1="0..0.8:81")
+    ax = sweep.plot()
+    assert ax.get_xlabel() == "mu_1" and ax.get_ylabel() == "normal force in N"
+    assert {"upper", "lower.front", "lower.rear"} <= set(legend_texts(ax))
+    rows = sweep.to_numpy()
+    lowest = min(line.get_ydata().min() for line in ax.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 2)
+    first = rows[rows["branch"] == 1]
+    forces = [first[f"normal_force.{contact}"].min() for contact in sweep.contacts]
+    assert lowest == pytest.approx(min(forces), abs=0.1)
+    with pytest.raises(ValueError, match="the model has no such quantity"):
+        sweep.plot(quantity="effort")
+    with pytest.raises(ValueError, match="quantity must be 'normal-force'"):
+        sweep.plot(quantity="force")
+    with pytest.raises(ValueError, match="one varied quantity"):
+        klepp.sweep(mu_1=[0.1, 0.2], mu_2=[0.1, 0.2]).plot()
+
+
+def test_samples_are_drawn_as_histograms():
+    sweep = Model.gallery("drawer").sweep(samples=2000, mu="normal(0.6, 0.05)", seed=3)
+    ax = sweep.plot(quantity="effort")
+    assert ax.get_xlabel() == "effort of push in N" and ax.get_ylabel() == "share of samples in %"
+    shares = sum(patch.get_height() for patch in ax.patches)
+    solved = sweep.tally.points - sweep.tally.solutions.get(0, 0)
+    # At most 2.5 % of the values are left out at either end.
+    assert 0.95 * solved / 20 - 0.1 <= shares <= solved / 20
+
+
 def test_themes_have_the_colours_of_the_library(figure_4):
     for name in ("light", "dark"):
         theme = slideway._slideway.theme(name)

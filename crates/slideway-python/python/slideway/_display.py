@@ -149,7 +149,12 @@ def drawn_html(answer: _slideway.Answer) -> str:
 
 def text_html(answer: _slideway.Answer) -> str:
     """An answer in words."""
-    return _block(_pre(answer.text(False)))
+    return words_html(answer.text(False))
+
+
+def words_html(text: str) -> str:
+    """Words and tables as the command line shows them."""
+    return _block(_pre(text))
 
 
 def motion_html(motion: Motion) -> str:
