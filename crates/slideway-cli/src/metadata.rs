@@ -7,10 +7,6 @@ use std::ffi::{OsStr, OsString};
 
 /// Arguments that do not change a table.
 const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
-/// Those with a value in which the shards of one sweep may differ.
-const OF_SHARDS: [&str; 3] = ["--output", "--shard", "--time-limit"];
-/// The short form of --output.
-const OUTPUT: &str = "-o";
 
 /// The command of this run and its model.
 pub(crate) fn metadata(input: &Input) -> Metadata {
@@ -26,6 +22,9 @@ pub(crate) fn command_of_shards() -> String {
 /// The arguments that all shards of a sweep have in common.
 #[cfg(any(feature = "parquet", test))]
 fn of_sweep(arguments: impl Iterator<Item = OsString>) -> impl Iterator<Item = OsString> {
+    // Those with a value in which the shards of one sweep may differ, and the short form of the first one.
+    const OF_SHARDS: [&str; 3] = ["--output", "--shard", "--time-limit"];
+    const OUTPUT: &str = "-o";
     let mut is_value = false;
     arguments.filter(move |word| {
         if std::mem::take(&mut is_value) {

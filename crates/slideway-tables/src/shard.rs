@@ -51,6 +51,7 @@ pub struct Part {
 
 impl Part {
     /// A shard of a sweep, which is `whole`.
+    #[cfg(feature = "parquet")]
     pub(crate) fn new(sharded: &ShardedSweep, whole: &Sweep, shard: Shard) -> Self {
         let range = whole.shard(shard).range();
         Self {
