@@ -46,16 +46,13 @@ impl Question {
                 "give what is varied, such as sweep(mu=numpy.linspace(0, 1, 101))",
             ));
         }
-        let points = match self.samples {
-            Some(count) => {
-                let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
-                let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
-                SweepPoints::Samples(sampling, axes.collect::<PyResult<_>>()?)
-            }
-            None => {
-                let axes = named.iter().map(|(name, values)| grid(refused, name, values));
-                SweepPoints::Grid(axes.collect::<PyResult<_>>()?)
-            }
+        let points = if let Some(count) = self.samples {
+            let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
+            let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
+            SweepPoints::Samples(sampling, axes.collect::<PyResult<_>>()?)
+        } else {
+            let axes = named.iter().map(|(name, values)| grid(refused, name, values));
+            SweepPoints::Grid(axes.collect::<PyResult<_>>()?)
         };
         Ok(SweepOptions::over(points)
             .breakpoints(self.breakpoints)

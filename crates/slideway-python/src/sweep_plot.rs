@@ -35,15 +35,13 @@ impl SweepFigure {
         let figure = if sweep.has_branches() {
             let mut plot = SweepPlot::new(&sweep, quantity).ok_or_else(nothing)?;
             let extractor = plot.extractor();
-            let take = |rows: &Rows| extractor.rows(rows);
-            let state = run(py, &sweep, watch, (&take, &mut |part| plot.add(part)))?;
+            let state = run(py, &sweep, watch, |rows| extractor.rows(rows), |part| plot.add(part))?;
             plot.set_branches(state.branches());
             plot.figure(title)
         } else {
             let mut plot = SamplesPlot::new(&sweep, quantity).ok_or_else(nothing)?;
             let taker = plot.clone();
-            let take = |rows: &Rows| taker.rows(rows);
-            let state = run(py, &sweep, watch, (&take, &mut |part| plot.add(&part)))?;
+            let state = run(py, &sweep, watch, |rows| taker.rows(rows), |part| plot.add(&part))?;
             plot.figure(title, &state)
         };
         Ok(Self { figure: figure.changed_by(&table.asked.settings) })
@@ -55,12 +53,13 @@ fn run<T: Send>(
     py: Python<'_>,
     sweep: &Sweep,
     watch: &Watch,
-    (take, add): (&(dyn Fn(&Rows) -> T + Sync), &mut (dyn FnMut(T) + Send)),
+    take: impl Fn(&Rows) -> T + Sync,
+    mut add: impl FnMut(T) + Send,
 ) -> PyResult<SweepState> {
     let mut state = sweep.start();
     let ended = watch.run(py, |callback: &mut Callback<'_>| {
-        sweep.run(&mut state, &|rows| take(rows), &mut |parts, state| {
-            parts.into_iter().for_each(&mut *add);
+        sweep.run(&mut state, &take, &mut |parts, state| {
+            parts.into_iter().for_each(&mut add);
             callback(&Progress::of("points", state.done, sweep.points()))
         });
     })?;
