@@ -3,7 +3,7 @@
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString};
-use slideway::limits::{Quantity, Vary};
+use slideway::limits::Vary;
 use slideway::model::{Setting, SettingKind, Settings, Value};
 use slideway::{Model, UnitSystem};
 
@@ -83,7 +83,8 @@ pub(crate) fn units(name: &str) -> PyResult<UnitSystem> {
 }
 
 /// The quantity of a plot of this name.
-pub(crate) fn quantity(name: &str) -> PyResult<Quantity> {
+pub(crate) fn plotted(name: &str) -> PyResult<slideway::limits::Quantity> {
+    use slideway::limits::Quantity;
     match name {
         "normal-force" => Ok(Quantity::NormalForce),
         "friction" => Ok(Quantity::Friction),

@@ -276,7 +276,7 @@ impl Model {
             .max_reaction(max_reaction)
             .both_directions(both_directions)
             .effort(effort);
-        let quantity = crate::arguments::quantity(quantity)?;
+        let quantity = crate::arguments::plotted(quantity)?;
         let found = self.ask(py, (time_limit, progress), |model, callback| {
             curves_with(model, &options, quantity, callback)
         })?;

@@ -2,7 +2,6 @@
 
 use crate::answer::Asked;
 use crate::arguments::value;
-use crate::sweep_plot::SweepFigure;
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -223,8 +222,9 @@ impl Table {
         quantity: &str,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<SweepFigure> {
-        SweepFigure::of(py, self, crate::arguments::quantity(quantity)?, &Watch::new(time_limit, progress)?)
+    ) -> PyResult<crate::sweep_plot::SweepFigure> {
+        let quantity = crate::arguments::plotted(quantity)?;
+        crate::sweep_plot::SweepFigure::of(py, self, quantity, &Watch::new(time_limit, progress)?)
     }
 
     /// What the sweep comes to, in words.
