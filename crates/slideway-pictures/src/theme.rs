@@ -1,7 +1,9 @@
 //! Colours and line styles that all pictures share.
 
+use serde::Serialize;
+
 /// Colours of a picture, as CSS colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Theme {
     /// Behind everything.
     pub background: &'static str,

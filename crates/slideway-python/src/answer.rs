@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slideway::Report;
 use slideway::configuration::Configuration;
-use slideway::limits::Curves;
+use slideway::limits::{Curves, LimitsReport};
 use slideway::map::MapReport;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
@@ -15,6 +15,7 @@ use slideway::report::{SolveReport, Style};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Shown, sheet};
+use slideway_pictures::page::{limits_part, solve_parts};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
 use std::any::Any;
 use std::sync::Arc;
@@ -164,12 +165,26 @@ impl Answer {
         py.detach(|| self.report.text(style))
     }
 
-    /// A drawing of the mechanism and its solutions, or of one of them, counted from 1, as SVG.
-    #[pyo3(signature = (theme_name, solution = None))]
-    fn drawing(&self, py: Python<'_>, theme_name: &str, solution: Option<usize>) -> PyResult<String> {
+    /// A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
+    /// 1, as SVG.
+    #[pyo3(signature = (theme_name, solution = None, gap_state = None))]
+    fn drawing(
+        &self,
+        py: Python<'_>,
+        theme_name: &str,
+        solution: Option<usize>,
+        gap_state: Option<usize>,
+    ) -> PyResult<String> {
         let report = self.is::<SolveReport>();
-        let shown = solution.map_or(Shown::All, Shown::Solution);
+        let shown = solution.map(Shown::Solution).or(gap_state.map(Shown::GapState)).unwrap_or(Shown::All);
         self.asked()?.drawing(py, report, (shown, theme(theme_name)?))
+    }
+
+    /// The answer in HTML: for solutions what they have in common, then a part for each; for limits one part.
+    fn parts(&self) -> PyResult<Vec<String>> {
+        let limits = self.is::<LimitsReport>().map(|report| vec![limits_part(report)]);
+        let parts = limits.or_else(|| self.is::<SolveReport>().map(solve_parts));
+        parts.ok_or_else(|| PyTypeError::new_err("this answer has no parts"))
     }
 
     /// The plot as SVG.
@@ -188,16 +203,32 @@ impl Answer {
         to_python(py, &self.plotted()?)
     }
 
+    /// What the panels of the plot show in frames of this width and height (px, of which small text has 13).
+    #[pyo3(signature = (width, height) -> "list[slideway.reports.DrawnPanel]")]
+    fn drawn<'py>(&self, py: Python<'py>, width: f64, height: f64) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &slideway_pictures::plot::drawn(&self.plotted()?, [width, height]))
+    }
+
+    /// A map in words and colours.
+    #[pyo3(signature = (theme_name) -> "slideway.reports.DrawnMap")]
+    fn drawn_map<'py>(&self, py: Python<'py>, theme_name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let drawn = slideway_pictures::map::drawn(self.map()?, &self.asked()?.settings, theme(theme_name)?);
+        to_python(py, &drawn)
+    }
+
     /// The classes of the pixels of a map, row by row from the bottom.
     fn pixels(&self) -> PyResult<Vec<usize>> {
-        let map = self.is::<MapReport>().ok_or_else(|| PyTypeError::new_err("this is no map"))?;
-        Ok(map.pixels())
+        Ok(self.map()?.pixels())
     }
 }
 
 impl Answer {
+    fn map(&self) -> PyResult<&MapReport> {
+        self.is().ok_or_else(|| PyTypeError::new_err("this is no map"))
+    }
+
     fn plotted(&self) -> PyResult<slideway_pictures::plot::Figure> {
-        use slideway::{drive::DriveReport, limits::LimitsReport, size::SizeReport};
+        use slideway::{drive::DriveReport, size::SizeReport};
         use slideway_pictures::plot::{drive_figure, limits_figure, size_figure};
         let figure = match (self.is::<LimitsReport>(), &self.curves) {
             (Some(report), Some(curves)) => Some(limits_figure(report, curves)),

@@ -104,3 +104,18 @@ pub(crate) fn units(name: &str) -> PyResult<UnitSystem> {
         _ => Err(PyValueError::new_err(format!("units must be 'as-typed', 'SI' or 'mm', not {name:?}"))),
     }
 }
+
+/// The quantity of a plot of this name.
+pub(crate) fn plotted(name: &str) -> PyResult<slideway::limits::Quantity> {
+    use slideway::limits::Quantity;
+    match name {
+        "normal-force" => Ok(Quantity::NormalForce),
+        "friction" => Ok(Quantity::Friction),
+        "acceleration" => Ok(Quantity::Acceleration),
+        "effort" => Ok(Quantity::Effort),
+        _ => {
+            let known = "'normal-force', 'friction', 'acceleration' or 'effort'";
+            Err(PyValueError::new_err(format!("quantity must be {known}, not {name:?}")))
+        }
+    }
+}

@@ -6,8 +6,9 @@
 //! # Files
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
-//! `motion.rs` a motion with its table, `to_python.rs` turns values into objects, `fault.rs` faults into
-//! exceptions, `sweep.rs` tables of many points, `shards.rs` those in parts, `modes.rs` problems given by matrices.
+//! `motion.rs` a motion with its table, `pictures.rs` colours and pixels, `to_python.rs` turns values into objects,
+//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `shards.rs` those in
+//! parts, `sweep_plot.rs` their plots, `modes.rs` problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
@@ -17,9 +18,11 @@ mod fault;
 mod model;
 mod modes;
 mod motion;
+mod pictures;
 #[cfg(feature = "parquet")]
 mod shards;
 mod sweep;
+mod sweep_plot;
 mod to_python;
 mod work;
 
@@ -37,6 +40,8 @@ mod _slideway {
     #[cfg(feature = "parquet")]
     #[pymodule_export]
     use crate::shards::merge;
+    #[pymodule_export]
+    use crate::pictures::{png, printable, theme};
     #[pymodule_export]
     use crate::sweep::Table;
 }

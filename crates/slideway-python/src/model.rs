@@ -1,6 +1,6 @@
 //! The class `slideway.Model`: a model with its settings, and a method for each question.
 
-use crate::answer::{Answer, Asked, theme};
+use crate::answer::{Answer, Asked, theme as named};
 use crate::arguments::{settings, units, value, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
@@ -8,9 +8,9 @@ use crate::sweep;
 use crate::work::Watch;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use slideway::fault::{Fault, FaultKind, nearest};
-use slideway::limits::{Quantity, curves_with, rest_limits_with};
+use slideway::limits::{curves_with, rest_limits_with};
 use slideway::map::{ColourBy, map_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Setting, SettingKind, Settings};
@@ -157,6 +157,23 @@ impl Model {
         self.asked.model.parameters.iter().map(|parameter| &*parameter.name).collect()
     }
 
+    /// The parameters as texts: name, value, and the range between whose ends it is known, if it has one.
+    #[pyo3(signature = () -> "list[tuple[str, str, str]]")]
+    fn _parameter_texts(&self, py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
+        let model = &self.asked.model;
+        let refused = |faults| self.refused(py, &faults);
+        let values = model.parameter_values(&model.constants().map_err(refused)?);
+        let ranges = model.ranges().map_err(refused)?;
+        let texts = model.parameters.iter().zip(values).map(|(parameter, value)| {
+            let name = parameter.name.to_string();
+            let unit = model.units.parameter(&name, &model.parameter_unit(&name));
+            let range = ranges.iter().find(|range| range.name == name);
+            let range = range.map(|range| format!("{} to {}", unit.show(range.from), unit.show(range.to)));
+            (name, unit.show(value), range.unwrap_or_default())
+        });
+        Ok(texts.collect())
+    }
+
     /// The names of its coordinates.
     #[getter]
     fn coordinates(&self) -> Vec<&str> {
@@ -260,16 +277,7 @@ impl Model {
             .max_reaction(max_reaction)
             .both_directions(both_directions)
             .effort(effort);
-        let quantity = match quantity {
-            "normal-force" => Quantity::NormalForce,
-            "friction" => Quantity::Friction,
-            "acceleration" => Quantity::Acceleration,
-            "effort" => Quantity::Effort,
-            _ => {
-                let known = "'normal-force', 'friction', 'acceleration' or 'effort'";
-                return Err(PyValueError::new_err(format!("quantity must be {known}, not {quantity:?}")));
-            }
-        };
+        let quantity = crate::arguments::plotted(quantity)?;
         let found = self.ask(py, (time_limit, progress), |model, callback| {
             curves_with(model, &options, quantity, callback)
         })?;
@@ -567,10 +575,43 @@ impl Model {
         Motion::object(py, history.so_far().map_err(refused)?, options, asked)
     }
 
-    /// The mechanism alone as SVG.
-    #[pyo3(signature = (theme_name = "light"))]
-    fn _drawing(&self, py: Python<'_>, theme_name: &str) -> PyResult<String> {
-        self.asked.drawing(py, None, (Shown::Mechanism, theme(theme_name)?))
+    /// A drawing of the mechanism in this state, and of one of its solutions, counted from 1, if one is asked for.
+    ///
+    /// `theme` is "light" or "dark". The drawing shows itself in a notebook; `drawing.svg` is its text, and
+    /// `drawing.save("mechanism.svg")` or `"mechanism.png"` writes a file.
+    #[pyo3(signature = (solution = None, *, theme = "light") -> "slideway.Drawing")]
+    fn draw<'py>(
+        slf: &Bound<'py, Self>,
+        solution: Option<usize>,
+        theme: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let Some(solution) = solution else {
+            let svg = slf.get().asked.drawing(py, None, (Shown::Mechanism, named(theme)?))?;
+            return display(py)?.getattr("Drawing")?.call1((svg,));
+        };
+        let options = [("margins", false)].into_py_dict(py)?;
+        let answer = slf.call_method("solve", (), Some(&options))?;
+        let theme = [("theme", theme)].into_py_dict(py)?;
+        answer.call_method("draw", (solution,), Some(&theme))
+    }
+
+    /// What a notebook shows: the drawing, parameters, coordinates and warnings.
+    #[pyo3(signature = () -> "str")]
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        display(slf.py())?.call_method1("model_html", (slf,))
+    }
+
+    /// The coordinates as texts: name, value and rate.
+    #[pyo3(signature = () -> "list[tuple[str, str, str]]")]
+    fn _coordinate_texts(&self, py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
+        let model = &self.asked.model;
+        let report = slideway::check(model).map_err(|faults| self.refused(py, &faults))?;
+        let texts = report.coordinates.into_iter().map(|coordinate| {
+            let (unit, of_rate) = (model.units.of(coordinate.unit), model.units.of_rate(coordinate.unit));
+            (coordinate.name, unit.show(coordinate.value), of_rate.show(coordinate.rate))
+        });
+        Ok(texts.collect())
     }
 
     fn __repr__(&self) -> String {
@@ -683,6 +724,11 @@ impl Model {
             }
         }
     }
+}
+
+/// What notebooks show.
+fn display(py: Python<'_>) -> PyResult<Bound<'_, PyModule>> {
+    py.import("slideway._display")
 }
 
 /// A setting as what is pickled of it.

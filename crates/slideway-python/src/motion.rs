@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use slideway::motion::{self, History, Series, SimulateOptions};
 use slideway::report::{Style, finite};
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
-use slideway_pictures::plot::{Figure, to_svg};
+use slideway_pictures::plot::{Figure, drawn, to_svg};
 use std::sync::Arc;
 
 /// Rows of a table that are too many to be meant.
@@ -97,6 +97,18 @@ impl Motion {
     #[pyo3(signature = (phase_portrait) -> "slideway.reports.Figure")]
     fn plotted<'py>(&self, py: Python<'py>, phase_portrait: bool) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.figure(phase_portrait))
+    }
+
+    /// What the panels of the plot show in frames of this width and height (px, of which small text has 13).
+    #[pyo3(signature = (phase_portrait, width, height) -> "list[slideway.reports.DrawnPanel]")]
+    fn drawn<'py>(
+        &self,
+        py: Python<'py>,
+        phase_portrait: bool,
+        width: f64,
+        height: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &drawn(&self.figure(phase_portrait), [width, height]))
     }
 
     /// The plot as SVG.

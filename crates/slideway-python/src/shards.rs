@@ -1,13 +1,16 @@
 //! Shards of a sweep in a folder, as the command line writes them, and their merging.
 
 use crate::answer::Asked;
+use crate::fault::Texts;
 use crate::sweep::{Table, os_error, prepared, unfinished};
 use crate::work::Watch;
 use pyo3::prelude::*;
+use slideway::Model;
 use slideway::progress::Progress;
 use slideway::sweep::{Shard, SweepOptions};
 use slideway_tables::{Control, Metadata, RowSource, ShardedSweep, Shards, Written, shard_path};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Computes a shard of a sweep and writes it into a folder, unless it is there; its path.
 pub(crate) fn write_shard(
@@ -47,5 +50,10 @@ pub(crate) fn merge(
     let watch = Watch::new(time_limit, progress)?;
     let found = watch.run_beside(py, |callback| Shards::find(&folder, callback).transpose())?;
     let shards = found.whole()?.map_err(|error| os_error(&error))?;
-    Table::of(py, (RowSource::Shards(&shards), shards.layout()), &watch)?.object(py)
+    let ShardedSweep { metadata, settings, options } = shards.sharded();
+    let model = Model::parse(&metadata.model).and_then(|model| model.with(settings));
+    let refused = |faults| Texts { model: &metadata.model, settings }.error(py, &faults);
+    let (text, settings) = (Arc::from(&*metadata.model), settings.clone());
+    let asked = Asked { model: model.map_err(refused)?, text, settings };
+    Table::of(py, (RowSource::Shards(&shards), asked, options.clone()), &watch)?.object(py)
 }

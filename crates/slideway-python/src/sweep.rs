@@ -110,7 +110,9 @@ pub(crate) fn spread(name: &str) -> PyResult<Spread> {
 /// All solutions at the points of a sweep: private half of `slideway.Sweep`.
 #[pyclass(frozen, module = "slideway._slideway")]
 pub(crate) struct Table {
-    sweep: Sweep,
+    pub(crate) asked: Asked,
+    pub(crate) options: SweepOptions,
+    pub(crate) sweep: Sweep,
     state: SweepState,
     layout: Layout,
     records: Arc<Vec<u8>>,
@@ -125,9 +127,10 @@ impl Table {
     /// The rows of a source, as long as nothing ends the work.
     pub(crate) fn of(
         py: Python<'_>,
-        (source, layout): (RowSource<'_>, Layout),
+        (source, asked, options): (RowSource<'_>, Asked, SweepOptions),
         watch: &Watch,
     ) -> PyResult<Self> {
+        let layout = Layout::of(source.sweep(), options.points.dimensions(), options.attainability);
         let mut state = source.sweep().start();
         let points = source.sweep().points();
         let ended = watch.run_beside(py, |callback| {
@@ -143,12 +146,8 @@ impl Table {
         match ended {
             Ended::Done(records) | Ended::TimeUp(records) if is_done => {
                 let sweep = source.sweep().clone();
-                Ok(Self {
-                    sweep,
-                    state,
-                    layout,
-                    records: Arc::new(records.map_err(|error| os_error(&error))?),
-                })
+                let records = Arc::new(records.map_err(|error| os_error(&error))?);
+                Ok(Self { asked, options, sweep, state, layout, records })
             }
             _ => Err(unfinished(&state, points)),
         }
@@ -188,8 +187,7 @@ pub(crate) fn table(
 ) -> PyResult<Table> {
     let whole = prepared(py, asked, options, watch)?;
     let sweep = shard.map_or_else(|| whole.clone(), |shard| whole.shard(shard));
-    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
-    Table::of(py, (RowSource::Sweep(&sweep), layout), watch)
+    Table::of(py, (RowSource::Sweep(&sweep), asked.clone(), options.clone()), watch)
 }
 
 #[pymethods]
@@ -258,6 +256,20 @@ impl Table {
     #[pyo3(signature = () -> "slideway.reports.Tally")]
     fn tally<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.state.tally)
+    }
+
+    /// The plot of a quantity along every branch, or of its distribution over samples. All points are computed
+    /// again: the table does not hold what a plot needs.
+    #[pyo3(signature = (quantity, time_limit = None, progress = None))]
+    fn plot(
+        &self,
+        py: Python<'_>,
+        quantity: &str,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<crate::sweep_plot::SweepFigure> {
+        let quantity = crate::arguments::plotted(quantity)?;
+        crate::sweep_plot::SweepFigure::of(py, self, quantity, &Watch::new(time_limit, progress)?)
     }
 
     /// What the sweep comes to, in words.

@@ -21,7 +21,7 @@ MIXINS = HERE / "python" / "slideway" / "_mixins.py"
 SOURCES = [
     CRATES / "slideway" / "src",
     CRATES / "slideway-modes" / "src",
-    CRATES / "slideway-pictures" / "src" / "plot",
+    CRATES / "slideway-pictures" / "src",
 ]
 
 # Reports that a question has for its answer; the others are reached from them.
@@ -40,9 +40,12 @@ ROOTS = [
     "Tally",
     "Warning",
     "Figure",
+    "DrawnPanel",
+    "DrawnMap",
+    "Theme",
 ]
 # Of these, those that no question has for its answer.
-PLAIN = ("Tally", "Warning", "Figure")
+PLAIN = ("Tally", "Warning", "Figure", "DrawnPanel", "DrawnMap", "Theme")
 
 ITEM = re.compile(
     r"(?P<docs>(?:^///.*\n)*)(?P<attributes>(?:^#\[[^\n]*\]\n|^#\[expect\([\s\S]*?\)\]\n)*)"

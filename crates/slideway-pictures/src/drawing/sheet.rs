@@ -37,6 +37,8 @@ pub enum Shown {
     Mechanism,
     /// The solution of this number, counted from 1, alone.
     Solution(usize),
+    /// The state of a preload gap of this number, counted from 1, alone.
+    GapState(usize),
 }
 
 /// What is written below a panel.
@@ -129,6 +131,11 @@ impl Drawn<'_> {
                 let solution = solutions.get(number.checked_sub(1)?)?;
                 let heading = format!("Solution {number} of {count}");
                 Some(vec![self.solution(solution, heading, true)])
+            }
+            Shown::GapState(number) => {
+                let state = gaps.get(number.checked_sub(1)?)?;
+                let heading = format!("Preload gap {number} of {}", gaps.len());
+                Some(vec![self.solution(state, heading, true)])
             }
             Shown::All => {
                 let mut panels = vec![self.overview()];

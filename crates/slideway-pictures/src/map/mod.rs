@@ -4,7 +4,10 @@
 //! their boundaries, so that there are no gaps between them.
 
 mod colours;
+mod drawn;
 mod regions;
+
+pub use drawn::{DrawnClass, DrawnMap, drawn};
 
 use crate::NotFinite;
 use crate::plot::figure::{changes, headline};
@@ -151,7 +154,7 @@ fn draw_legend(
         if let Some(hatching) = paint.hatching {
             svg.rectangle(sample, &[("fill", &hatching_fill(hatching))]);
         }
-        let text = format!("{} ({})", entry(class), share(class.pixels, all));
+        let text = told(class, all);
         for line in wrapped(&text, SMALL, LEGEND) {
             svg.label([x + SAMPLE + 8.0, y], &[], &line);
             y += LINE;
@@ -168,9 +171,17 @@ fn draw_legend(
         svg.label([x + SAMPLE + 8.0, y], &[], "the model");
         y += 1.5 * LINE;
     }
-    y = draw_modes(report, [x, y], svg);
+    for line in untold_modes(report).iter().flat_map(|mode| wrapped(mode, SMALL, LEGEND + SAMPLE)) {
+        svg.label([x, y], &[], &line);
+        y += LINE;
+    }
     svg.close("g");
     y
+}
+
+/// A class in words, with its share of all pixels.
+fn told(class: &MapClass, all: usize) -> String {
+    format!("{} ({})", entry(class), share(class.pixels, all))
 }
 
 /// A class in words: a single mode with its own, of which numbers stay with their signs; several as their
@@ -184,24 +195,21 @@ fn entry(class: &MapClass) -> String {
     }
 }
 
-/// What the signs of the patterns mean that no class has told; returns the lower edge.
-fn draw_modes(report: &MapReport, [x, mut y]: [f64; 2], svg: &mut Svg) -> f64 {
+/// What the signs of the patterns mean that no class has told, in words.
+fn untold_modes(report: &MapReport) -> Vec<String> {
     let single = report.classes.iter().filter(|class| class.modes.len() == 1);
     let mut known: Vec<String> = single.map(|class| class.words.clone()).collect();
+    let mut told = Vec::new();
     for class in &report.classes {
         for (pattern, words) in class.words.split(" | ").zip(&class.modes) {
             if known.iter().any(|other| other == pattern) {
                 continue;
             }
             known.push(pattern.to_owned());
-            let pattern = signs(pattern).replace(' ', "\u{a0}");
-            for line in wrapped(&format!("{pattern}: {words}"), SMALL, LEGEND + SAMPLE) {
-                svg.label([x, y], &[], &line);
-                y += LINE;
-            }
+            told.push(format!("{}: {words}", signs(pattern).replace(' ', "\u{a0}")));
         }
     }
-    y
+    told
 }
 
 /// A pattern with the signs of mathematics.

@@ -38,10 +38,7 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
                 Err(_) => "The kinetic problem has no answer in this state.".to_owned(),
             };
             let motion = if page.rest.is_ok() { "<p>In motion it has no answer:</p>\n" } else { "" };
-            format!(
-                "<p class=\"answer\" id=\"answer\"><strong>{}</strong></p>\n{motion}{reasons}",
-                text(&words)
-            )
+            format!("<p class=\"answer\"><strong>{}</strong></p>\n{motion}{reasons}", text(&words))
         }
     };
     let margins = if summary(page).is_empty() { "" } else { "<a href=\"#margins\">Margins</a>" };
@@ -55,7 +52,7 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
 }
 
 /// The state that was solved, and how many solutions it has.
-fn answer(report: &SolveReport) -> String {
+pub(super) fn answer(report: &SolveReport) -> String {
     let model = &report.model;
     let drives = match model.drives {
         0 => String::new(),
@@ -79,7 +76,7 @@ fn answer(report: &SolveReport) -> String {
     };
     format!(
         "<p>{},\n{},\n{}{drives}.\nState: {}{followed}.</p>\n\
-         <p class=\"answer\" id=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}",
+         <p class=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}",
         count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
         count(model.bodies, "body", "bodies"),
         count(model.contacts, "contact", "contacts"),
@@ -105,7 +102,7 @@ fn drawing(page: &Page<'_>) -> String {
 }
 
 /// The solutions and the preload-gap states, each with its heading.
-fn states(report: &SolveReport) -> Vec<(String, &Solution)> {
+pub(super) fn states(report: &SolveReport) -> Vec<(String, &Solution)> {
     let heading = |kind: &str, index: usize, count: &str, solution: &Solution| {
         format!("{kind} {} of {count}: {}", index + 1, signs(&solution.pattern))
     };
@@ -128,7 +125,7 @@ fn solutions(states: &[(String, &Solution)], units: &Units) -> String {
     )
 }
 
-fn state(heading: &str, solution: &Solution, units: &Units) -> String {
+pub(super) fn state(heading: &str, solution: &Solution, units: &Units) -> String {
     let [force, friction, sliding] = [("Normal force", "N"), ("Friction", "N"), ("Sliding", "m/s")]
         .map(|(what, si)| text(&units.of(si).title(what)));
     let joints: Vec<String> = solution.joints.iter().map(|joint| joint_mode(joint, ": ")).collect();
@@ -219,7 +216,7 @@ fn limits(page: &Page<'_>) -> String {
 }
 
 /// The limits over one quantity.
-fn limits_of(limits: &LimitsReport) -> String {
+pub(super) fn limits_of(limits: &LimitsReport) -> String {
     let name = match limits.vary.name.as_str() {
         "friction" => "Factor of all coefficients of friction",
         name => name,

@@ -68,6 +68,23 @@ pub fn to_html(page: &Page<'_>) -> Result<String, NotFinite> {
     finished(format!("{}<body>\n{}</body>\n</html>", head(&page.sheet.title), body::body(page)))
 }
 
+/// What a page says of an answer: the state that was solved with the number of solutions and the margins, then a
+/// section for each solution and each preload-gap state, with its forces.
+pub fn solve_parts(report: &SolveReport) -> Vec<String> {
+    let margins = report.margins_in_words();
+    let margins = all(margins.lines().map(str::trim).filter(|line| !line.is_empty()), |line| {
+        format!("<p>{}</p>\n", text(line))
+    });
+    let states = body::states(report);
+    let states = states.iter().map(|(heading, solution)| body::state(heading, solution, &report.model.units));
+    std::iter::once(body::answer(report) + &margins).chain(states).collect()
+}
+
+/// What a page says of limits: the conclusion, and a table of the modes.
+pub fn limits_part(report: &LimitsReport) -> String {
+    body::limits_of(report)
+}
+
 /// The head of the page, which goes on until the body begins.
 fn head(title: &str) -> String {
     let filled = |part: &str| {

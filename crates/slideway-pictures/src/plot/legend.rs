@@ -5,6 +5,7 @@ use super::panel::{PanelLayout, shared_dashes};
 use super::svg::{Svg, coordinate, width, wrapped};
 use super::{CURVE, MARGIN, SMALL, WIDTH, dashes, hatching_fill, markers};
 use crate::theme::Theme;
+use serde::Serialize;
 
 /// Width of a sample, and its distance from the text (px).
 const SAMPLE: f64 = 38.0;
@@ -14,20 +15,29 @@ const COLUMNS: f64 = 3.0;
 /// Height of a line (px).
 const LINE: f64 = 19.0;
 
-/// What an entry shows beside its text.
-enum Sample {
+/// What an entry shows beside its text. Colours are indices into the series of the theme, modulo their number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", content = "value", rename_all = "snake_case")]
+pub enum LegendSample {
+    /// A line of a colour and stroke.
     Curve(usize, Stroke),
-    /// Curves that cannot be told apart.
+    /// Curves of these colours that cannot be told apart.
     Several(Vec<usize>),
+    /// The marker of a quantity.
     Marker(usize),
+    /// A hatched area.
     Hatched(Hatching),
+    /// An area of a colour.
     Filled(usize),
+    /// The end of a branch.
     End,
+    /// An arrowhead where a curve leaves the frame.
     Cut,
+    /// A marked point.
     Point(PointKind),
 }
 
-impl Sample {
+impl LegendSample {
     fn is_curve(&self) -> bool {
         matches!(self, Self::Curve(..) | Self::Several(_))
     }
@@ -42,7 +52,7 @@ impl Sample {
 
 /// The entries of a legend.
 pub(super) struct Legend {
-    entries: Vec<(Sample, String)>,
+    pub(super) entries: Vec<(LegendSample, String)>,
 }
 
 impl Legend {
@@ -54,26 +64,26 @@ impl Legend {
             let names = figure.quantities.iter().enumerate();
             let is_used = |quantity| panel.curves.iter().any(|curve| curve.quantity == quantity);
             for (index, name) in names.filter(|(index, _)| is_used(*index)) {
-                legend.add(Sample::Marker(index), name);
+                legend.add(LegendSample::Marker(index), name);
             }
         }
         if panel.curves.iter().any(|curve| curve.ends.contains(&End::Marked)) {
-            legend.add(Sample::End, "end of a branch");
+            legend.add(LegendSample::End, "end of a branch");
         }
         let mut kinds: Vec<PointKind> = panel.points.iter().map(|point| point.kind).collect();
         kinds.sort_unstable();
-        kinds.into_iter().for_each(|kind| legend.add(Sample::Point(kind), kind.words()));
+        kinds.into_iter().for_each(|kind| legend.add(LegendSample::Point(kind), kind.words()));
         if let Some(words) = layout.cut() {
-            legend.add(Sample::Cut, &words);
+            legend.add(LegendSample::Cut, &words);
         }
-        layout.seen_zones().for_each(|zone| legend.add(Sample::Hatched(zone.hatching), &zone.meaning));
-        panel.bars.iter().for_each(|bar| legend.add(Sample::Filled(bar.colour), &bar.meaning));
-        panel.bands.iter().for_each(|band| legend.add(Sample::Filled(band.colour), &band.meaning));
+        layout.seen_zones().for_each(|zone| legend.add(LegendSample::Hatched(zone.hatching), &zone.meaning));
+        panel.bars.iter().for_each(|bar| legend.add(LegendSample::Filled(bar.colour), &bar.meaning));
+        panel.bands.iter().for_each(|band| legend.add(LegendSample::Filled(band.colour), &band.meaning));
         legend
     }
 
     /// Adds an entry; each text has one.
-    fn add(&mut self, sample: Sample, text: &str) {
+    fn add(&mut self, sample: LegendSample, text: &str) {
         if !self.entries.iter().any(|(_, known)| known == text) {
             self.entries.push((sample, text.to_owned()));
         }
@@ -122,13 +132,15 @@ impl Legend {
 
 /// The entries of the lines of a panel: of single branches in the order of the figure, then of those that
 /// cannot be told apart. A single one is named by the axis.
-fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(Sample, String)> {
+fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(LegendSample, String)> {
     let mut sets: Vec<&[usize]> = layout.lines.iter().map(|line| &*line.branches).collect();
     sets.sort_unstable_by_key(|set| (set.len() > 1, *set));
     sets.dedup();
     let is_alone = |branch: usize| sets.contains(&&[branch][..]);
     let entry = |set: &[usize]| match set {
-        [one] => (Sample::Curve(branches[*one].colour, branches[*one].stroke), branches[*one].name.clone()),
+        [one] => {
+            (LegendSample::Curve(branches[*one].colour, branches[*one].stroke), branches[*one].name.clone())
+        }
         several => {
             // What has an entry of its own is named by what is before its colon, and in brackets behind it: of those
             // that coincide some may be attainable and some not.
@@ -141,11 +153,11 @@ fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(Sample, String)
             };
             let names: Vec<String> = several.iter().map(name).collect();
             let colours = several.iter().map(|branch| branches[*branch].colour).collect();
-            (Sample::Several(colours), format!("{} coincide", names.join(" and ")))
+            (LegendSample::Several(colours), format!("{} coincide", names.join(" and ")))
         }
     };
     // Stretches of the same branches that differ in their strokes coincide alike.
-    let mut entries: Vec<(Sample, String)> = Vec::new();
+    let mut entries: Vec<(LegendSample, String)> = Vec::new();
     for (sample, text) in sets.iter().map(|set| entry(set)) {
         if entries.iter().all(|(_, known)| *known != text) {
             entries.push((sample, text));
@@ -159,10 +171,10 @@ fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(Sample, String)
     entries
 }
 
-fn draw_sample(sample: &Sample, [x, y]: [f64; 2], width: f64, theme: &Theme, svg: &mut Svg) {
+fn draw_sample(sample: &LegendSample, [x, y]: [f64; 2], width: f64, theme: &Theme, svg: &mut Svg) {
     let series = |colour: usize| theme.series[colour % theme.series.len()];
     match sample {
-        Sample::Curve(colour, stroke) => {
+        LegendSample::Curve(colour, stroke) => {
             let thickness = coordinate(CURVE);
             let mut attributes = vec![("stroke", series(*colour)), ("stroke-width", &*thickness)];
             if !dashes(*stroke).is_empty() {
@@ -170,7 +182,7 @@ fn draw_sample(sample: &Sample, [x, y]: [f64; 2], width: f64, theme: &Theme, svg
             }
             svg.line([x, y], [x + width, y], &attributes);
         }
-        Sample::Several(colours) => {
+        LegendSample::Several(colours) => {
             for (index, colour) in colours.iter().enumerate() {
                 let [pattern, offset] = shared_dashes(index, colours.len());
                 let thickness = coordinate(CURVE);
@@ -181,24 +193,24 @@ fn draw_sample(sample: &Sample, [x, y]: [f64; 2], width: f64, theme: &Theme, svg
                 svg.line([x, y], [x + width, y], &attributes);
             }
         }
-        Sample::Point(kind) => markers::point(*kind, [x + width / 2.0, y], theme, svg),
-        Sample::Cut => {
+        LegendSample::Point(kind) => markers::point(*kind, [x + width / 2.0, y], theme, svg),
+        LegendSample::Cut => {
             let tip = [x + width / 2.0, y - 5.0];
             markers::head("cut", (tip, [0.0, -1.0]), 5.0, theme.ink, svg);
         }
-        Sample::Marker(quantity) => {
+        LegendSample::Marker(quantity) => {
             markers::draw(*quantity, [x + width / 2.0, y], [theme.ink, theme.background], svg);
         }
-        Sample::End => {
+        LegendSample::End => {
             let [x, y] = [x + width / 2.0, y].map(coordinate);
             svg.element("circle", &[("cx", &x), ("cy", &y), ("r", "3.2"), ("fill", theme.ink)]);
         }
-        Sample::Hatched(hatching) => {
+        LegendSample::Hatched(hatching) => {
             let fill = hatching_fill(*hatching);
             svg.rectangle([x, y - 6.0, width, 12.0], &[("fill", theme.muted), ("fill-opacity", "0.10")]);
             svg.rectangle([x, y - 6.0, width, 12.0], &[("fill", &fill), ("stroke", theme.muted)]);
         }
-        Sample::Filled(colour) => {
+        LegendSample::Filled(colour) => {
             svg.rectangle([x, y - 6.0, width, 12.0], &[("fill", series(*colour))]);
         }
     }

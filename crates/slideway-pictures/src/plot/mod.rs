@@ -2,7 +2,7 @@
 //!
 //! A [`Figure`] is plain data; [`to_svg`] draws it. Curves are cut at the frame, so that no coordinate lies
 //! outside of the picture; points closer to a line between their neighbours than a twentieth of a pixel are
-//! left out. Text stays text.
+//! left out. Text stays text. [`drawn`] tells what such a picture shows, for those who draw it by other means.
 //!
 //! ```
 //! use slideway_pictures::plot::{Axis, Branch, Curve, Figure, Panel, Stroke, to_svg};
@@ -25,6 +25,7 @@
 //! ```
 
 pub(crate) mod clip;
+mod drawn;
 mod drive;
 pub(crate) mod figure;
 mod flags;
@@ -40,11 +41,13 @@ mod size;
 pub(crate) mod svg;
 mod sweep;
 
+pub use drawn::{DrawnArrow, DrawnExit, DrawnFlag, DrawnLine, DrawnPanel, LegendEntry, drawn};
 pub use drive::drive_figure;
 pub use figure::{
     Axis, Band, Bar, Branch, Curve, End, Figure, Hatching, MarkedPoint, MarkedValue, Panel, PointKind,
     Stroke, Zone,
 };
+pub use legend::LegendSample;
 pub use limits::limits_figure;
 pub use samples::{SamplesPart, SamplesPlot};
 pub use size::size_figure;

@@ -23,6 +23,8 @@ const DASH: f64 = 9.0;
 const HEAD: f64 = 5.0;
 /// Curves keep to this distance of their points (px).
 const TOLERANCE: f64 = 0.05;
+/// Room for the half of the last number of the axis, which is centred at the edge (px).
+pub(super) const LAST: f64 = 12.0;
 
 /// A panel with its place in the picture.
 pub(super) struct PanelLayout<'f> {
@@ -30,9 +32,9 @@ pub(super) struct PanelLayout<'f> {
     pub(super) panel: &'f Panel,
     placed: Placed,
     frame: Frame,
-    x: Scale,
-    y: Scale,
-    flags: Vec<Flag<'f>>,
+    pub(super) x: Scale,
+    pub(super) y: Scale,
+    pub(super) flags: Vec<Flag<'f>>,
     /// What stands for the curves.
     pub(super) lines: Vec<Line>,
     top: f64,
@@ -73,10 +75,10 @@ pub(super) fn space_on_the_left(figure: &Figure, panel: &Panel) -> f64 {
 }
 
 /// A curve, by its index, that leaves the frame through its lower (0) or upper edge (1) at a place.
-struct Exit {
-    curve: usize,
-    edge: usize,
-    at: [f64; 2],
+pub(super) struct Exit {
+    pub(super) curve: usize,
+    pub(super) edge: usize,
+    pub(super) at: [f64; 2],
 }
 
 impl<'f> PanelLayout<'f> {
@@ -87,8 +89,7 @@ impl<'f> PanelLayout<'f> {
         top: f64,
         height: f64,
     ) -> Self {
-        // The last number of the axis is centred at the edge.
-        let right = right - 12.0;
+        let right = right - LAST;
         let axes = axes(figure, panel);
         let values = axes[0].range;
         let x = axes[0].scale([left, right]);
@@ -269,15 +270,25 @@ impl<'f> PanelLayout<'f> {
         }
     }
 
-    /// Markers of a line; those of neighbouring ones are shifted against each other.
+    /// Places of the markers of a line; those of neighbouring ones are shifted against each other.
+    pub(super) fn markers_of(&self, line: &Line) -> Vec<[f64; 2]> {
+        let quantity = self.panel.curves[line.curve].quantity;
+        let shares = self.figure.quantities.len() as f64;
+        let phase = ((quantity as f64 + 0.37 * line.branches[0] as f64) / shares).fract();
+        markers::places(&line.path, phase).into_iter().map(|(place, _)| place).collect()
+    }
+
     fn markers(&self, line: &Line, theme: &Theme, svg: &mut Svg) {
         let quantity = self.panel.curves[line.curve].quantity;
         let colour = self.colour(line.branches[0], theme);
-        let shares = self.figure.quantities.len() as f64;
-        let phase = ((quantity as f64 + 0.37 * line.branches[0] as f64) / shares).fract();
-        for (place, _) in markers::places(&line.path, phase) {
+        for place in self.markers_of(line) {
             markers::draw(quantity, place, [colour, theme.background], svg);
         }
+    }
+
+    /// The values at a place.
+    pub(super) fn values(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.x.value(x), self.y.value(y)]
     }
 
     /// Arrowheads along a line.
@@ -304,7 +315,7 @@ impl<'f> PanelLayout<'f> {
     }
 
     /// Where curves go on above or below the frame; neighbouring exits of one quantity of a branch are one.
-    fn exits(&self) -> Vec<Exit> {
+    pub(super) fn exits(&self) -> Vec<Exit> {
         let mut exits: Vec<Exit> = Vec::new();
         for (curve, of) in self.panel.curves.iter().enumerate() {
             let places = of.points.iter().map(|[x, y]| [self.x.place(*x), self.y.place(*y)]);

@@ -32,6 +32,13 @@ impl Scale {
         let share = (value - from) / (to - from);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
+
+    /// The value at a place.
+    pub(super) fn value(&self, place: f64) -> f64 {
+        let share = (place - self.places[0]) / (self.places[1] - self.places[0]);
+        let [from, to] = self.values;
+        if self.logarithmic { from * (to / from).powf(share) } else { from + share * (to - from) }
+    }
 }
 
 /// The distance between ticks at 1, 2 or 5 times a power of ten that gives about `wanted` of them.
@@ -170,6 +177,17 @@ fn visible(curve: &Curve, [once, twice]: [f64; 2]) -> impl Iterator<Item = f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_value_at_the_place_of_a_value_is_that_value() {
+        for logarithmic in [false, true] {
+            let scale = Scale { values: [0.1, 50.0], places: [20.0, 300.0], logarithmic };
+            for value in [0.1, 0.7, 12.0, 50.0] {
+                let found = scale.value(scale.place(value));
+                assert!((found - value).abs() < 1e-12 * value.max(1.0), "{found} for {value}");
+            }
+        }
+    }
 
     #[test]
     fn ticks_are_round() {

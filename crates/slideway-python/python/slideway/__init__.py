@@ -18,11 +18,25 @@ Arrays cannot be written to. "No solution" is an answer, never an exception; `Mo
 model.
 """
 
-from . import modes, reports
+from . import modes, plotting, reports
+from ._display import Animation, Drawing
 from ._errors import Fault, ModelError
 from ._motion import Motion
 from ._slideway import Model, gallery_models, merge
 from ._sweep import Sweep
 
-__all__ = ["Fault", "Model", "ModelError", "Motion", "Sweep", "gallery_models", "merge", "modes", "reports"]
+__all__ = [
+    "Animation",
+    "Drawing",
+    "Fault",
+    "Model",
+    "ModelError",
+    "Motion",
+    "Sweep",
+    "gallery_models",
+    "merge",
+    "modes",
+    "plotting",
+    "reports",
+]
 __version__ = "0.1.0"

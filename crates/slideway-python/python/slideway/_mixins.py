@@ -4,13 +4,18 @@ the same name there."""
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _display, plotting
+
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from . import reports
+    from ._slideway import Answer
 
 
 def _frozen(numbers: list[float]) -> NDArray[np.float64]:
@@ -42,10 +47,90 @@ class Solution:
         return _frozen([drive.effort for drive in self.drives])
 
 
+class _Plot:
+    """An answer that has a plot."""
+
+    _answer: Answer
+    conclusion: tuple[str, ...]
+
+    def plot(self, ax: Any = None, *, theme: plotting.ThemeName = "light") -> Any:
+        """Draws the plot on Axes of matplotlib, or on those of a new figure, and returns them: the Axes, or an array of
+        them if there are several panels."""
+        return plotting.plot_figure(self._answer.figure(), self._answer.drawn, ax, theme=theme)
+
+    def _repr_html_(self) -> str:
+        return _display.plot_html(self._answer, self.conclusion)
+
+
+class LimitsReport(_Plot):
+    """Limits have a plot."""
+
+    def _repr_html_(self) -> str:
+        return _display.limits_html(self._answer)
+
+
+class SizeReport(_Plot):
+    """A design has a plot."""
+
+
+class DriveReport(_Plot):
+    """Efforts over what is varied have a plot."""
+
+    course: reports.Course | None
+
+    def plot(self, ax: Any = None, *, theme: plotting.ThemeName = "light") -> Any:
+        """Draws the efforts over what is varied on Axes of matplotlib, or on those of a new figure, and returns them: the
+        Axes, or an array of them if there are several panels."""
+        if self.course is None:
+            raise ValueError("there is nothing to plot: ask with a range, such as model.drive(\"mu\", (0, 1))")
+        return super().plot(ax, theme=theme)
+
+    def _repr_html_(self) -> str:
+        return super()._repr_html_() if self.course else _display.text_html(self._answer)
+
+
+class MapReport:
+    """A map has a plot, and pixels."""
+
+    _answer: Answer
+    x: reports.MapAxis
+    y: reports.MapAxis
+    guarantee: str
+
+    def pixels(self) -> NDArray[np.intp]:
+        """The class of each pixel, an index into `classes`: a row for each row of the map from the bottom, a column for
+        each of its columns from the left."""
+        return np.array(self._answer.pixels(), dtype=np.intp).reshape(self.y.pixels, self.x.pixels)
+
+    def plot(self, ax: Axes | None = None, *, theme: plotting.ThemeName = "light") -> Axes:
+        """Draws the map on Axes of matplotlib, or on those of a new figure, and returns them."""
+        return plotting.plot_map(self._answer.drawn_map(theme), self.pixels(), ax, theme=theme)
+
+    def _repr_html_(self) -> str:
+        return _display.plot_html(self._answer, [self.guarantee])
+
+
+class HoldReport:
+    """What holds is shown with the mechanism."""
+
+    _answer: Answer
+
+    def _repr_html_(self) -> str:
+        return _display.drawn_html(self._answer)
+
+
 class SolveReport:
     """A solve report is iterable over its solutions."""
 
+    _answer: Answer
     solutions: tuple[reports.Solution, ...]
+
+    def draw(self, solution: int | None = None, *, theme: plotting.ThemeName = "light") -> _display.Drawing:
+        """A drawing of the mechanism with the forces of all solutions, or of one of them, counted from 1."""
+        return _display.Drawing(self._answer.drawing(theme, solution))
+
+    def _repr_html_(self) -> str:
+        return _display.solve_html(self._answer, len(self.solutions))
 
     def __iter__(self) -> Iterator[reports.Solution]:
         return iter(self.solutions)
@@ -60,6 +145,7 @@ class SolveReport:
 class RawReport:
     """A raw report is iterable over its solutions."""
 
+    _answer: Answer
     solutions: tuple[reports.RawSolution, ...]
 
     def __iter__(self) -> Iterator[reports.RawSolution]:
@@ -71,3 +157,5 @@ class RawReport:
     def __bool__(self) -> bool:
         return True
 
+    def _repr_html_(self) -> str:
+        return _display.text_html(self._answer)

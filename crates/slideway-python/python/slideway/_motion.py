@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _display, plotting
+
 if TYPE_CHECKING:
     from . import _slideway, reports
 
@@ -65,6 +67,30 @@ class Motion:
         table: dict[str, NDArray[Any]] = {column.name: column.values for column in series.columns}
         table["mode"] = np.array(series.modes)
         return table
+
+    def plot(
+        self, ax: Any = None, *, phase_portrait: bool = False, theme: plotting.ThemeName = "light"
+    ) -> Any:
+        """Draws coordinates, normal forces with the contact modes, and energies over time, or with `phase_portrait` the
+        rate of each coordinate over its value, on Axes of matplotlib, or on those of a new figure, and returns them: the
+        Axes, or an array of them if there are several panels."""
+        figure = self._motion.plotted(phase_portrait)
+
+        def drawn(width: float, height: float) -> list[reports.DrawnPanel]:
+            return self._motion.drawn(phase_portrait, width, height)
+
+        return plotting.plot_figure(figure, drawn, ax, theme=theme)
+
+    def animate(
+        self, *, slow_motion: float | None = None, theme: plotting.ThemeName = "light"
+    ) -> _display.Animation:
+        """The mechanism moving, with the contact mode at each time: it plays in a notebook, and
+        `animate().save("motion.html")` writes a page. `slow_motion` is how many times longer it takes than the motion;
+        by default what makes it easy to watch."""
+        return _display.Animation(self._motion.animation(theme, slow_motion), self.report._headline())
+
+    def _repr_html_(self) -> str:
+        return _display.motion_html(self)
 
     def text(self, *, all_events: bool = False, color: bool = False) -> str:
         """The log of the motion, as the command line shows it."""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _display, plotting
+
 if TYPE_CHECKING:
     import pandas
     import polars
@@ -92,6 +94,23 @@ class Sweep:
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)
+
+    def plot(
+        self,
+        ax: Any = None,
+        *,
+        quantity: str = "normal-force",
+        theme: plotting.ThemeName = "light",
+        time_limit: float | None = None,
+    ) -> Any:
+        """Draws a quantity ("normal-force", "friction", "acceleration" or "effort") along every branch over the one that is
+        varied, or its distribution over samples, on Axes of matplotlib or on those of a new figure, and returns them: the
+        Axes, or an array of them if there are several panels. All points are computed again."""
+        plot = self._table.plot(quantity, time_limit)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
+
+    def _repr_html_(self) -> str:
+        return _display.words_html(self.text())
 
     def text(self, *, color: bool = False) -> str:
         """What the sweep comes to, as the command line says it."""

@@ -56,6 +56,13 @@ __all__ = [
     "CriticalContact",
     "Curve",
     "Direction",
+    "DrawnArrow",
+    "DrawnClass",
+    "DrawnExit",
+    "DrawnFlag",
+    "DrawnLine",
+    "DrawnMap",
+    "DrawnPanel",
     "Drive",
     "DriveDirection",
     "DriveName",
@@ -93,6 +100,7 @@ __all__ = [
     "JointRelease",
     "JointSummary",
     "Known",
+    "LegendEntry",
     "LimitsMethod",
     "LimitsReport",
     "LoadReport",
@@ -151,6 +159,7 @@ __all__ = [
     "Stop",
     "Stroke",
     "Tally",
+    "Theme",
     "Threshold",
     "TreeReport",
     "UncertainMode",
@@ -1098,6 +1107,112 @@ class Direction(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnArrow(Record):
+    """An arrowhead."""
+
+    at: tuple[float, float]
+    """Its tip, in the units of the axes."""
+    angle: float
+    """Its direction in the picture, from the right counterclockwise (deg)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnClass(Record):
+    """A class of points."""
+
+    fill: str
+    """Its colour, as a CSS colour."""
+    hatching: Hatching | None
+    """How it is hatched, if it is."""
+    text: str
+    """What it means and its share of the map, for the legend."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnExit(Record):
+    """Where a curve leaves the frame."""
+
+    at: tuple[float, float]
+    """Where, in the units of the axes."""
+    branch: int
+    """The branch of the curve."""
+    upwards: bool
+    """Whether it goes on above the frame, not below it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnFlag(Record):
+    """The label of a marked value."""
+
+    at: float
+    """The value."""
+    label: str
+    """Its label."""
+    asymptote: bool
+    """Whether curves grow without bound there."""
+    left: float
+    """Where the label begins, from the left edge of the frame (px)."""
+    row: int
+    """The row above the frame in which it stands, from 0."""
+    beside: bool
+    """Whether it stands beside its line, not above it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnLine(Record):
+    """A line for one curve or for several."""
+
+    points: NDArray[np.float64]
+    """Points in the units of the axes, within the frame."""
+    branches: tuple[int, ...]
+    """The branches that it stands for."""
+    quantity: int
+    """Index into the quantities of the figure."""
+    markers: NDArray[np.float64]
+    """Places of the markers of its quantity, if there are several quantities."""
+    arrows: tuple[DrawnArrow, ...]
+    """Arrowheads that show the order of its points, if the panel has them."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnMap(Record):
+    """A map in words and colours; its pixels are those of the report."""
+
+    title: str
+    """Headline."""
+    subtitle: str
+    """A line below it that tells what was changed in the model; may be empty."""
+    x: Axis
+    """The horizontal axis, with its range."""
+    y: Axis
+    """The vertical axis, with its range."""
+    classes: tuple[DrawnClass, ...]
+    """The classes, in the order of the report."""
+    modes: tuple[str, ...]
+    """What signs of modes mean that no class tells, for the end of the legend."""
+    model: tuple[float, float] | None
+    """The values of the model, in the units of the axes; absent if they are not on the map."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrawnPanel(Record):
+    """What a panel shows; what is not told here is in the panel itself."""
+
+    x: tuple[float, float]
+    """From where to where the horizontal axis goes."""
+    y: tuple[float, float]
+    """From where to where the vertical axis goes."""
+    lines: tuple[DrawnLine, ...]
+    """The curves; those that cannot be told apart are one line."""
+    flags: tuple[DrawnFlag, ...]
+    """The labels of marked values."""
+    exits: tuple[DrawnExit, ...]
+    """Where curves go on above or below the frame."""
+    legend: tuple[LegendEntry, ...]
+    """The legend."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Drive(Record):
     """The effort of a drive."""
 
@@ -1152,7 +1267,7 @@ class DriveRange(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class DriveReport(Report):
+class DriveReport(_mixins.DriveReport, Report):
     """The efforts of all drives."""
 
     _absent = {"course": None}
@@ -1393,7 +1508,7 @@ class HingeRange(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class HoldReport(Report):
+class HoldReport(_mixins.HoldReport, Report):
     """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
 
     _absent = {"steps_from_drawing": None}
@@ -1506,8 +1621,18 @@ class JointSummary(Record):
     """The stops at the least and at the greatest displacement, if there are any."""
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LegendEntry(Record):
+    """An entry of a legend."""
+
+    sample: Mapping[str, Any]
+    """What stands beside the text."""
+    text: str
+    """The text."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class LimitsReport(Report):
+class LimitsReport(_mixins.LimitsReport, Report):
     """For which values each mode exists."""
 
     _absent = {"steps_from_drawing": None, "between_faces_at": (), "reversed": None}
@@ -1604,7 +1729,7 @@ class MapClass(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class MapReport(Report):
+class MapReport(_mixins.MapReport, Report):
     """A map of pixels and what their classes mean."""
 
     schema: str
@@ -2152,7 +2277,7 @@ class SimulateReport(Report):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class SizeReport(Report):
+class SizeReport(_mixins.SizeReport, Report):
     """For which values a wanted margin is met."""
 
     _absent = {"load": None}
@@ -2375,6 +2500,28 @@ class Tally(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Theme(Record):
+    """Colours of a picture, as CSS colours."""
+
+    background: str
+    """Behind everything."""
+    ink: str
+    """Text, axes, outlines."""
+    muted: str
+    """Grid lines, dimensions, what matters less."""
+    body: str
+    """The insides of bodies."""
+    reaction: str
+    """Reactions."""
+    friction: str
+    """Friction."""
+    warning: str
+    """What warns: locking, jams."""
+    series: tuple[str, ...]
+    """Branches, modes and areas, in the order in which they are given out."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Threshold(Record):
     """The static friction from which on the load alone, however great, is held."""
 
@@ -2544,6 +2691,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "CourseRow": {"efforts": "array", "frictionless": "array"},
     "Curve": {"points": "pairs"},
     "Direction": {"between_faces_at": "array"},
+    "DrawnLine": {"points": "pairs", "markers": "pairs"},
     "DriveSolution": {"efforts": "array"},
     "Frictionless": {"efforts": "array"},
     "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array"},

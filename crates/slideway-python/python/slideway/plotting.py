@@ -1,0 +1,506 @@
+"""Plots with matplotlib, styled as the pictures of the book.
+
+What a plot shows is said by the library, once for all that draw it: this module puts it on Axes. `plot()` of an answer is
+the usual way to it; `plot_figure` draws plain data of `slideway.reports.Figure`.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from . import _slideway
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+    from . import reports
+
+__all__ = ["plot_figure", "plot_map"]
+
+ThemeName = Literal["light", "dark"]
+Drawn = Callable[[float, float], "list[reports.DrawnPanel]"]
+
+# Sizes of the pictures (px), and a pixel in inches and points.
+WIDTH, SINGLE_HEIGHT, STACKED_HEIGHT = 800.0, 380.0, 300.0
+FRAME_WIDTH = 700.0
+MAP_HEIGHT, MAP_WIDTHS, MAP_LEGEND = 400.0, (200.0, 640.0), 48
+TITLE, TEXT, SMALL, CURVE, ROW, BAND, LINE = 17.0, 14.0, 13.0, 2.2, 18.0, 12.0, 19.0
+INCH, POINT = 1 / 96, 72 / 96
+# Distances of ticks that are aimed at, and space around everything (px).
+BETWEEN = (80.0, 48.0)
+MARGIN = 14.0
+# Mean width of a letter as a share of its size.
+LETTER = 0.56
+
+# Dashes in widths of the line.
+DASHES = {
+    "solid": "-",
+    "dashed": (0.0, (7 / CURVE, 3 / CURVE)),
+    "dotted": (0.0, (2 / CURVE, 3 / CURVE)),
+    "dash_dotted": (0.0, (9 / CURVE, 3 / CURVE, 2 / CURVE, 3 / CURVE)),
+}
+DASH = 9 / CURVE
+HATCHES = {"rising": "///", "falling": "\\\\\\", "dotted": ".."}
+MARKERS = "os^Dv"
+# Samples of the parts of a legend, from top to bottom.
+LEGENDS = (("curve", "several"), ("marker", "end", "point"), ("cut", "hatched", "filled"))
+
+
+def _pyplot() -> Any:
+    try:
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise ImportError("plots need matplotlib: pip install slideway[plot]") from error
+    return pyplot
+
+
+def plot_figure(
+    figure: reports.Figure,
+    drawn: Drawn,
+    ax: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None = None,
+    *,
+    theme: ThemeName = "light",
+) -> Any:
+    """Draws a figure on Axes, or on those of a new figure of pyplot, and returns them: the Axes, or an array of them if
+    there are several panels. `drawn` says what its panels show in frames of a given width and height."""
+    pyplot = _pyplot()
+    colours = _slideway.theme(theme)
+    count = len(figure.panels)
+    height = SINGLE_HEIGHT if count == 1 else STACKED_HEIGHT
+    if ax is not None:
+        given = np.atleast_1d(np.asarray(ax, dtype=object)).ravel()
+        if len(given) != count:
+            raise ValueError(f"ax must be {'one Axes' if count == 1 else f'{count} Axes'} for this plot, not {len(given)}")
+        for index, axes in enumerate(given):
+            box = axes.get_window_extent()
+            scale = axes.figure.dpi * INCH
+            size = (box.width / scale, box.height / scale)
+            panel = figure.panels[index]
+            _Painter(figure, panel, drawn(*size)[index], axes, colours, size).paint(panel.title)
+        return given[0] if count == 1 else given
+    new, grid = pyplot.subplots(count, 1, squeeze=False, layout="constrained", facecolor=colours.background)
+    new.set_size_inches(WIDTH * INCH, count * height * INCH)
+    new.get_layout_engine().set(w_pad=MARGIN * INCH, h_pad=MARGIN * INCH)
+    size = (FRAME_WIDTH, height)
+    panels = zip(figure.panels, drawn(*size), grid[:, 0], strict=True)
+    painters = [_Painter(figure, *each, colours, size) for each in panels]
+    needed = sum(painter.paint(painter.panel.title) for painter in painters)
+    lines = _wrapped(figure.title, WIDTH, TITLE)
+    painters[0].heading(lines, _wrapped(figure.subtitle, WIDTH, SMALL))
+    needed += painters[0].above
+    new.set_size_inches(WIDTH * INCH, (needed + count * (height + 2 * MARGIN)) * INCH)
+    return grid[0, 0] if count == 1 else grid[:, 0]
+
+
+def _wrapped(text: str, width: float, size: float) -> list[str]:
+    return textwrap.wrap(text, int(width / (LETTER * size)), break_long_words=False)
+
+
+def _named(axis: reports.Axis) -> str:
+    """The name of an axis with its unit."""
+    unit = axis.unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
+    return _plain(f"{axis.name} in {unit}" if unit else axis.name)
+
+
+def _plain(text: str) -> str:
+    """Text that matplotlib does not read as a formula."""
+    return text.replace("$", r"\$")
+
+
+class _Painter:
+    """One panel on its Axes."""
+
+    def __init__(
+        self,
+        figure: reports.Figure,
+        panel: reports.Panel,
+        drawn: reports.DrawnPanel,
+        ax: Axes,
+        theme: reports.Theme,
+        size: tuple[float, float],
+    ) -> None:
+        self.figure, self.panel, self.drawn, self.ax, self.theme = figure, panel, drawn, ax, theme
+        self.size = size
+        """Width and height of the frame (px)."""
+        self.above = 0.0
+        """What is above the frame already (px)."""
+
+    def paint(self, title: str) -> float:
+        """Draws everything, and returns the height of what is above and below the frame (px)."""
+        _styled(self.ax, self.theme)
+        self._axes()
+        self._zones()
+        self._bars()
+        self._lines()
+        self._ends()
+        self._flags()
+        self._bands()
+        below = 62.0 + self._legend()
+        if title:
+            self.ax.set_title(
+                _plain(title), loc="left", color=self.theme.ink, fontsize=TEXT * POINT, fontweight="bold",
+                pad=(self.above + 6.0) * POINT,
+            )
+            self.above += 1.6 * TEXT + 6.0
+        return below + self.above
+
+    def heading(self, title: list[str], subtitle: list[str]) -> None:
+        """Headlines above the panel."""
+        for lines, size, weight in [(subtitle, SMALL, "normal"), (title, TITLE, "bold")]:
+            if lines:
+                self.ax.annotate(
+                    _plain("\n".join(lines)), (0.0, 1.0), xycoords="axes fraction",
+                    xytext=(0.0, (self.above + 8.0) * POINT), textcoords="offset points", ha="left", va="bottom",
+                    color=self.theme.ink, fontsize=size * POINT, fontweight=weight, annotation_clip=False,
+                )
+                self.above += 1.35 * size * len(lines) + 8.0
+
+    def _axes(self) -> None:
+        from matplotlib.ticker import MaxNLocator
+
+        ax, theme = self.ax, self.theme
+        width, height = self.size
+        for axis, range_, which, room in [
+            (self.panel.x, self.drawn.x, ax.xaxis, width / BETWEEN[0]),
+            (self.panel.y, self.drawn.y, ax.yaxis, height / BETWEEN[1]),
+        ]:
+            steps = [1, 1.5, 3, 4.5, 6, 9, 10] if axis.unit == "deg" else [1, 2, 5, 10]
+            if axis.logarithmic and range_[0] > 0.0:
+                (ax.set_xscale if which is ax.xaxis else ax.set_yscale)("log")
+            else:
+                which.set_major_locator(MaxNLocator(nbins=max(3, int(room)), steps=steps))
+        ax.set_xlim(*self.drawn.x)
+        ax.set_ylim(*self.drawn.y)
+        ax.set_xlabel(_named(self.panel.x), color=theme.ink, fontsize=TEXT * POINT)
+        ax.set_ylabel(_named(self.panel.y), color=theme.ink, fontsize=TEXT * POINT)
+        ax.grid(visible=True, color=theme.muted, alpha=0.3, linewidth=POINT, zorder=0.6)
+        if self.drawn.y[0] < 0.0 < self.drawn.y[1]:
+            ax.axhline(0.0, color=theme.ink, alpha=0.6, linewidth=POINT, zorder=0.7)
+
+    def _zones(self) -> None:
+        for zone in self.panel.zones:
+            self.ax.axvspan(zone.from_, zone.to, zorder=0.5, **self._hatched(zone.hatching))
+
+    def _hatched(self, hatching: str) -> dict[str, Any]:
+        """The look of a hatched area."""
+        from matplotlib.colors import to_rgba
+
+        back = 0.0 if hatching == "dotted" else 0.10
+        return {
+            "facecolor": to_rgba(self.theme.muted, back),
+            "edgecolor": to_rgba(self.theme.ink, 0.35),
+            "hatch": HATCHES[hatching],
+            "linewidth": 0.0,
+        }
+
+    def _bars(self) -> None:
+        for bar in self.panel.bars:
+            (left, right), (bottom, top) = bar.sides, bar.ends
+            self.ax.bar(
+                left, top - bottom, right - left, bottom, align="edge", color=self._series(bar.colour),
+                edgecolor=self.theme.background, linewidth=POINT,
+            )
+
+    def _series(self, colour: int) -> str:
+        return self.theme.series[colour % len(self.theme.series)]
+
+    def _colour(self, branch: int) -> str:
+        return self._series(self.figure.branches[branch].colour)
+
+    def _lines(self) -> None:
+        from matplotlib.markers import MarkerStyle
+
+        for line in self.drawn.lines:
+            x, y = line.points.T
+            branches = [self.figure.branches[branch] for branch in line.branches]
+            for style in _strokes([(branch.colour, branch.stroke) for branch in branches]):
+                self.ax.plot(x, y, color=self._series(style.colour), linestyle=style.dashes, linewidth=CURVE * POINT)
+        for line in self.drawn.lines:
+            colour = self._colour(line.branches[0])
+            if len(line.markers):
+                self.ax.plot(*line.markers.T, linestyle="none", zorder=3, **self._marker(line.quantity, colour))
+            for arrow in line.arrows:
+                head = MarkerStyle(">").rotated(deg=arrow.angle)
+                self.ax.plot(*arrow.at, marker=head, markersize=8 * POINT, color=colour, zorder=3)
+
+    def _marker(self, quantity: int, colour: str) -> dict[str, Any]:
+        """The marker of a quantity."""
+        is_open = quantity // len(MARKERS) % 2 == 0
+        return {
+            "marker": MARKERS[quantity % len(MARKERS)],
+            "markersize": 8.4 * POINT,
+            "markerfacecolor": self.theme.background if is_open else colour,
+            "markeredgecolor": colour,
+            "markeredgewidth": 1.6 * POINT,
+        }
+
+    def _ends(self) -> None:
+        """Ends of branches, arrowheads where curves leave the frame, marked points."""
+        for curve in self.panel.curves:
+            for end, point in zip(curve.ends, curve.points[[0, -1]] if len(curve.points) else (), strict=False):
+                if end == "marked":
+                    colour = self._colour(curve.branch)
+                    self.ax.plot(*point, "o", markersize=6.4 * POINT, color=colour, zorder=3)
+        for exit_ in self.drawn.exits:
+            self.ax.plot(*exit_.at, zorder=4, clip_on=False, **_cut(self._colour(exit_.branch), exit_.upwards))
+        for marked in self.panel.points:
+            self.ax.plot(*marked.at, linestyle="none", zorder=5, **self._point(marked.kind))
+
+    def _point(self, kind: str) -> dict[str, Any]:
+        """The look of a marked point."""
+        ink, paper = self.theme.ink, self.theme.background
+        if kind in ("jam", "model"):
+            colour = self.theme.warning if kind == "jam" else ink
+            return {"marker": "x", "markersize": 10 * POINT, "color": colour, "markeredgewidth": 3.2 * POINT}
+        marker, face = {"start": ("o", paper), "stop": ("s", ink), "end": ("^", paper)}[kind]
+        return {
+            "marker": marker, "markersize": 9 * POINT, "markerfacecolor": face, "markeredgecolor": ink,
+            "markeredgewidth": 2 * POINT,
+        }
+
+    def _flags(self) -> None:
+        """Vertical lines with labels above the frame."""
+        ax, theme = self.ax, self.theme
+        width = self.drawn.x[1] - self.drawn.x[0]
+        for flag in self.drawn.flags:
+            dashes = (0.0, (10 / 1.5, 3 / 1.5, 2 / 1.5, 3 / 1.5)) if flag.asymptote else (0.0, (2.0, 3.0))
+            ax.axvline(flag.at, color=theme.ink, linestyle=dashes, linewidth=(1.5 if flag.asymptote else 1.0) * POINT)
+            is_right = flag.left > self.size[0] * (flag.at - self.drawn.x[0]) / width
+            side = ("left", 4.0) if is_right else ("right", -4.0)
+            align, aside = side if flag.beside else ("right", 0.0)
+            place = (flag.at if flag.beside else self.drawn.x[1], 1.0)
+            ax.annotate(
+                _plain(flag.label), place, xycoords=("data", "axes fraction"),
+                xytext=(aside * POINT, (4.0 + ROW * flag.row) * POINT), textcoords="offset points", ha=align, va="bottom",
+                color=theme.ink, fontsize=SMALL * POINT, annotation_clip=False,
+            )
+            if flag.row:
+                # The line up to its label.
+                ax.annotate(
+                    "", (flag.at, 1.0), xycoords=("data", "axes fraction"),
+                    xytext=(0.0, (4.0 + ROW * flag.row) * POINT), textcoords="offset points", annotation_clip=False,
+                    arrowprops={"arrowstyle": "-", "color": theme.ink, "linestyle": dashes, "linewidth": POINT,
+                                "shrinkA": 0.0, "shrinkB": 0.0},
+                )
+        rows = max((flag.row + 1 for flag in self.drawn.flags), default=0)
+        self.above = ROW * rows + (4.0 if rows else 0.0)
+
+    def _bands(self) -> None:
+        """Coloured stretches below the frame."""
+        if not self.panel.bands:
+            return
+        from matplotlib.lines import Line2D
+        from matplotlib.transforms import ScaledTranslation
+
+        down = ScaledTranslation(0.0, -(3.0 + BAND / 2) * INCH, self.ax.figure.dpi_scale_trans)
+        below = self.ax.get_xaxis_transform() + down
+        least, greatest = self.drawn.x
+        for band in self.panel.bands:
+            ends = (max(band.from_, least), min(band.to, greatest))
+            if ends[0] < ends[1]:
+                line = Line2D(
+                    ends, (0.0, 0.0), transform=below, color=self._series(band.colour), linewidth=BAND * POINT,
+                    solid_capstyle="butt", clip_on=False, gid="band",
+                )
+                self.ax.add_artist(line)
+        self.ax.tick_params(axis="x", length=0.0, pad=(BAND + 7.0) * POINT)
+
+    def _legend(self) -> float:
+        """The legend below the panel; returns its height (px)."""
+        if not self.drawn.legend:
+            return 0.0
+        height = 62.0 if self.panel.bands else 48.0
+        before = None
+        # Curves first, then points, then all else; `ax.get_legend()` is the last of them.
+        for kinds in LEGENDS:
+            entries = [entry for entry in self.drawn.legend if entry.sample["kind"] in kinds]
+            if entries:
+                height += self._entries(entries, height)
+                if before is not None:
+                    self.ax.add_artist(before)
+                before = self.ax.get_legend()
+        return height - 48.0
+
+    def _entries(self, entries: list[reports.LegendEntry], below: float) -> float:
+        """Entries of a legend so far (px) below the frame; returns their height (px)."""
+        from matplotlib.legend_handler import HandlerTuple
+        from matplotlib.transforms import ScaledTranslation
+
+        handles = [self._sample(entry.sample) for entry in entries]
+        texts = [_plain("\n".join(_wrapped(entry.text, WIDTH - 90.0, SMALL))) for entry in entries]
+        longest = max(len(line) for text in texts for line in text.split("\n"))
+        columns = max(1, min(len(texts), int(self.size[0] / (longest * LETTER * SMALL + 60.0))))
+        down = ScaledTranslation(0.0, -below * INCH, self.ax.figure.dpi_scale_trans)
+        self.ax.legend(
+            handles, texts, ncols=columns, loc="upper left", bbox_to_anchor=(0.0, 0.0),
+            bbox_transform=self.ax.transAxes + down, borderaxespad=0.0, borderpad=0.0, frameon=False, handlelength=2.9,
+            columnspacing=1.5, fontsize=SMALL * POINT, labelcolor=self.theme.ink,
+            handler_map={tuple: HandlerTuple(ndivide=1, pad=0.0)},
+        )
+        rows = [text.count("\n") + 1 for text in texts]
+        per_column = -(-len(rows) // columns)
+        return LINE * max(sum(rows[start : start + per_column]) for start in range(0, len(rows), per_column))
+
+    def _sample(self, sample: Any) -> Artist | tuple[Artist, ...]:
+        """What stands in the legend beside a text."""
+        from matplotlib.lines import Line2D
+        from matplotlib.patches import Patch
+
+        ink = self.theme.ink
+        match sample["kind"], sample.get("value"):
+            case "curve", (colour, stroke):
+                strokes = _strokes([(colour, stroke)])
+            case "several", colours:
+                strokes = _strokes([(colour, "solid") for colour in colours])
+            case "marker", quantity:
+                return Line2D([], [], linestyle="none", **self._marker(quantity, ink))
+            case "hatched", hatching:
+                return Patch(**self._hatched(hatching))
+            case "filled", colour:
+                return Patch(facecolor=self._series(colour), linewidth=0.0)
+            case "end", _:
+                return Line2D([], [], linestyle="none", marker="o", markersize=6.4 * POINT, color=ink)
+            case "point", kind:
+                return Line2D([], [], linestyle="none", **self._point(kind))
+            case _:
+                return Line2D([], [], linestyle="none", marker="^", markersize=9 * POINT, color=ink)
+        lines = tuple(
+            Line2D([], [], color=self._series(style.colour), linestyle=style.dashes, linewidth=CURVE * POINT)
+            for style in strokes
+        )
+        return lines[0] if len(lines) == 1 else lines
+
+
+class _Stroke(NamedTuple):
+    colour: int
+    dashes: Any
+
+
+def _strokes(branches: Sequence[tuple[int, str]]) -> list[_Stroke]:
+    """The strokes of a line; one that stands for several branches has dashes of all their colours."""
+    if len(branches) == 1:
+        ((colour, stroke),) = branches
+        return [_Stroke(colour, DASHES[stroke])]
+    rest = DASH * (len(branches) - 1)
+    shared = [_Stroke(colour, (-DASH * index, (DASH, rest))) for index, (colour, _) in enumerate(branches)]
+    # The first colour lies beneath those of the others.
+    return [_Stroke(shared[0].colour, "-"), *shared[1:]]
+
+
+def _cut(colour: str, upwards: bool) -> dict[str, Any]:
+    """The look of an arrowhead where a curve leaves the frame."""
+    from matplotlib.markers import CARETDOWN, CARETUP
+
+    return {
+        "marker": CARETUP if upwards else CARETDOWN,
+        "markersize": 9 * POINT,
+        "color": colour,
+        "linestyle": "none",
+        "markeredgewidth": 0.0,
+    }
+
+
+def _styled(ax: Axes, theme: reports.Theme) -> None:
+    """The frame and the numbers of Axes."""
+    ax.set_facecolor(theme.background)
+    for spine in ax.spines.values():
+        spine.set(color=theme.ink, linewidth=1.2 * POINT)
+    ax.tick_params(colors=theme.ink, labelsize=SMALL * POINT, length=5 * POINT, width=1.2 * POINT)
+    ax.set_axisbelow(True)
+
+
+def plot_map(
+    shown: reports.DrawnMap,
+    pixels: np.ndarray[Any, Any],
+    ax: Axes | None = None,
+    *,
+    theme: ThemeName = "light",
+) -> Axes:
+    """Draws a map on Axes, or on those of a new figure of pyplot, and returns them. `pixels` has the class of each
+    pixel, a row for each row of the map from the bottom."""
+    pyplot = _pyplot()
+    colours = _slideway.theme(theme)
+    if ax is None:
+        rows, columns = pixels.shape
+        width = float(np.clip(MAP_HEIGHT * columns / rows, *MAP_WIDTHS))
+        size = ((width + 420.0) * INCH, (MAP_HEIGHT + 100.0) * INCH)
+        new, ax = pyplot.subplots(figsize=size, layout="constrained", facecolor=colours.background)
+        new.get_layout_engine().set(w_pad=MARGIN * INCH, h_pad=MARGIN * INCH)
+    assert ax is not None
+    _styled(ax, colours)
+    _fill(shown, pixels, ax, colours)
+    if shown.model is not None:
+        _cross(ax, shown.model, colours)
+    ax.set_xlabel(_named(shown.x), color=colours.ink, fontsize=TEXT * POINT)
+    ax.set_ylabel(_named(shown.y), color=colours.ink, fontsize=TEXT * POINT)
+    _map_legend(shown, ax, colours)
+    lines = [*_wrapped(shown.title, WIDTH, TEXT), *_wrapped(shown.subtitle, WIDTH, TEXT)]
+    title = _plain("\n".join(lines))
+    ax.set_title(title, loc="left", color=colours.ink, fontsize=TEXT * POINT, fontweight="bold")
+    return ax
+
+
+def _ranges(shown: reports.DrawnMap) -> tuple[tuple[float, float], tuple[float, float]]:
+    assert shown.x.range is not None and shown.y.range is not None
+    return shown.x.range, shown.y.range
+
+
+def _fill(shown: reports.DrawnMap, pixels: np.ndarray[Any, Any], ax: Axes, theme: reports.Theme) -> None:
+    """Colours and hatches of the classes."""
+    from matplotlib.colors import to_rgb
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    x, y = _ranges(shown)
+    colours = np.array([to_rgb(each.fill) for each in shown.classes])
+    ax.imshow(colours[pixels], origin="lower", extent=(*x, *y), aspect="auto", interpolation="nearest")
+    edges = [np.linspace(*range_, count + 1) for range_, count in ((x, pixels.shape[1]), (y, pixels.shape[0]))]
+    for index, each in enumerate(shown.classes):
+        if each.hatching is None:
+            continue
+        boxes = []
+        for row, inside in enumerate(pixels == index):
+            (ends,) = np.nonzero(np.diff(np.concatenate([[0], inside.astype(np.int8), [0]])))
+            for left, right in zip(edges[0][ends[::2]], edges[0][ends[1::2]], strict=True):
+                bottom, top = edges[1][row : row + 2]
+                boxes.append([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
+        paths = Path.make_compound_path(*map(Path, boxes))
+        patch = PathPatch(paths, facecolor="none", edgecolor=theme.ink, hatch=HATCHES[each.hatching], linewidth=0.0)
+        patch.set_alpha(0.35)
+        ax.add_patch(patch)
+
+
+def _cross(ax: Axes, place: tuple[float, float], theme: reports.Theme) -> None:
+    """A cross at the values of the model."""
+    for colour, width in [(theme.background, 4.5), (theme.ink, 2.0)]:
+        ax.plot(*place, marker="x", markersize=10 * POINT, color=colour, markeredgewidth=width * POINT)
+
+
+def _map_legend(shown: reports.DrawnMap, ax: Axes, theme: reports.Theme) -> None:
+    """The legend beside a map."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Artist] = []
+    texts = []
+    for each in shown.classes:
+        hatch = HATCHES[each.hatching] if each.hatching else None
+        handles.append(Patch(facecolor=each.fill, edgecolor=theme.muted, hatch=hatch, linewidth=POINT))
+        texts.append(each.text)
+    if shown.model is not None:
+        cross = Line2D([], [], linestyle="none", marker="x", markersize=10 * POINT, color=theme.ink, markeredgewidth=1.5)
+        handles.append(cross)
+        texts.append("the model")
+    for mode in shown.modes:
+        handles.append(Patch(alpha=0.0))
+        texts.append(mode)
+    ax.legend(
+        handles, [_plain("\n".join(textwrap.wrap(text, MAP_LEGEND))) for text in texts], loc="upper left",
+        bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0, frameon=False, fontsize=SMALL * POINT, labelcolor=theme.ink,
+        handlelength=1.7,
+    )

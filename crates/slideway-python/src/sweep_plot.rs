@@ -1,0 +1,93 @@
+//! Plots of sweeps.
+
+use crate::answer::{not_finite, theme};
+use crate::sweep::Table;
+use crate::to_python::to_python;
+use crate::work::{Ended, Watch};
+use pyo3::exceptions::{PyTimeoutError, PyValueError};
+use pyo3::prelude::*;
+use slideway::Faults;
+use slideway::limits::Quantity;
+use slideway::progress::{Callback, Progress};
+use slideway::sweep::{Rows, Sweep, SweepState};
+use slideway_pictures::plot::{Figure, SamplesPlot, SweepPlot, drawn, to_svg};
+
+/// The plot of a sweep.
+#[pyclass(frozen, module = "slideway._slideway")]
+pub(crate) struct SweepFigure {
+    figure: Figure,
+}
+
+impl SweepFigure {
+    pub(crate) fn of(py: Python<'_>, table: &Table, quantity: Quantity, watch: &Watch) -> PyResult<Self> {
+        if let Some(shard) = table.sweep.of_shard() {
+            return Err(PyValueError::new_err(format!("shard {shard} has no plot: merge all of them")));
+        }
+        let model = &table.asked.model;
+        let refused = |faults: Faults| table.asked.refused(py, &faults);
+        // Strokes tell of attainability.
+        let options = table.options.clone().attainability(true);
+        let sweep = watch.run_beside(py, |callback| Sweep::new_with(model, &options, callback).transpose())?;
+        let sweep = sweep.whole()?.map_err(refused)?;
+        if sweep.line().is_none() && sweep.has_branches() {
+            let needed = "a plot needs one varied quantity with ascending values, or random samples";
+            return Err(PyValueError::new_err(format!("{needed}; map() shows two quantities")));
+        }
+        let title = model.title.as_deref();
+        let nothing = || PyValueError::new_err("the model has no such quantity to plot");
+        let figure = if sweep.has_branches() {
+            let mut plot = SweepPlot::new(&sweep, quantity).ok_or_else(nothing)?;
+            let extractor = plot.extractor();
+            let state = run(py, &sweep, watch, |rows| extractor.rows(rows), |part| plot.add(part))?;
+            plot.set_branches(state.branches());
+            plot.figure(title)
+        } else {
+            let mut plot = SamplesPlot::new(&sweep, quantity).ok_or_else(nothing)?;
+            let taker = plot.clone();
+            let state = run(py, &sweep, watch, |rows| taker.rows(rows), |part| plot.add(&part))?;
+            plot.figure(title, &state)
+        };
+        Ok(Self { figure: figure.changed_by(&table.asked.settings) })
+    }
+}
+
+/// Takes what a plot needs of all rows.
+fn run<T: Send>(
+    py: Python<'_>,
+    sweep: &Sweep,
+    watch: &Watch,
+    take: impl Fn(&Rows) -> T + Sync,
+    mut add: impl FnMut(T) + Send,
+) -> PyResult<SweepState> {
+    let mut state = sweep.start();
+    let ended = watch.run_beside(py, |callback: &mut Callback<'_>| {
+        sweep.run(&mut state, &take, &mut |parts, state| {
+            parts.into_iter().for_each(&mut add);
+            callback(&Progress::of("points", state.done, sweep.points()))
+        });
+    })?;
+    match ended {
+        Ended::Done(()) => Ok(state),
+        Ended::TimeUp(()) => Err(PyTimeoutError::new_err("the sweep was not done within time_limit")),
+    }
+}
+
+#[pymethods]
+impl SweepFigure {
+    /// The plot as plain data.
+    #[pyo3(signature = () -> "slideway.reports.Figure")]
+    fn figure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.figure)
+    }
+
+    /// What its panels show in frames of this width and height (px, of which small text has 13).
+    #[pyo3(signature = (width, height) -> "list[slideway.reports.DrawnPanel]")]
+    fn drawn<'py>(&self, py: Python<'py>, width: f64, height: f64) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &drawn(&self.figure, [width, height]))
+    }
+
+    /// The plot as SVG.
+    fn svg(&self, theme_name: &str) -> PyResult<String> {
+        to_svg(&self.figure, theme(theme_name)?).map_err(not_finite)
+    }
+}
