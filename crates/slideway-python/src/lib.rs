@@ -6,7 +6,7 @@
 //! # Files
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
-//! `motion.rs` a motion with its table, `to_python.rs` turns values into objects, `fault.rs` faults into
+//! `motion.rs` a motion with its table, `mechanism.rs` the builder `Mechanism`, `to_python.rs` turns values into objects, `fault.rs` faults into
 //! exceptions, `modes.rs` are problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
@@ -14,6 +14,7 @@
 mod answer;
 mod arguments;
 mod fault;
+mod mechanism;
 mod model;
 mod modes;
 mod motion;
@@ -23,8 +24,13 @@ mod work;
 /// The private half of the package; see `slideway`.
 #[pyo3::pymodule(gil_used = false)]
 mod _slideway {
+    /// The fixed frame, where the name of a body is expected.
+    #[pymodule_export]
+    const GROUND: &str = crate::mechanism::GROUND;
     #[pymodule_export]
     use crate::answer::Answer;
+    #[pymodule_export]
+    use crate::mechanism::Mechanism;
     #[pymodule_export]
     use crate::model::{Model, gallery_models};
     #[pymodule_export]

@@ -40,7 +40,8 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
+    /// The model of a text.
+    pub(crate) fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
         let asked = |model| Asked { model, text: Arc::from(text), settings: Settings::default() };
         match py.detach(|| slideway::Model::parse(text)) {
             Ok(model) => Ok(Self { asked: asked(model), units: None }),

@@ -21,7 +21,17 @@ model.
 from . import modes, reports
 from ._errors import Fault, ModelError
 from ._motion import Motion
-from ._slideway import Model, gallery_models
+from ._slideway import GROUND, Mechanism, Model, gallery_models
 
-__all__ = ["Fault", "Model", "ModelError", "Motion", "gallery_models", "modes", "reports"]
+__all__ = [
+    "GROUND",
+    "Fault",
+    "Mechanism",
+    "Model",
+    "ModelError",
+    "Motion",
+    "gallery_models",
+    "modes",
+    "reports",
+]
 __version__ = "0.1.0"
