@@ -6,8 +6,8 @@
 //! # Files
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
-//! `motion.rs` a motion with its table, `mechanism.rs` the builder `Mechanism`, `to_python.rs` turns values into objects, `fault.rs` faults into
-//! exceptions, `modes.rs` are problems given by matrices.
+//! `mechanism` the builder `Mechanism`, `motion.rs` a motion with its table, `to_python.rs` turns values into objects,
+//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `modes.rs` problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
@@ -18,6 +18,7 @@ mod mechanism;
 mod model;
 mod modes;
 mod motion;
+mod sweep;
 mod to_python;
 mod work;
 
@@ -37,4 +38,6 @@ mod _slideway {
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]
     use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::sweep::Table;
 }

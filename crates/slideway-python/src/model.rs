@@ -4,6 +4,7 @@ use crate::answer::{Answer, Asked, theme};
 use crate::arguments::{settings, units, value, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
+use crate::sweep;
 use crate::work::Watch;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -440,6 +441,45 @@ impl Model {
         let report =
             self.ask(py, (time_limit, progress), |model, callback| map_with(model, &options, callback))?;
         Answer::object(py, "MapReport", report, Some(self.asked.clone()))
+    }
+
+    /// All solutions at every point of a grid, or of random samples: a table, a `Sweep`.
+    ///
+    /// Each quantity that is varied, a parameter, a coordinate, `"COORDINATE.rate"` (by `**{"x.rate": ...}`),
+    /// `friction` (the factor on all coefficients) or `time`, has its values: an array, a list of numbers or texts
+    /// with units, or a text such as "0..0.8:801" (evenly spaced, both ends included) or "0.01..1:50:log". The last
+    /// one varies fastest. With `samples=N` these are distributions: "0.1..0.5", "uniform(0.1, 0.5)",
+    /// "normal(0.3, 0.05)", "lognormal(0.3, 0.2)"; `sampling` is "random" or "halton", and the same `seed` gives the
+    /// same samples.
+    ///
+    /// `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
+    /// whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
+    /// bodies and hinge forces.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
+        attainability = false, all_columns = false, time_limit = None, progress = None,
+        **values) -> "slideway.Sweep")]
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        samples: Option<u64>,
+        sampling: &str,
+        seed: u64,
+        breakpoints: bool,
+        attainability: bool,
+        all_columns: bool,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+        values: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if samples == Some(0) {
+            return Err(PyValueError::new_err("samples must be at least 1"));
+        }
+        let sampling = sweep::spread(sampling)?;
+        let question = sweep::Question { samples, sampling, seed, breakpoints, attainability, all_columns };
+        let options = question.options(&|faults| self.refused(py, &faults), values)?;
+        let table = sweep::table(py, &self.asked, &options, &Watch::new(time_limit, progress)?)?;
+        py.import("slideway._sweep")?.getattr("Sweep")?.call1((table,))
     }
 
     /// The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and

@@ -1,5 +1,7 @@
 //! The columns of a table.
 
+use crate::npz::element_type;
+use crate::record::fields;
 use slideway::sweep::Sweep;
 
 /// The columns of a table besides its numbers.
@@ -22,5 +24,15 @@ impl Layout {
         let mut varied_columns: Vec<_> = columns.collect();
         let numbers = varied_columns.split_off(varied);
         Self { varied: varied_columns, numbers, contacts: sweep.contacts().count(), attainability }
+    }
+
+    /// The columns in their order, each with its type in the language of NumPy: "<u8", "<u4", "<f8", "|S12".
+    pub fn fields(&self) -> Vec<(String, String)> {
+        fields(self).into_iter().map(|field| (field.name, element_type(field.kind))).collect()
+    }
+
+    /// Bytes of a record.
+    pub fn record(&self) -> usize {
+        crate::record::size(self)
     }
 }

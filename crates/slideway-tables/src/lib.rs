@@ -9,7 +9,10 @@
 //!
 //! # Features
 //! - `parquet`: Parquet files. Its library takes long to build.
+//! - `arrow`: tables as Apache Arrow, for data frames in the same process.
 
+#[cfg(feature = "arrow")]
+pub mod arrow;
 mod csv;
 mod encoder;
 mod error;

@@ -187,7 +187,7 @@ fn array_header(layout: &Layout, count: u64) -> Vec<u8> {
 }
 
 /// The type of a field as NumPy writes it.
-fn element_type(kind: FieldKind) -> String {
+pub(crate) fn element_type(kind: FieldKind) -> String {
     match kind {
         FieldKind::Point => "<u8".to_owned(),
         FieldKind::Count | FieldKind::Branch => "<u4".to_owned(),

@@ -22,6 +22,7 @@ from . import modes, reports
 from ._errors import Fault, ModelError
 from ._motion import Motion
 from ._slideway import GROUND, Mechanism, Model, gallery_models
+from ._sweep import Sweep
 
 __all__ = [
     "GROUND",
@@ -30,6 +31,7 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
+    "Sweep",
     "gallery_models",
     "modes",
     "reports",

@@ -205,6 +205,12 @@ impl Model {
     /// # Errors
     /// An expression that cannot be read or has no value, or one of another dimension than it has now.
     pub fn setting_value(&self, setting: &Setting) -> Result<f64, Faults> {
+        // A number is in SI units: its own value, and no expression that would have to be read.
+        if let Value::Number(number) = setting.value
+            && number.is_finite()
+        {
+            return Ok(number);
+        }
         let (parameters, coordinates) = (&self.parameters, &self.coordinates);
         let wanted = if setting.kind == SettingKind::Parameter {
             let index = parameters.iter().position(|parameter| *parameter.name == *setting.name);

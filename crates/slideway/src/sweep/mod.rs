@@ -358,12 +358,13 @@ impl Sweep {
 
 /// The axes, with every fault of each.
 fn axes(model: &Model, points: &SweepPoints) -> Result<Vec<Axis>, Faults> {
-    let read: Vec<(String, Result<Axis, Faults>)> = match points {
+    // As texts, which may list many values, only where something is wrong.
+    let read: Vec<(&dyn ToString, Result<Axis, Faults>)> = match points {
         SweepPoints::Grid(axes) => {
-            axes.iter().map(|axis| (axis.to_string(), Axis::of_grid(model, axis))).collect()
+            axes.iter().map(|axis| (axis as &dyn ToString, Axis::of_grid(model, axis))).collect()
         }
         SweepPoints::Samples(_, axes) => {
-            axes.iter().map(|axis| (axis.to_string(), Axis::of_samples(model, axis))).collect()
+            axes.iter().map(|axis| (axis as &dyn ToString, Axis::of_samples(model, axis))).collect()
         }
     };
     let mut faults = Faults::default();
@@ -381,12 +382,12 @@ fn axes(model: &Model, points: &SweepPoints) -> Result<Vec<Axis>, Faults> {
             }
         };
         if axes.iter().any(|other| other.quantity.kind == axis.quantity.kind) {
-            faults.append(fault(&text, AxisProblem::Twice { name: axis.quantity.name.clone() }));
+            faults.append(fault(&text.to_string(), AxisProblem::Twice { name: axis.quantity.name.clone() }));
         }
         let more = points.and_then(|points| points.checked_mul(axis.values.len()));
         points = more.filter(|points| *points <= MOST_POINTS);
         if points.is_none() {
-            faults.append(fault(&text, AxisProblem::TooMany { limit: MOST_POINTS }));
+            faults.append(fault(&text.to_string(), AxisProblem::TooMany { limit: MOST_POINTS }));
             points = Some(1);
         }
         axes.push(axis);

@@ -101,12 +101,23 @@ fn wilson(hits: u64, count: u64) -> Probability {
     let z2 = CONFIDENCE * CONFIDENCE;
     let middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
     let half = CONFIDENCE / (1.0 + z2 / n) * (share * (1.0 - share) / n + z2 / (4.0 * n * n)).sqrt();
-    Probability { share, interval: [(middle - half).max(0.0), (middle + half).min(1.0)] }
+    // Without hits, or with hits alone, an end is the share itself, but for rounding.
+    let lower = if share == 0.0 { 0.0 } else { middle - half };
+    let upper = if share == 1.0 { 1.0 } else { middle + half };
+    Probability { share, interval: [lower, upper] }
 }
 
 #[cfg(test)]
 mod tests {
     use super::wilson;
+
+    #[test]
+    fn an_interval_ends_where_nothing_is_left() {
+        for count in 1..2000 {
+            assert_eq!(wilson(0, count).interval[0], 0.0);
+            assert_eq!(wilson(count, count).interval[1], 1.0);
+        }
+    }
 
     /// R. G. Newcombe, Statistics in Medicine 17 (1998), table I, method 3: 81/263, 15/148, 0/20, 1/29.
     #[test]

@@ -1,0 +1,104 @@
+"""All solutions at many points."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+
+    from . import _slideway, reports
+
+
+class Sweep:
+    """All solutions at the points of a sweep, one row for each: a table that NumPy, polars, pyarrow, DuckDB and pandas
+    take without a copy through text.
+
+    >>> import numpy as np, slideway
+    >>> sweep = slideway.Model.gallery("drawer").sweep(mu=np.linspace(0.0, 1.0, 11))
+    >>> sweep.tally.solutions
+    {0: 4, 1: 7}
+    >>> sweep["normal_force.guide.front"][:3].round(2)
+    array([15.  , 17.65, 21.43])
+
+    A point without a solution has one row, whose numbers are NaN (null in data frames).
+    """
+
+    def __init__(self, table: _slideway.Table) -> None:
+        self._table = table
+        self._rows = np.asarray(table)
+
+    @property
+    def columns(self) -> list[str]:
+        """The names of the columns."""
+        return list(self._rows.dtype.names or ())
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each column of numbers; empty for pure numbers."""
+        return self._table.units
+
+    @property
+    def contacts(self) -> tuple[str, ...]:
+        """The names of the contacts, in the order of the signs in `pattern`."""
+        return self._table.contacts
+
+    @property
+    def tally(self) -> reports.Tally:
+        """How many points came to what."""
+        return self._table.tally()
+
+    def __getitem__(self, column: str) -> NDArray[Any]:
+        """A column as an array: numbers share the memory of the table and cannot be written to, words are copied."""
+        if column not in (self._rows.dtype.names or ()):
+            near = difflib.get_close_matches(column, self.columns, n=1)
+            meant = f"; did you mean {near[0]!r}?" if near else ""
+            raise KeyError(f"there is no column {column!r}{meant}")
+        values: NDArray[Any] = self._rows[column]
+        return values.astype(str) if values.dtype.kind == "S" else values
+
+    def __len__(self) -> int:
+        return self._table.rows
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def keys(self) -> list[str]:
+        """The names of the columns: `dict(sweep)` has the columns by their names."""
+        return self.columns
+
+    def to_numpy(self) -> NDArray[np.void]:
+        """The table as an array of records, which shares its memory: what `numpy.load` gives of the `rows` in a file
+        of `slideway sweep --output FILE.npz`."""
+        return self._rows
+
+    def to_polars(self) -> polars.DataFrame:
+        """The table as a data frame of polars."""
+        import polars
+
+        return polars.DataFrame(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a data frame of pandas."""
+        import pandas
+
+        return pandas.DataFrame(dict(self))
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return self._table.__arrow_c_stream__(requested_schema)
+
+    def text(self, *, color: bool = False) -> str:
+        """What the sweep comes to, as the command line says it."""
+        return self._table.text(color)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        return f"<slideway.Sweep: {self._table.points} points, {len(self)} rows, {len(self.columns)} columns>"

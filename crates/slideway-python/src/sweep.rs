@@ -1,0 +1,218 @@
+//! Sweeps: all solutions at many points as one table, shared with NumPy and data frames without a copy.
+
+use crate::answer::Asked;
+use crate::arguments::value;
+use crate::to_python::to_python;
+use crate::work::{Ended, Watch};
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use pyo3::exceptions::{PyTimeoutError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyCapsule, PyDict, PyString, PyTuple};
+use slideway::Faults;
+use slideway::model::Value;
+use slideway::progress::Progress;
+use slideway::report::Style;
+use slideway::sweep::{
+    GridAxis, SampledAxis, Sampling, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
+};
+use slideway_tables::arrow::Batches;
+use slideway_tables::{Encoder, Layout};
+use std::sync::Arc;
+
+/// What is asked of a sweep beside its axes.
+pub(crate) struct Question {
+    pub(crate) samples: Option<u64>,
+    pub(crate) sampling: Spread,
+    pub(crate) seed: u64,
+    pub(crate) breakpoints: bool,
+    pub(crate) attainability: bool,
+    pub(crate) all_columns: bool,
+}
+
+impl Question {
+    /// What the library is asked for.
+    pub(crate) fn options(
+        &self,
+        refused: &dyn Fn(Faults) -> PyErr,
+        axes: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<SweepOptions> {
+        let mut named = Vec::new();
+        for (name, values) in axes.into_iter().flatten() {
+            named.push((name.extract::<String>()?, values));
+        }
+        if named.is_empty() {
+            return Err(PyTypeError::new_err(
+                "give what is varied, such as sweep(mu=numpy.linspace(0, 1, 101))",
+            ));
+        }
+        let points = match self.samples {
+            Some(count) => {
+                let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
+                let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
+                SweepPoints::Samples(sampling, axes.collect::<PyResult<_>>()?)
+            }
+            None => {
+                let axes = named.iter().map(|(name, values)| grid(refused, name, values));
+                SweepPoints::Grid(axes.collect::<PyResult<_>>()?)
+            }
+        };
+        Ok(SweepOptions::over(points)
+            .breakpoints(self.breakpoints)
+            .attainability(self.attainability)
+            .all_columns(self.all_columns))
+    }
+}
+
+/// Values on a grid: a text such as "0..1:101", or a list.
+fn grid(refused: &dyn Fn(Faults) -> PyErr, name: &str, values: &Bound<'_, PyAny>) -> PyResult<GridAxis> {
+    if let Ok(text) = values.cast::<PyString>() {
+        return format!("{name}={text}").parse().map_err(refused);
+    }
+    if let Ok(number) = value(name, values) {
+        return Ok(GridAxis::listed(name, [number]));
+    }
+    if let Ok(numbers) = values.extract::<numpy::PyArrayLike1<'_, f64, numpy::AllowTypeChange>>() {
+        let numbers = numbers.as_array();
+        if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+            return Err(PyValueError::new_err(format!("the values of {name} must be finite, not {number}")));
+        }
+        return Ok(GridAxis::listed(name, numbers.iter().copied()));
+    }
+    let wanted =
+        || format!("{name} must be an array or list of numbers or texts, or a text such as \"0..1:101\"");
+    let items = values.try_iter().map_err(|_| PyTypeError::new_err(wanted()))?;
+    let list: Vec<Value> = items.map(|item| value(name, &item?)).collect::<PyResult<_>>()?;
+    Ok(GridAxis::listed(name, list))
+}
+
+/// A distribution, as a text such as "normal(0.3, 0.05)".
+fn sampled(
+    refused: &dyn Fn(Faults) -> PyErr,
+    name: &str,
+    values: &Bound<'_, PyAny>,
+) -> PyResult<SampledAxis> {
+    let Ok(text) = values.cast::<PyString>() else {
+        let message =
+            format!("with samples, {name} must be a text such as \"normal(0.3, 0.05)\" or \"0.1..0.5\"");
+        return Err(PyTypeError::new_err(message));
+    };
+    format!("{name}={text}").parse().map_err(refused)
+}
+
+/// How samples are distributed.
+pub(crate) fn spread(name: &str) -> PyResult<Spread> {
+    match name {
+        "random" => Ok(Spread::Random),
+        "halton" => Ok(Spread::Halton),
+        _ => Err(PyValueError::new_err(format!("sampling must be 'random' or 'halton', not {name:?}"))),
+    }
+}
+
+/// All solutions at the points of a sweep: private half of `slideway.Sweep`.
+#[pyclass(frozen, module = "slideway._slideway")]
+pub(crate) struct Table {
+    sweep: Sweep,
+    state: SweepState,
+    layout: Layout,
+    records: Arc<Vec<u8>>,
+}
+
+/// Computes a sweep.
+pub(crate) fn table(py: Python<'_>, asked: &Asked, options: &SweepOptions, watch: &Watch) -> PyResult<Table> {
+    let refused = |faults: Faults| asked.refused(py, &faults);
+    let prepared = watch.run(py, |callback| Sweep::new_with(&asked.model, options, callback).transpose())?;
+    let sweep = prepared.whole()?.map_err(refused)?;
+    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
+    let mut state = sweep.start();
+    let points = sweep.points();
+    let ended = watch.run(py, |callback| {
+        let mut records = Vec::new();
+        sweep.run(&mut state, &|rows| Encoder::records(&layout, rows), &mut |parts, state| {
+            parts.iter().for_each(|part| records.extend_from_slice(part));
+            callback(&Progress::of("points", state.done, points))
+        });
+        records
+    })?;
+    match ended {
+        Ended::Done(records) => Ok(Table { sweep, state, layout, records: Arc::new(records) }),
+        Ended::TimeUp(_) => {
+            let done = state.done;
+            let message = format!("the sweep was not done within time_limit: {done} of {points} points");
+            Err(PyTimeoutError::new_err(message))
+        }
+    }
+}
+
+#[pymethods]
+impl Table {
+    /// The records as an array of NumPy, which shares their memory.
+    #[getter]
+    fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let interface = PyDict::new(py);
+        interface.set_item("version", 3)?;
+        interface.set_item("shape", (self.rows(),))?;
+        interface.set_item("typestr", format!("|V{}", self.layout.record()))?;
+        interface.set_item("descr", self.layout.fields())?;
+        interface.set_item("data", (self.records.as_ptr() as usize, true))?;
+        Ok(interface)
+    }
+
+    /// The table as a stream of Arrow (the Arrow `PyCapsule` interface).
+    #[pyo3(signature = (requested_schema = None) -> "object")]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        // The interface lets a producer ignore what is requested.
+        drop(requested_schema);
+        let batches = Batches::new(&self.layout, self.records.clone());
+        let stream = FFI_ArrowArrayStream::new(Box::new(batches));
+        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+
+    /// Number of rows.
+    #[getter]
+    fn rows(&self) -> usize {
+        self.records.len() / self.layout.record()
+    }
+
+    /// Number of points, inserted ones included.
+    #[getter]
+    fn points(&self) -> u64 {
+        self.sweep.points()
+    }
+
+    /// Number of varied quantities.
+    #[getter]
+    fn varied(&self) -> usize {
+        self.layout.varied.len()
+    }
+
+    /// The unit of each column that has one.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let units = PyDict::new(py);
+        for (name, unit) in self.layout.varied.iter().chain(&self.layout.numbers) {
+            units.set_item(name, unit)?;
+        }
+        Ok(units)
+    }
+
+    /// The names of the contacts, in the order of the signs of patterns.
+    #[getter]
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.sweep.contacts().collect::<Vec<_>>())
+    }
+
+    /// How many points came to what.
+    #[pyo3(signature = () -> "slideway.reports.Tally")]
+    fn tally<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.state.tally)
+    }
+
+    /// What the sweep comes to, in words.
+    fn text(&self, color: bool) -> String {
+        self.sweep.text(&self.state, if color { Style::Colour } else { Style::Plain })
+    }
+}
