@@ -1,0 +1,61 @@
+//! The tests of the Python package: its wheel is built and installed in an environment of its own, then pytest runs.
+//!
+//! Everything that is needed comes from `tests/requirements.txt`; Python 3.11 or newer has to be there, as `python3`
+//! or as what `PYTHON` names.
+
+use std::env;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Runs a command, and fails with what it printed if it fails.
+fn run(command: &mut Command) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?} cannot be run: {error}"));
+    assert!(
+        output.status.success(),
+        "{command:?} failed:\n{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// The environment: made anew where what it needs has changed.
+fn environment(target: &Path, requirements: &Path) -> PathBuf {
+    let environment = target.join("python-tests");
+    let kept = environment.join("requirements.txt");
+    let wanted = fs::read_to_string(requirements).expect("tests/requirements.txt");
+    let python = environment.join("bin").join("python");
+    if fs::read_to_string(&kept).ok().as_ref() != Some(&wanted) {
+        let host = env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
+        run(Command::new(host).args(["-m", "venv", "--clear"]).arg(&environment));
+        let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
+        run(Command::new(&python).args(install).arg(requirements));
+        fs::write(kept, wanted).expect("the environment can be written to");
+    }
+    python
+}
+
+#[test]
+fn the_package_passes_its_tests() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let target = env::current_exe().expect("a program");
+    // target/debug/deps/python-...
+    let target = target.ancestors().nth(3).expect("a folder of targets");
+    let python = environment(target, &package.join("tests/requirements.txt"));
+    let wheels = target.join("python-wheels");
+    let _ = fs::remove_dir_all(&wheels);
+    // As Cargo has built the workspace, where the same is built again.
+    let build = ["-m", "maturin", "build", "--quiet", "--locked", "--profile", "dev", "--out"];
+    run(Command::new(&python)
+        .args(build)
+        .arg(&wheels)
+        .current_dir(package)
+        .env("CARGO_TARGET_DIR", target));
+    let is_wheel = |path: &PathBuf| path.extension() == Some(OsStr::new("whl"));
+    let wheel = fs::read_dir(&wheels).expect("wheels").map(|entry| entry.expect("an entry").path());
+    let wheel = wheel.into_iter().find(is_wheel).expect("a wheel");
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--force-reinstall", "--no-deps"];
+    run(Command::new(&python).args(install).arg(wheel));
+    run(Command::new(&python).args(["-m", "pytest", "-q"]).current_dir(package));
+}
