@@ -67,6 +67,7 @@ motion() {
 motion motion-oscillator.svg --plot models/frictional-oscillator.toml --until 2s
 motion motion-stick-slip.svg --plot models/stick-slip.toml --until 4s
 motion motion-drawer-jam.svg --plot models/thrown-drawer.toml --until 0.6s
+motion portrait-drawer-jam.svg --plot models/thrown-drawer.toml --until 0.6s --phase-portrait
 motion motion-drawer-stop.svg --plot models/thrown-drawer.toml --until 0.6s --set "x_s=0.2 m"
 motion motion-klepp.svg --plot models/klepp-2002-spring.toml --until 2s
 motion animation-oscillator.svg --animate models/frictional-oscillator.toml --until 1.6s --slow-motion 5

@@ -159,6 +159,27 @@ def check(slideway, command, folder):
     return expected, nulls
 
 
+def check_shards(slideway, command, folder):
+    """The shards of a sweep, read as one table, are the table of one run, but for the branch."""
+    results, table = folder / "results", folder / "whole.csv"
+    run(slideway, command, str(table))
+    for number in (2, 1, 3):
+        run(slideway, [*command, "--shard", f"{number}/3"], str(results))
+    expected = Expected(table)
+    expected.names.remove("branch")
+    shards = str(results / "*.parquet")
+    check_values("Polars", expected, polars.read_parquet(shards).drop("determinant_sign").to_dict(as_series=False))
+    rows = duckdb.sql(f"select * exclude (determinant_sign) from '{shards}' order by filename, file_row_number")
+    check_values("DuckDB", expected, dict(zip(rows.columns, zip(*rows.fetchall()))))
+    for number, path in enumerate(sorted(results.iterdir()), 1):
+        metadata = polars.read_parquet_metadata(path)
+        part = json.loads(metadata["slideway.shard"])["part"]
+        points = polars.read_parquet(path)["point"].n_unique()
+        assert (part["shard"], part["points"]) == (f"{number}/3", points), part
+        assert re.fullmatch("[0-9a-f]{32}", metadata["slideway.checksum"]), metadata["slideway.checksum"]
+    print(f"{' '.join(command)}: 3 shards, {expected.rows} rows")
+
+
 def main():
     slideway = str(pathlib.Path(sys.argv[1]).resolve())
     seen = {}
@@ -169,6 +190,7 @@ def main():
                 seen.setdefault(name, set()).update(set(expected.columns[name]) if kind(name) == "word" else set())
                 if name in nulls:
                     seen[name].add(None)
+        check_shards(slideway, COMMANDS[0], pathlib.Path(folder))
     # The commands do what they were chosen for.
     assert {"one", "several", "none", "no_position"} <= seen["status"], seen["status"]
     assert {"solution", "preload_gap", None} <= seen["kind"], seen["kind"]

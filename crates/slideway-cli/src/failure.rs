@@ -58,6 +58,15 @@ pub(crate) enum Failure {
     UnknownEnding { path: PathBuf, known: Vec<String> },
     /// A table that is not written from beginning to end.
     NoStream,
+    /// Shards go into a folder.
+    #[cfg(feature = "parquet")]
+    NoFolder,
+    /// Shards without what the strokes of a plot tell of.
+    #[cfg(feature = "parquet")]
+    WithoutAttainability,
+    /// Shards need a feature that the program was built without.
+    #[cfg(not(feature = "parquet"))]
+    WithoutShards,
     /// A plot of what does not go along a line.
     NoLine,
     /// A plot of a quantity that the model has none of.
@@ -65,7 +74,7 @@ pub(crate) enum Failure {
     /// The work was ended before there was an answer, or this file.
     Halted { halt: Halt, path: Option<PathBuf> },
     /// A sweep was ended before it was done; what is done is kept if it goes to a file.
-    Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
+    Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf>, of_shard: bool },
     /// A motion was interrupted, and its table so far is kept.
     MotionInterrupted { path: PathBuf },
     /// An output, or what is kept beside it while it is unfinished, would take the place of the input.
@@ -144,6 +153,16 @@ impl Failure {
                 format!("the extension of `{}` does not determine the form of the table", path.display())
             }
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
+            #[cfg(feature = "parquet")]
+            Self::NoFolder => "a shard can only be written into a folder".to_owned(),
+            #[cfg(feature = "parquet")]
+            Self::WithoutAttainability => {
+                "the shards lack the attainability of solutions, which a plot shows".to_owned()
+            }
+            #[cfg(not(feature = "parquet"))]
+            Self::WithoutShards => {
+                "this program was built without support for Parquet files, which shards are".to_owned()
+            }
             Self::NoLine => {
                 "a plot needs one varied quantity with ascending values, or random samples".to_owned()
             }
@@ -154,12 +173,12 @@ impl Failure {
             Self::Halted { halt, path: Some(path) } => {
                 format!("{} before `{}` was done; it is not written", halt.in_words(), path.display())
             }
-            Self::Unswept { halt, done, points, path: Some(path) } => format!(
+            Self::Unswept { halt, done, points, path: Some(path), .. } => format!(
                 "{} after {done} of {points} points; they are kept in `{}`",
                 halt.in_words(),
                 path.display()
             ),
-            Self::Unswept { halt, done, points, path: None } => {
+            Self::Unswept { halt, done, points, path: None, .. } => {
                 format!("{} after {done} of {points} points", halt.in_words())
             }
             Self::MotionInterrupted { path } => {
@@ -209,6 +228,16 @@ impl Failure {
             Self::WithoutParquet => Some(
                 "build it with `cargo build --release --features parquet`, or use .csv or .npz".to_owned(),
             ),
+            #[cfg(not(feature = "parquet"))]
+            Self::WithoutShards => {
+                Some("build it with `cargo build --release --features parquet`".to_owned())
+            }
+            #[cfg(feature = "parquet")]
+            Self::WithoutAttainability => {
+                Some("omit --plot, or compute the shards with --attainability".to_owned())
+            }
+            #[cfg(feature = "parquet")]
+            Self::NoFolder => Some("name a folder with --output".to_owned()),
             Self::WithoutPixels => {
                 Some("build it with its default features, or use .svg or .html".to_owned())
             }
@@ -243,6 +272,9 @@ impl Failure {
             Self::Halted { halt: Halt::TimeLimit(_), .. } => {
                 Some("allow more time with --time-limit, or ask for less, such as a smaller range".to_owned())
             }
+            Self::Unswept { path: Some(_), of_shard: true, .. } => {
+                Some("the same command continues from there".to_owned())
+            }
             Self::Unswept { path: Some(_), .. } => {
                 Some("the same command with --resume continues from there".to_owned())
             }
@@ -265,6 +297,20 @@ fn hint_on(error: &TableError) -> Option<&'static str> {
         TableError::CannotGoOn { .. } => {
             Some("the finished part is kept: make room, then repeat the command with --resume")
         }
+        TableError::ShardDamaged { .. } => Some("compute this shard again, with --shard K/N --force"),
+        TableError::ShardOfVersion { .. } => {
+            Some("compute this shard again, with --shard K/N --force, or use the version that wrote it")
+        }
+        TableError::ShardOfAnotherSweep { .. } => {
+            Some("name another folder with --output, or overwrite the shard with --force")
+        }
+        TableError::ShardsDiffer { .. } => {
+            Some("remove the shards that do not belong there, and compute theirs again with --shard K/N")
+        }
+        TableError::NoShards { .. } => {
+            Some("`slideway sweep MODEL --vary NAME=VALUES --shard K/N --output FOLDER` writes one")
+        }
+        TableError::ShardsMissing { .. } => Some("compute them with --shard K/N, then merge again"),
         _ => None,
     }
 }

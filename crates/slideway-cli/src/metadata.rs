@@ -13,6 +13,30 @@ pub(crate) fn metadata(input: &Input) -> Metadata {
     Metadata { command: command(std::env::args_os()), model: input.text() }
 }
 
+/// The command of the sweep that this run computes a shard of, without its output.
+#[cfg(feature = "parquet")]
+pub(crate) fn command_of_shards() -> String {
+    command(of_sweep(std::env::args_os()))
+}
+
+/// The arguments that all shards of a sweep have in common.
+#[cfg(any(feature = "parquet", test))]
+fn of_sweep(arguments: impl Iterator<Item = OsString>) -> impl Iterator<Item = OsString> {
+    // Those with a value in which the shards of one sweep may differ, and the short form of the first one.
+    const OF_SHARDS: [&str; 3] = ["--output", "--shard", "--time-limit"];
+    const OUTPUT: &str = "-o";
+    let mut is_value = false;
+    arguments.filter(move |word| {
+        if std::mem::take(&mut is_value) {
+            return false;
+        }
+        let word = word.to_string_lossy();
+        is_value = word == OUTPUT || OF_SHARDS.iter().any(|name| word == *name);
+        let holds_value = |name: &str| word.strip_prefix(name).is_some_and(|rest| rest.starts_with('='));
+        !(is_value || word.starts_with(OUTPUT) || OF_SHARDS.into_iter().any(holds_value))
+    })
+}
+
 /// The command as it may be given again, on one line.
 fn command(arguments: impl Iterator<Item = OsString>) -> String {
     let kept = arguments.skip(1).filter(|word| !LEFT_OUT.iter().any(|left_out| word == left_out));
@@ -21,7 +45,7 @@ fn command(arguments: impl Iterator<Item = OsString>) -> String {
 
 /// A word as a shell takes it: plain, in quotes, or, if it is not printable or no UTF-8, byte by byte where
 /// it has to be.
-fn quoted(word: &OsStr) -> String {
+pub(crate) fn quoted(word: &OsStr) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
     match word.to_str() {
         Some(text) if !text.is_empty() && text.chars().all(plain) => text.to_owned(),
@@ -41,6 +65,18 @@ fn quoted(word: &OsStr) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn shards_of_one_sweep_have_one_command() {
+        for words in [
+            &["--shard", "2/3", "--output", "results", "--vary", "mu=0..1:11", "--time-limit=1h"][..],
+            &["--vary", "mu=0..1:11", "-oresults", "--shard=3/3", "--resume", "--force"],
+            &["--vary", "mu=0..1:11", "--shard", "1/3", "-o", "results", "--time-limit", "2h"],
+        ] {
+            let words = ["slideway", "sweep", "drawer.toml"].iter().chain(words).map(OsString::from);
+            assert_eq!(command(of_sweep(words)), "slideway sweep drawer.toml --vary mu=0..1:11");
+        }
+    }
 
     #[test]
     fn a_command_stays_on_one_line() {

@@ -1,6 +1,6 @@
 //! Files of pictures, in the format that their ending names.
 
-use crate::arguments::{Destination, ModelArguments, PlotArguments};
+use crate::arguments::{Destination, PlotArguments};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::pixels;
@@ -81,11 +81,11 @@ impl Picture {
 /// work begins.
 ///
 /// # Errors
-/// If the file exists, is the model, is that of the answer, or has an ending that names no format.
+/// If the file exists, is the input, is that of the answer, or has an ending that names no format.
 pub(crate) fn beside(
     plot: &PlotArguments,
     answer: &Destination,
-    model: &ModelArguments,
+    input: Option<&Path>,
     output: &Output,
 ) -> Result<Option<(Picture, Output)>, Failure> {
     let Some(path) = &plot.plot else { return Ok(None) };
@@ -94,5 +94,5 @@ pub(crate) fn beside(
         return Err(Failure::SameOutput { path: path.clone() });
     }
     let picture = Picture::of(path)?;
-    Ok(Some((picture, output.to(&destination, Some(&model.file))?)))
+    Ok(Some((picture, output.to(&destination, input)?)))
 }

@@ -86,10 +86,20 @@ fn efficiency_margins_and_rest_are_on_the_page() {
         "<h3>Efforts and efficiency</h3>",
         "efficiency 55 %",
         "there is no solution beyond a factor of 2.2222",
-        "<p>It does not hold: 1 state in which it begins to move.</p>",
+        "<p>Without the drives: push</p>\n<p>It does not hold: 1 state in which it begins to move.</p>",
     ] {
         assert!(html.contains(part), "{part}");
     }
+}
+
+/// The massless bracket is a question of rest, and holds with x = 2 B > B / (2 mu_static) (book, chapter Hold).
+#[test]
+fn a_page_about_rest_is_headed_by_whether_it_holds() {
+    let directory = tempfile::tempdir().unwrap();
+    let (_, html) = page(directory.path(), &["models/bracket-on-pole.toml"]);
+    let header = html.split("</header>").next().unwrap().split("<header>").nth(1).unwrap();
+    assert!(header.contains("<strong>At rest: It holds: it can stay at rest.</strong>"), "{header}");
+    assert!(header.contains("In motion it has no answer:</p>\n<p>the mechanism can move without inertia"));
 }
 
 #[test]

@@ -446,6 +446,15 @@ fn parquet_files_need_their_feature() {
         assert!(run.stderr.contains("built without support for Parquet"), "{}", run.stderr);
         assert!(run.stderr.contains("cargo build --release --features parquet"), "{}", run.stderr);
     }
+    for more in [&["--shard", "1/2", "--output", &name], &["--merge", &name][..]] {
+        let run = if more[0] == "--merge" {
+            slideway(&[&["sweep"], more].concat())
+        } else {
+            slideway(&[&KLEPP[..], &["--vary", "mu_1=0..0.8:3"], more].concat())
+        };
+        assert_eq!(run.code, 2);
+        assert!(run.stderr.contains("Parquet files, which shards are"), "{}", run.stderr);
+    }
     assert_eq!(names(&folder), [""; 0]);
 }
 

@@ -47,6 +47,10 @@ told! {
     strict_without_warnings: 0 ["solve", DRAWER, "--strict"];
     strict_check: 2 ["check", ENGINE, "--strict"];
     three_dots: 2 ["limits", DRAWER, "--vary", "mu=0...1"];
+    one_character_of_three_dots: 2 ["limits", DRAWER, "--vary", "mu=0\u{2026}1"];
+    one_character_of_three_dots_in_a_sweep: 2 ["sweep", DRAWER, "--vary", "mu=0\u{2026}1:5"];
+    one_character_of_three_dots_in_a_setting: 2 ["solve", DRAWER, "--set", "mu=0.1\u{2026}0.2"];
+    great_friction_through_parameters: 1 ["solve", "models/wedge.toml", "--set", "mu=30"];
     three_dots_in_a_sweep: 2 ["sweep", DRAWER, "--vary", "mu=0...1:5"];
     three_dots_in_a_setting: 2 ["solve", DRAWER, "--set", "mu=0.1...0.2"];
     unknown_quantity: 2 ["limits", DRAWER, "--vary", "nu=0..1"];

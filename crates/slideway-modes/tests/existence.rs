@@ -5,11 +5,12 @@ use std::error::Error;
 use crate::klepp_example::{example, reference};
 use crate::search_support::Random;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use slideway_modes::certificate::{IntervalMatrix, IntervalModeProblem, proven_determinant_sign};
 use slideway_modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeInterval, ModeProblemLine, OutputBound,
     counts,
 };
-use slideway_modes::{ContactState, Limits, ModeProblem, Side, enumerate};
+use slideway_modes::{BySide, ContactState, Limits, ModeProblem, Side, enumerate};
 
 const ALL: u64 = 1 << 20;
 
@@ -135,9 +136,46 @@ fn nothing_is_left_up_to_infinity_beyond_locking() -> Result<(), Box<dyn Error>>
     let counts = counts(&line, &existence, [0.3, f64::INFINITY]);
     assert_eq!(counts.iter().map(|count| count.solutions).collect::<Vec<_>>(), [1, 0]);
     // Uniqueness for every load is lost at 2 cot(alpha) - 0.1 already.
-    let lost = line.first_locking(ALL)?.ok_or("a determinant vanishes")?.0;
+    let parameters = reference()?.parameters;
+    let sign_at = |mu_1: f64, pattern: &[ContactState]| {
+        proven_determinant_sign(&example(&parameters, mu_1, [0.0; 3], -1.0), pattern)
+    };
+    let lost = line.first_locking(ALL, &sign_at)?.ok_or("a determinant changes its sign")?.0;
     let cotangent = reference()?.parameters.alpha_deg.to_radians().tan().recip();
     assert!((lost - (2.0 * cotangent - 0.1)).abs() < 1e-12);
+    Ok(())
+}
+
+/// `c_1 = (1 - a t, t)` and `c_2 = (-p t, 1 + a t)` have `det = 1 + (p - a^2) t^2`: 1 for every `t` if
+/// `p = a^2`. With `p = a^2 (1 - e^2)` they have a zero far out, at `1 / (a e)`, which numbers that are known
+/// to within `2 e^2` of themselves need not have; `p = a^2 / 2` has one at `sqrt(2) / a`.
+#[test]
+fn a_zero_that_rounding_makes_locks_nothing() -> Result<(), Box<dyn Error>> {
+    let a: f64 = 0.5;
+    let little = 2.0_f64.powi(-20);
+    let rounded = a * a * (1.0 - little * little);
+    let first = |p: f64, spread: f64| -> Result<Option<f64>, Box<dyn Error>> {
+        let columns = |t: f64| dmatrix![1.0 - a * t, -p * t; t, 1.0 + a * t];
+        let within = |t: f64, sign: f64| {
+            let radius = columns(t).map(|entry| entry.abs() * spread);
+            IntervalMatrix::around(columns(t) * sign, radius).expect("finite")
+        };
+        let none = || IntervalMatrix::exact(DMatrix::zeros(2, 2));
+        let load = IntervalMatrix::exact(dmatrix![1.0; 1.0]);
+        let at = |t: f64| {
+            let both = BySide { positive: within(t, 1.0), negative: within(t, -1.0) };
+            IntervalModeProblem::new(&both, &BySide { positive: none(), negative: none() }, &load)
+        };
+        let line = ModeProblemLine::between(at(0.0)?.centre(), at(1.0)?.centre());
+        let sign_at =
+            |t: f64, pattern: &[ContactState]| proven_determinant_sign(&at(t).expect("shapes fit"), pattern);
+        Ok(line.first_locking(ALL, &sign_at)?.map(|(first, _)| first))
+    };
+    let exact = first(rounded, 0.0)?.ok_or("a zero of these very numbers")?;
+    assert!((exact * a * little - 1.0).abs() < 1e-3, "{exact}");
+    assert_eq!(first(rounded, 2.0 * little * little)?, None);
+    let real = first(0.5 * a * a, f64::EPSILON)?.ok_or("it locks")?;
+    assert!((real - 2.0_f64.sqrt() / a).abs() < 1e-14 * real);
     Ok(())
 }
 
@@ -303,7 +341,8 @@ fn without_contacts_there_is_one_mode_throughout() -> Result<(), Box<dyn Error>>
     let line = ModeProblemLine::between(&empty, &empty);
     let existence = line.existence(&options(0.0, 1.0))?;
     assert_eq!((existence.modes.len(), existence.modes[0].to.at), (1, 1.0));
-    assert_eq!(line.first_locking(ALL)?, None);
+    let sign_at = |_: f64, pattern: &[ContactState]| proven_determinant_sign(&empty, pattern);
+    assert_eq!(line.first_locking(ALL, &sign_at)?, None);
     Ok(())
 }
 

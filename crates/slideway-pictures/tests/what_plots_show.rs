@@ -6,10 +6,10 @@ use slideway::gallery;
 use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
 use slideway::map::{ColourBy, MapOptions, map};
 use slideway::model::{Model, Settings};
-use slideway::motion::{SimulateOptions, simulate};
+use slideway::motion::{Cause, SimulateOptions, simulate};
 use slideway::size::{SizeOptions, size};
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
-use slideway_pictures::plot::{Figure, PointKind, drive_figure, limits_figure, size_figure, to_svg};
+use slideway_pictures::plot::{Figure, PointKind, Stroke, drive_figure, limits_figure, size_figure, to_svg};
 use slideway_pictures::theme::LIGHT;
 
 fn model(name: &str, settings: &Settings) -> Model {
@@ -79,6 +79,65 @@ fn forces_that_last_are_shown_and_the_greatest_is_named() {
     assert_eq!(points, [PointKind::Stop, PointKind::Start]);
 }
 
+/// A block that slides without friction at 1 m/s against a stop of restitution 0.5 leaves it at -0.5 m/s, and one that
+/// jams loses m v^2/2. Elsewhere rates do not jump.
+#[test]
+fn portraits_show_jumps_of_rates() {
+    let bouncing = Model::parse(
+        r#"
+        [points]
+        S = [0, 0]
+        [bodies.block]
+        points = ["S"]
+        mass = "2 kg"
+        moment_of_inertia = "1 kg m^2"
+        centre_of_mass = "S"
+        [joints.rail]
+        type = "block_slider"
+        block = "block"
+        guide = "ground"
+        at = "S"
+        along = "0 deg"
+        length = "0.1 m"
+        mu = 0
+        travel = ["-1 m", "1 m"]
+        stop = { greatest = { restitution = 0.5 } }
+        [coordinates.x]
+        slide = "rail"
+        rate = "1 m/s"
+        "#,
+    )
+    .expect("a sound model");
+    let jumps = |model: &Model, time: f64| {
+        let history = simulate(model, &SimulateOptions::new(time)).expect("a motion");
+        let figure = portrait_figure(&history);
+        let is_jump = |branch: usize| figure.branches[branch].stroke == Stroke::Dashed;
+        let dashed = figure.panels[0].curves.iter().filter(|curve| is_jump(curve.branch));
+        let jumps: Vec<Vec<[f64; 2]>> = dashed.map(|curve| curve.points.clone()).collect();
+        (jumps, history, svg(&figure))
+    };
+    let are = |jumps: &[Vec<[f64; 2]>], expected: &[[f64; 2]]| {
+        let [jump] = jumps else { panic!("one jump: {jumps:?}") };
+        for (one, other) in jump.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((one - other).abs() < 1e-6, "{jump:?}");
+        }
+    };
+    let (stop, _, picture) = jumps(&bouncing, 1.5);
+    are(&stop, &[[1.0, 1.0], [1.0, -0.5]]);
+    assert!(texts(&picture).contains(&"rate of x jumps".to_owned()), "{:?}", texts(&picture));
+
+    let (jam, history, _) = jumps(&model("thrown-drawer", &Settings::default()), 0.6);
+    let lost = history.events.iter().flat_map(|event| &event.causes).find_map(|cause| match cause {
+        Cause::Jams { energy_lost } => Some(*energy_lost),
+        _ => None,
+    });
+    let rate = (2.0 * lost.expect("it jams") / 4.0).sqrt();
+    are(&jam, &[[0.3, rate], [0.3, 0.0]]);
+
+    let (none, _, picture) = jumps(&model("frictional-oscillator", &Settings::default()), 0.5);
+    assert!(none.is_empty() && !picture.contains("jumps"), "{none:?}");
+}
+
 /// Both ends of the oscillating block carry m g / 2 all the time: one line in two colours, with both names.
 #[test]
 fn what_coincides_is_one_line_with_both_names() {
@@ -97,6 +156,12 @@ fn what_coincides_is_one_line_with_both_names() {
     assert_eq!(kinds, [PointKind::Start, PointKind::End], "still moving");
     let portrait = svg(&portrait_figure(&history));
     assert!(portrait.matches("class=\"direction\"").count() > 10);
+    // So does the line below each frame where there is no page around it.
+    let moving = animation(&history, &AnimationOptions::default(), &LIGHT).to_svg().expect("finite places");
+    assert!(
+        moving.contains("mode + +: floor is flat on the lower guide, sliding to the right</text>"),
+        "{moving}"
+    );
     // The page of the moving picture tells modes in words, once each, and has a scale of forces.
     let page = animation(&history, &AnimationOptions::default(), &LIGHT).to_html().expect("finite places");
     let words = page.split("const words = ").nth(1).and_then(|rest| rest.split(';').next()).expect("words");

@@ -47,15 +47,12 @@ fn the_package_passes_its_tests() {
     let _ = fs::remove_dir_all(&wheels);
     // As Cargo has built the workspace, where the same is built again.
     let build = ["-m", "maturin", "build", "--quiet", "--locked", "--profile", "dev", "--out"];
-    run(Command::new(&python)
-        .args(build)
-        .arg(&wheels)
-        .current_dir(package)
-        .env("CARGO_TARGET_DIR", target));
+    run(Command::new(&python).args(build).arg(&wheels).current_dir(package).env("CARGO_TARGET_DIR", target));
     let is_wheel = |path: &PathBuf| path.extension() == Some(OsStr::new("whl"));
     let wheel = fs::read_dir(&wheels).expect("wheels").map(|entry| entry.expect("an entry").path());
     let wheel = wheel.into_iter().find(is_wheel).expect("a wheel");
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--force-reinstall", "--no-deps"];
+    let install =
+        ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--force-reinstall", "--no-deps"];
     run(Command::new(&python).args(install).arg(wheel));
     run(Command::new(&python).args(["-m", "pytest", "-q"]).current_dir(package));
 }

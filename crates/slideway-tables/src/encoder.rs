@@ -1,7 +1,12 @@
 //! Rows as bytes, in each form.
 
-use crate::{Layout, Metadata, TableFormat, csv, npz, record};
+use crate::{Layout, Metadata, Part, TableFormat, csv, npz, record};
 use slideway::sweep::Rows;
+#[cfg(feature = "parquet")]
+use {
+    crate::ShardedSweep,
+    slideway::sweep::{Shard, Sweep},
+};
 
 /// Rows as bytes, to be written one after the other.
 #[derive(Debug, Clone)]
@@ -9,12 +14,28 @@ pub struct Encoder {
     pub(crate) format: TableFormat,
     pub(crate) layout: Layout,
     pub(crate) metadata: Metadata,
+    /// If the table is a shard.
+    pub(crate) part: Option<Part>,
 }
 
 impl Encoder {
     /// For tables of this form, with these columns, that tell this of themselves.
     pub fn new(format: TableFormat, layout: Layout, metadata: Metadata) -> Self {
-        Self { format, layout, metadata }
+        Self { format, layout, metadata, part: None }
+    }
+
+    /// For a shard of a sweep, which is `whole`.
+    #[cfg(feature = "parquet")]
+    pub(crate) fn shard(sharded: &ShardedSweep, whole: &Sweep, shard: Shard) -> Self {
+        let options = &sharded.options;
+        let layout = Layout::of(&whole.shard(shard), options.points.dimensions(), options.attainability);
+        let part = Some(Part::new(sharded, whole, shard));
+        Self { part, ..Self::new(TableFormat::Parquet, layout, sharded.metadata.clone()) }
+    }
+
+    /// The form of the tables.
+    pub fn format(&self) -> TableFormat {
+        self.format
     }
 
     /// The bytes that stand before the rows.
@@ -47,7 +68,7 @@ impl Encoder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Continued, PartialFile};
+    use crate::{Continued, PartialFile, Resume};
     use slideway::sweep::{GridAxis, Sweep, SweepOptions};
     use std::fs;
     use std::io::Read;
@@ -152,10 +173,10 @@ mod tests {
                 let path = folder.path().join("table");
                 let metadata = Metadata { command: String::new(), model: String::new() };
                 let encoder = Encoder::new(format, layout.clone(), metadata);
-                let opened = PartialFile::open(&path, encoder.clone(), (false, false), sweep.start());
+                let opened = PartialFile::open(&path, encoder.clone(), (Resume::No, false), sweep.start());
                 let Continued { mut file, state } = opened.expect("a file");
                 file.add(&[encoder.rows(&rows)], &state).expect("room");
-                let flow = file.complete(&mut |_| ControlFlow::Continue(())).expect("room");
+                let flow = file.complete(&state, &mut |_| ControlFlow::Continue(())).expect("room");
                 assert!(flow.is_continue());
                 assert_eq!(cells(format, &path, &layout), expected, "{format:?}");
             }

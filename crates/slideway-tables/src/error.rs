@@ -1,5 +1,7 @@
 //! Why a table cannot be written or continued.
 
+use crate::Metadata;
+use slideway::fault::Faults;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -36,6 +38,55 @@ pub enum TableError {
     /// An unfinished table cannot be written any further; what is finished is kept.
     #[error("`{}` cannot be written: {}", path.display(), Reason(error))]
     CannotGoOn { path: PathBuf, error: io::Error },
+    /// The file of a shard is not what was written, or was never one.
+    #[error("`{}` is damaged, or no shard that slideway has written", path.display())]
+    ShardDamaged { path: PathBuf },
+    /// The file of a shard was written by another version of the program.
+    #[error("`{}` was written by {program}; this is {}", path.display(), Metadata::program())]
+    ShardOfVersion { path: PathBuf, program: String },
+    /// The file of a shard is in the way that belongs to another sweep, which this command made.
+    #[error("`{}` belongs to another sweep ({difference}): `{command}`", path.display())]
+    ShardOfAnotherSweep { path: PathBuf, command: String, difference: Difference },
+    /// Two shards do not belong together.
+    #[error("`{}` and `{}` belong to different sweeps ({difference})", paths[0].display(), paths[1].display())]
+    ShardsDiffer { paths: [PathBuf; 2], difference: Difference },
+    /// There is no shard in a folder.
+    #[error("there are no shards of a sweep in `{}`", folder.display())]
+    NoShards { folder: PathBuf },
+    /// Shards are missing: their numbers as ranges.
+    #[error("of {of} shards in `{}` are missing: {missing}", folder.display())]
+    ShardsMissing { folder: PathBuf, missing: String, of: u32 },
+    /// The model of shards is refused.
+    #[error("the model in `{}` is refused: {faults}", path.display())]
+    Refused { path: PathBuf, faults: Faults },
+}
+
+/// In what two sweeps differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Difference {
+    /// The text of the model.
+    Model,
+    /// What is changed in the model.
+    Settings,
+    /// What is varied or computed.
+    Options,
+    /// How many shards there are, or which one it is.
+    Shard,
+    /// The exact ends of modes that are inserted: other machines may compute them with another last digit.
+    Breakpoints,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Model => "another model",
+            Self::Settings => "other settings of the model",
+            Self::Options => "other points or columns",
+            Self::Shard => "another shard, or another number of shards",
+            Self::Breakpoints => "other exact ends of modes, as if computed on another kind of machine",
+        })
+    }
 }
 
 impl TableError {

@@ -15,15 +15,19 @@ pub struct Layout {
     pub contacts: usize,
     /// Whether there is a column for the attainability.
     pub attainability: bool,
+    /// Whether branches are numbered. If not, there is instead a column for the sign of the determinant,
+    /// which is all that else is needed to number them.
+    pub numbered: bool,
 }
 
 impl Layout {
-    /// The columns of a sweep over so many quantities.
+    /// The columns of a sweep over so many quantities, or of a shard of one.
     pub fn of(sweep: &Sweep, varied: usize, attainability: bool) -> Self {
         let columns = sweep.columns().iter().map(|column| (column.name.clone(), column.unit));
         let mut varied_columns: Vec<_> = columns.collect();
         let numbers = varied_columns.split_off(varied);
-        Self { varied: varied_columns, numbers, contacts: sweep.contacts().count(), attainability }
+        let numbered = sweep.of_shard().is_none();
+        Self { varied: varied_columns, numbers, contacts: sweep.contacts().count(), attainability, numbered }
     }
 
     /// The columns in their order, each with its type in the language of NumPy: "<u8", "<u4", "<f8", "|S12".

@@ -3,7 +3,7 @@
 //! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
 //! Checksums tell whether both files are still what was written.
 
-use crate::{Encoder, Metadata, TableError, TableFormat, npz};
+use crate::{Encoder, Metadata, Part, TableError, TableFormat, npz};
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use slideway::sweep::SweepState;
@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// Ending of what is not finished.
 pub const PARTIAL: &str = ".partial";
 /// Version of the layout of the state.
-const SCHEMA: &str = "slideway/sweep-state/2";
+const SCHEMA: &str = "slideway/sweep-state/3";
 /// Endings of further files beside the table: the last state, the next one until it is whole.
 const STATE: &str = ".partial.state";
 const NEXT_STATE: &str = ".partial.state.new";
@@ -33,11 +33,24 @@ struct Kept {
     program: String,
     command: String,
     model: String,
+    /// If the table is a shard.
+    part: Option<Part>,
     /// Bytes of the table that belong to the state.
     bytes: u64,
     /// Checksum of the rows among them.
     crc: u32,
     state: SweepState,
+}
+
+/// Whether an unfinished table is continued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Resume {
+    /// A table begins; an unfinished one is in the way, or overwritten.
+    No,
+    /// There has to be one.
+    Yes,
+    /// If there is one.
+    IfAny,
 }
 
 /// A table on its way.
@@ -68,15 +81,18 @@ impl PartialFile {
     pub fn open(
         target: &Path,
         encoder: Encoder,
-        (resume, overwrite): (bool, bool),
+        (resume, overwrite): (Resume, bool),
         start: SweepState,
     ) -> Result<Continued, TableError> {
         let path = beside(target, PARTIAL);
-        if resume {
-            return Self::reopen(target, encoder, overwrite);
+        match resume {
+            Resume::Yes => return Self::reopen(target, encoder, overwrite),
+            Resume::IfAny if unfinished(target).is_some() => return Self::reopen(target, encoder, overwrite),
+            Resume::No | Resume::IfAny => {}
         }
         let (file, is_new) = locked(&path, true)?;
-        if !is_new && !overwrite {
+        // Without a state beside it there is nothing in it to go on with.
+        if !is_new && !overwrite && resume == Resume::No {
             return Err(TableError::Unfinished { path });
         }
         // An old state must not be taken for that of the new table.
@@ -119,7 +135,8 @@ impl PartialFile {
         let same = kept.schema == SCHEMA
             && kept.program == Metadata::program()
             && kept.command == encoder.metadata.command
-            && kept.model == encoder.metadata.model;
+            && kept.model == encoder.metadata.model
+            && kept.part == encoder.part;
         if !same {
             return Err(TableError::AnotherSweep { path, command: kept.command });
         }
@@ -138,6 +155,11 @@ impl PartialFile {
         let file =
             Self { target, overwrite, file, encoder, bytes: kept.bytes, rows, kept_at: Instant::now() };
         Ok(Continued { file, state: kept.state })
+    }
+
+    /// What makes bytes of its rows.
+    pub fn encoder(&self) -> &Encoder {
+        &self.encoder
     }
 
     /// Where the unfinished table is.
@@ -175,6 +197,7 @@ impl PartialFile {
             program: Metadata::program(),
             command: self.encoder.metadata.command.clone(),
             model: self.encoder.metadata.model.clone(),
+            part: self.encoder.part.clone(),
             bytes: self.bytes,
             crc: self.rows.clone().finalize(),
             state: state.clone(),
@@ -190,16 +213,17 @@ impl PartialFile {
         written
     }
 
-    /// Completes the table and gives it its name. `go_on` is told which part is done, and breaks to leave it
+    /// Completes the table, which has come to this state, and gives it its name. `go_on` is told which part is done, and breaks to leave it
     /// unfinished.
     ///
     /// # Errors
     /// If it cannot be written, or a file of that name has appeared meanwhile.
     pub fn complete(
         &mut self,
+        state: &SweepState,
         go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, TableError> {
-        let finished = match self.finish(go_on).map_err(|error| self.cannot_go_on(error))? {
+        let finished = match self.finish(state, go_on).map_err(|error| self.cannot_go_on(error))? {
             ControlFlow::Continue(finished) => finished,
             ControlFlow::Break(()) => return Ok(ControlFlow::Break(())),
         };
@@ -218,6 +242,7 @@ impl PartialFile {
     /// Where the whole table is; what stands there is on the disk.
     fn finish(
         &mut self,
+        #[cfg_attr(not(feature = "parquet"), expect(unused_variables))] state: &SweepState,
         go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> io::Result<ControlFlow<(), PathBuf>> {
         if go_on(0.0).is_break() {
@@ -230,7 +255,7 @@ impl PartialFile {
                 npz::finish(&mut self.file, layout, metadata, (self.bytes, &self.rows))?;
             }
             #[cfg(feature = "parquet")]
-            TableFormat::Parquet => return self.convert(go_on),
+            TableFormat::Parquet => return self.convert(state, go_on),
         }
         self.file.sync_all()?;
         Ok(ControlFlow::Continue(self.path()))
@@ -239,12 +264,17 @@ impl PartialFile {
     /// Makes a Parquet file of the records: its end tells of all that comes before, so that rows cannot be
     /// added to it.
     #[cfg(feature = "parquet")]
-    fn convert(&self, go_on: &mut dyn FnMut(f64) -> ControlFlow<()>) -> io::Result<ControlFlow<(), PathBuf>> {
+    fn convert(
+        &self,
+        state: &SweepState,
+        go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> io::Result<ControlFlow<(), PathBuf>> {
         let path = beside(&self.target, CONVERTED);
-        let Encoder { layout, metadata, .. } = &self.encoder;
         let records = (&self.file, self.bytes);
-        let converted = File::create(&path).and_then(|file| {
-            let flow = crate::parquet::convert(records, (layout, metadata), &file, go_on)?;
+        let mut options = OpenOptions::new();
+        let opened = options.read(true).write(true).create(true).truncate(true).open(&path);
+        let converted = opened.and_then(|file| {
+            let flow = crate::parquet::convert(records, (&self.encoder, &state.tally), &file, go_on)?;
             file.sync_all()?;
             Ok(flow)
         });

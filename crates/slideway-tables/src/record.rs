@@ -6,13 +6,32 @@ use slideway::report::defined;
 use slideway::sweep::Rows;
 
 /// Bytes of a word of a status, a kind, a verdict.
-pub(crate) const WORD: usize = 12;
+const WORD: usize = 12;
 
 /// A field of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Field {
     pub(crate) name: String,
+    pub(crate) meaning: Meaning,
     pub(crate) kind: FieldKind,
+}
+
+/// What a field tells of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    Point,
+    /// One of the row's numbers.
+    Number(usize),
+    Breakpoint,
+    Status,
+    Solutions,
+    GapStates,
+    Rejected,
+    Kind,
+    Branch,
+    DeterminantSign,
+    Pattern,
+    Attainability,
 }
 
 /// What a field holds. No word, no branch and no number stand in it as an empty word, as 0 and as not a
@@ -44,20 +63,34 @@ impl FieldKind {
 
 /// The fields of a record in their order.
 pub(crate) fn fields(layout: &Layout) -> Vec<Field> {
-    let field = |name: &str, kind| Field { name: name.to_owned(), kind };
-    let number = |(name, _): &(String, &'static str)| field(name, FieldKind::Number);
-    let word = |name: &str| field(name, FieldKind::Word(WORD));
-    let mut fields = vec![field("point", FieldKind::Point)];
-    fields.extend(layout.varied.iter().map(number));
-    fields.extend(["breakpoint", "status"].map(word));
-    fields.extend(["solutions", "gap_states", "rejected"].map(|name| field(name, FieldKind::Count)));
-    fields.push(word("kind"));
-    fields.push(field("branch", FieldKind::Branch));
-    fields.push(field("pattern", FieldKind::Word(layout.contacts.max(1))));
+    let field = |name: &str, meaning, kind| Field { name: name.to_owned(), meaning, kind };
+    let number = |(at, (name, _)): (usize, &(String, &'static str))| {
+        field(name, Meaning::Number(at), FieldKind::Number)
+    };
+    let word = |(name, meaning)| field(name, meaning, FieldKind::Word(WORD));
+    let count = |(name, meaning)| field(name, meaning, FieldKind::Count);
+    let varied = layout.varied.len();
+    let mut fields = vec![field("point", Meaning::Point, FieldKind::Point)];
+    fields.extend(layout.varied.iter().enumerate().map(number));
+    fields.extend([("breakpoint", Meaning::Breakpoint), ("status", Meaning::Status)].map(word));
+    let counts = [
+        ("solutions", Meaning::Solutions),
+        ("gap_states", Meaning::GapStates),
+        ("rejected", Meaning::Rejected),
+    ];
+    fields.extend(counts.map(count));
+    fields.push(word(("kind", Meaning::Kind)));
+    fields.push(if layout.numbered {
+        field("branch", Meaning::Branch, FieldKind::Branch)
+    } else {
+        field("determinant_sign", Meaning::DeterminantSign, FieldKind::Word(1))
+    });
+    fields.push(field("pattern", Meaning::Pattern, FieldKind::Word(layout.contacts.max(1))));
     if layout.attainability {
-        fields.push(word("attainability"));
+        fields.push(word(("attainability", Meaning::Attainability)));
     }
-    fields.extend(layout.numbers.iter().map(number));
+    let behind = |(at, column)| number((varied + at, column));
+    fields.extend(layout.numbers.iter().enumerate().map(behind));
     fields
 }
 
@@ -68,31 +101,37 @@ pub(crate) fn size(layout: &Layout) -> usize {
 
 /// The records of rows.
 pub(crate) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
+    let fields = fields(layout);
     let mut out = Vec::with_capacity(rows.len() * size(layout));
-    let word = |out: &mut Vec<u8>, word: &[u8], size: usize| {
-        let end = out.len() + size;
-        out.extend_from_slice(&word[..word.len().min(size)]);
-        out.resize(end, 0);
-    };
-    let number = |out: &mut Vec<u8>, value: f64| {
-        out.extend_from_slice(&defined(value).unwrap_or(f64::NAN).to_le_bytes());
-    };
     for (row, head) in rows.heads.iter().enumerate() {
-        let (varied, numbers) = rows.numbers(row).split_at(rows.varied);
-        out.extend_from_slice(&head.point.to_le_bytes());
-        varied.iter().for_each(|value| number(&mut out, *value));
-        word(&mut out, head.breakpoint.word().as_bytes(), WORD);
-        word(&mut out, head.status.word().as_bytes(), WORD);
-        for count in [head.solutions, head.gap_states, head.rejected] {
-            out.extend_from_slice(&count.to_le_bytes());
+        let numbers = rows.numbers(row);
+        for field in &fields {
+            let end = out.len() + field.kind.size();
+            match field.meaning {
+                Meaning::Point => out.extend_from_slice(&head.point.to_le_bytes()),
+                Meaning::Number(at) => {
+                    let number = defined(numbers[at]).unwrap_or(f64::NAN);
+                    out.extend_from_slice(&number.to_le_bytes());
+                }
+                Meaning::Solutions => out.extend_from_slice(&head.solutions.to_le_bytes()),
+                Meaning::GapStates => out.extend_from_slice(&head.gap_states.to_le_bytes()),
+                Meaning::Rejected => out.extend_from_slice(&head.rejected.to_le_bytes()),
+                Meaning::Branch => out.extend_from_slice(&head.branch.to_le_bytes()),
+                Meaning::Breakpoint => out.extend_from_slice(head.breakpoint.word().as_bytes()),
+                Meaning::Status => out.extend_from_slice(head.status.word().as_bytes()),
+                Meaning::Kind => out.extend_from_slice(head.kind.word().as_bytes()),
+                Meaning::DeterminantSign => out.extend_from_slice(sign(head.negative_determinant)),
+                Meaning::Pattern => out.extend_from_slice(rows.pattern(row).trim_ascii()),
+                Meaning::Attainability => out.extend_from_slice(head.verdict.word().as_bytes()),
+            }
+            // Words are filled with zeros.
+            out.resize(end, 0);
         }
-        word(&mut out, head.kind.word().as_bytes(), WORD);
-        out.extend_from_slice(&head.branch.to_le_bytes());
-        word(&mut out, rows.pattern(row).trim_ascii(), layout.contacts.max(1));
-        if layout.attainability {
-            word(&mut out, head.verdict.word().as_bytes(), WORD);
-        }
-        numbers.iter().for_each(|value| number(&mut out, *value));
     }
     out
+}
+
+/// The sign of a determinant; nothing if it is not known.
+fn sign(is_negative: Option<bool>) -> &'static [u8] {
+    is_negative.map_or(b"", |is_negative| if is_negative { b"-" } else { b"+" })
 }

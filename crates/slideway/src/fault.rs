@@ -4,12 +4,14 @@
 
 mod axis;
 mod doubt;
+mod no_sliding;
 
 pub use axis::AxisProblem;
 pub use doubt::Doubt;
+pub use no_sliding::NoSliding;
 pub use slideway_modes::names::nearest;
 
-use crate::expression::{Dimension, ExpressionFaultKind};
+use crate::expression::{Dimension, ExpressionFaultKind, ends_of_range};
 use crate::printable;
 use crate::units::Unit;
 use std::fmt;
@@ -241,6 +243,8 @@ pub enum FaultKind {
     NoneOf { owner: String, one_of: Vec<&'static str> },
     #[error("{owner} has a `{first}` without a `{second}`")]
     Without { owner: String, first: &'static str, second: &'static str },
+    #[error("the outline of {body} has a `{{ through = .. }}` that is not the only one between two corners")]
+    OutlineArcs { body: String },
 
     // Names.
     #[error("there is no {what} named `{name}`")]
@@ -388,7 +392,7 @@ pub enum FaultKind {
         "the sliding velocity of {} is zero, so the direction of friction is undefined",
         listed(contacts)
     )]
-    ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
+    ZeroSlidingVelocity { contacts: Vec<String>, why: NoSliding },
 
     // Standstill.
     #[error("the load {load} vanishes at rest, so no factor changes it")]
@@ -497,7 +501,7 @@ impl FaultKind {
                 let modes: Vec<String> = possible.iter().map(|mode| format!("`{mode}`")).collect();
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
-            Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
+            Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
             Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
@@ -540,7 +544,7 @@ impl FaultKind {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
-            Self::MalformedRange { text, .. } if text.contains("...") => {
+            Self::MalformedRange { text, .. } if ends_of_range(text).is_err() => {
                 Some("two dots stand between the ends of a range: FROM..TO")
             }
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
@@ -563,9 +567,6 @@ impl FaultKind {
             ),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NoDirectionAtRest => Some("omit --both-directions"),
-            Self::ZeroSlidingVelocity { .. } => Some(
-                "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates",
-            ),
             Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
             Self::Overflow { .. } | Self::IllConditioned { .. } => {
                 Some("check for lengths, masses, forces or coefficients of absurd magnitude")
@@ -655,14 +656,6 @@ fn opening(joint: &str, loop_joints: &[String]) -> String {
         return format!("{joint} stays open");
     }
     format!("the loop of {} does not close, {joint} stays open", listed(loop_joints))
-}
-
-fn velocity_hint(coordinates: &[String]) -> String {
-    let rates: Vec<String> = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1")).collect();
-    format!(
-        "give the mechanism a velocity, for instance with `{}`; `slideway hold` analyses friction at rest",
-        rates.join(" ")
-    )
 }
 
 fn drive_hint(coordinate: &str) -> String {

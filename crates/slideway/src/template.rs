@@ -6,9 +6,9 @@
 //! answers the question that is usually asked of it.
 
 use crate::configuration::Configuration;
-use crate::fault::Faults;
+use crate::fault::{Fault, FaultKind, Faults, Source};
 use crate::mechanism::Mechanism;
-use crate::model::{Model, Settings};
+use crate::model::{Model, POSITIVE, Settings};
 use crate::printable;
 use std::fmt::Write;
 
@@ -106,12 +106,7 @@ impl Template {
     /// The faults of the settings, bare texts of numbers where the template has units among them, and of the
     /// model with them, such as joints that do not close.
     pub fn model(&self, settings: &Settings, file: &str) -> Result<String, Faults> {
-        let model = Model::parse(self.text)?.with(settings)?;
-        // A bare number for what has a unit in the template is in SI units, which is hardly meant.
-        let mut doubts = Faults::default();
-        doubts.extend(model.doubts.iter().cloned());
-        doubts.or(())?;
-        Configuration::new(&Mechanism::new(&model)?)?;
+        self.checked(settings).map_err(|faults| self.in_its_words(&faults, settings))?;
         let mut text = String::new();
         for line in self.text.lines() {
             let line = match parameter(line).and_then(|parameter| changed(parameter, settings)) {
@@ -122,6 +117,44 @@ impl Template {
             let _ = writeln!(text, "{line}");
         }
         Ok(text)
+    }
+
+    /// # Errors
+    /// As [`Self::model`].
+    fn checked(&self, settings: &Settings) -> Result<(), Faults> {
+        let model = Model::parse(self.text)?.with(settings)?;
+        // A bare number for what has a unit in the template is in SI units, which is hardly meant.
+        let mut doubts = Faults::default();
+        doubts.extend(model.doubts.iter().cloned());
+        doubts.or(())?;
+        Configuration::new(&Mechanism::new(&model)?)?;
+        Ok(())
+    }
+
+    /// Faults that name the template's parameters instead of what its model makes of them: of a parameter that
+    /// must not have its value one, the strictest.
+    fn in_its_words(&self, faults: &Faults, settings: &Settings) -> Faults {
+        let named = |fault: &Fault| -> Option<Fault> {
+            let FaultKind::OutOfRange { wanted, value, .. } = fault.kind else { return None };
+            let Source::Setting(index) = fault.place.as_ref()?.source else { return None };
+            let setting = settings.entries().get(index)?;
+            let parameter = self.parameters().find(|parameter| parameter.name == setting.name)?;
+            let what = format!("{} ({})", parameter.name, parameter.meaning);
+            Some(Fault { kind: FaultKind::OutOfRange { what, wanted, value }, ..fault.clone() })
+        };
+        let told: Vec<Fault> =
+            faults.sorted().into_iter().map(|fault| named(fault).unwrap_or_else(|| fault.clone())).collect();
+        let is_stricter = |one: &Fault, other: &Fault| {
+            let wanted = |fault: &Fault| match fault.kind {
+                FaultKind::OutOfRange { wanted, .. } => Some(wanted),
+                _ => None,
+            };
+            let both = wanted(one).zip(wanted(other));
+            one.place == other.place && both.is_some_and(|(one, other)| one == POSITIVE && other != POSITIVE)
+        };
+        let mut all = Faults::default();
+        all.extend(told.iter().filter(|one| !told.iter().any(|other| is_stricter(other, one))).cloned());
+        all
     }
 
     /// The lines of its opening comment.

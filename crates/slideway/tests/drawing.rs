@@ -159,7 +159,7 @@ fn an_outline_is_for_looks_only() {
     let model = outlined("10 cm").build().unwrap();
     let mechanism = Mechanism::new(&model).unwrap();
     let corners = [Vector2::new(0.0, 0.0), Vector2::new(0.4, 0.0), Vector2::new(0.0, 0.1)];
-    assert_eq!(mechanism.bodies[0].outline, corners);
+    assert_eq!(slideway::model::outline::polygon(&mechanism.bodies[0].outline), corners);
     // Forces, accelerations and the unit of length of the mechanism are those of any other outline.
     let huge = outlined("10 km").build().unwrap();
     assert_eq!(Mechanism::new(&huge).unwrap().size, mechanism.size);

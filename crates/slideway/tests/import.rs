@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use slideway::Model;
 use slideway::import::{ImportFault, ImportOptions, Unit, dxf};
 use slideway::mechanism::Mechanism;
+use slideway::model::outline::polygon;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -32,7 +33,7 @@ fn mechanism(text: &str) -> Mechanism {
 }
 
 fn outline(mechanism: &Mechanism, body: &str) -> Vec<Vector2<f64>> {
-    mechanism.bodies.iter().find(|other| &*other.name == body).unwrap().outline.clone()
+    polygon(&mechanism.bodies.iter().find(|other| &*other.name == body).unwrap().outline)
 }
 
 /// Whether an outline has these corners (m), wherever it begins and whichever way it goes.
@@ -116,12 +117,104 @@ fn points_have_names_and_owners() {
 fn what_is_left_out_is_said() {
     let text = imported(PLATE);
     for line in [
-        "# - 1 SPLINE of the layer arm",
+        "# - 1 SPLINE without control points that fit its knots of the layer arm",
         "# - 1 LINE on a sheet (paper space) of the layer plate 2",
         "# - 1 further lines of the layer plate 2: open, or smaller than its outline",
     ] {
         assert!(text.lines().any(|other| other == line), "{line}\n{text}");
     }
+}
+
+/// A drawing of these blocks and entities, in mm.
+fn with_blocks(blocks: &str, entities: &str) -> String {
+    let pairs = format!(
+        "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS {blocks} 0 ENDSEC \
+         0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF "
+    );
+    pairs.replace(' ', "\n")
+}
+
+/// The rectangle from (1, 0) to (4, 1) of a block with the base point (1, 0), and a circle about (2, 1) of radius 0.5.
+const BLOCK: &str = "0 BLOCK 2 part 10 1 20 0 0 LWPOLYLINE 8 0 70 1 10 1 20 0 10 4 20 0 10 4 20 1 10 1 20 1 \
+                     0 CIRCLE 8 0 10 2 20 1 40 0.5 0 ENDBLK";
+
+/// A block of a quarter of an ellipse and a quarter of a circle as a spline, and what inserts it within stretched rows.
+const CURVES: &str = "0 BLOCK 2 curves 10 0 20 0 0 ELLIPSE 8 0 10 0 20 0 11 2 21 0 40 0.5 41 0 42 1.570796326794897 \
+                      0 SPLINE 8 0 70 8 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.7071067811865476 41 1 \
+                      10 2 20 0 10 2 20 -1 10 0 20 -1 0 INSERT 2 part 8 0 10 1 20 1 42 3 0 ENDBLK";
+const INSERTED: &str = "0 INSERT 2 curves 8 cam 10 10 20 20 41 2 42 1 50 30 70 2 71 2 44 5 45 7 0 INSERT 2 part 8 ground \
+                        10 3 20 4 41 -1";
+
+/// Scaled by 2 and turned by 90 degrees, (x, y) becomes (10, 20) + 2 (-y, x - 1); mirrored by the extrusion direction
+/// (0, 0, -1), x changes its sign. A block within a block is scaled and turned twice.
+#[test]
+fn blocks_are_inserted() {
+    let turned = "0 INSERT 2 PART 8 lever 10 10 20 20 41 2 42 2 50 90";
+    let lever = mechanism(&imported(&with_blocks(BLOCK, turned)));
+    let corners = [[0.010, 0.020], [0.010, 0.026], [0.008, 0.026], [0.008, 0.020]];
+    assert!(has_corners(&outline(&lever, "lever"), &corners), "{:?}", outline(&lever, "lever"));
+    assert!(
+        (lever.bodies[0].points[0].1 - Vector2::new(0.008, 0.022)).norm() < 1e-12,
+        "the centre of the circle"
+    );
+
+    let mirrored = mechanism(&imported(&with_blocks(BLOCK, &format!("{turned} 210 0 220 0 230 -1"))));
+    let seen_from_behind = corners.map(|[x, y]| [-x, y]);
+    assert!(has_corners(&outline(&mirrored, "lever"), &seen_from_behind));
+
+    let nested = format!("{BLOCK} 0 BLOCK 2 outer 10 0 20 0 {turned} 0 ENDBLK");
+    let nested = mechanism(&imported(&with_blocks(&nested, "0 INSERT 2 outer 8 0 10 0 20 0 50 -90")));
+    let back = corners.map(|[x, y]| [y, -x]);
+    assert!(has_corners(&outline(&nested, "lever"), &back), "{:?}", outline(&nested, "lever"));
+}
+
+/// A circle of radius 2 mm scaled by 3 and 1 is an ellipse; the square of its radius of gyration is
+/// (a^2 + b^2)/4 = 10 mm^2; rows and columns are inserted each.
+#[test]
+fn blocks_are_stretched_and_repeated() {
+    let disc = "0 BLOCK 2 disc 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 2 0 ENDBLK";
+    let text = imported(&with_blocks(disc, "0 INSERT 2 disc 8 oval 10 5 20 0 41 3 42 1"));
+    let oval = outline(&mechanism(&text), "oval");
+    // Its outline keeps within 1e-4 of its size, 12.6 mm, 6.3e-4 of its smaller half axis; second moments go with its
+    // third power and once with the other.
+    let radius = text.split("(1 kg)*(").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    assert!((radius.parse::<f64>().unwrap() / 10.0 - 1.0).abs() < 4.0 * 6.3e-4, "{radius}");
+    for corner in &oval {
+        let at = corner * 1e3 - Vector2::new(5.0, 0.0);
+        assert!(((at.x / 6.0).powi(2) + (at.y / 2.0).powi(2) - 1.0).abs() < 2e-3, "{at}");
+    }
+    let text = imported(&with_blocks(BLOCK, "0 INSERT 2 part 8 row 10 0 20 0 70 3 71 2 44 10 45 -5"));
+    let points: Vec<&str> = text.lines().filter(|line| line.starts_with("row_")).collect();
+    assert_eq!(points.len(), 6, "{text}");
+    for point in ["[\"1 mm\", \"1 mm\"]", "[\"21 mm\", \"-4 mm\"]"] {
+        assert!(points.iter().any(|line| line.contains(point)), "{point} {points:?}");
+    }
+}
+
+/// A block that inserts itself, or one that is not there, is left out and named; so many that nothing would be left of
+/// the memory are an error.
+#[test]
+fn blocks_without_end_are_refused() {
+    let circular = format!(
+        "{BLOCK} 0 BLOCK 2 ring 10 0 20 0 0 INSERT 2 ring 8 0 10 0 20 0 0 POINT 8 0 10 1 20 0 0 ENDBLK"
+    );
+    let text =
+        imported(&with_blocks(&circular, "0 INSERT 2 ring 8 a 10 0 20 0 0 INSERT 2 other 8 a 10 0 20 0"));
+    for block in ["ring", "other"] {
+        let line = format!(
+            "# - 1 INSERT of {block}, which is no block of the drawing, or within itself of the layer a"
+        );
+        assert!(text.lines().any(|other| other == line), "{line}\n{text}");
+    }
+    let doubled = |index: usize| {
+        let insert = format!("0 INSERT 2 b{} 8 0 10 1 20 0", index + 1);
+        format!(" 0 BLOCK 2 b{index} 10 0 20 0 {insert} {insert} 0 ENDBLK")
+    };
+    let bomb: String = (0..40).map(doubled).collect();
+    let bomb = format!("0 BLOCK 2 b40 10 0 20 0 0 POINT 8 0 10 0 20 0 0 ENDBLK{bomb}");
+    let fault =
+        dxf(&with_blocks(&bomb, "0 INSERT 2 b0 8 a 10 0 20 0"), &ImportOptions::default()).unwrap_err();
+    assert!(matches!(fault, ImportFault::TooManyEntities { .. }), "{fault}");
 }
 
 /// The unit is the one of the drawing unless another one is said; one that is not said is not guessed.
@@ -193,12 +286,15 @@ proptest! {
     /// A damaged drawing is refused, or is a model whose numbers are all finite: only joints are missing.
     #[test]
     fn damaged_drawings_are_refused_or_read(
+        has_blocks in any::<bool>(),
         damages in prop::collection::vec((0..400_usize, prop::option::of(prop::sample::select(vec![
             "", "0", "-1", "1", "8", "10", "20", "42", "70", "1e300", "-1e-300", "1e999", "nan", "x", "LINE", "ARC",
             "CIRCLE", "VERTEX", "SEQEND", "ENDSEC", "EOF", "\u{1b}[31m", "pi", "ground",
         ]))), 1..4),
     ) {
-        let mut lines: Vec<&str> = PLATE.lines().collect();
+        let inserted = with_blocks(&format!("{BLOCK} {CURVES}"), INSERTED);
+        let drawing = if has_blocks { &inserted } else { PLATE };
+        let mut lines: Vec<&str> = drawing.lines().collect();
         for (line, value) in damages {
             let line = line % lines.len();
             match value {

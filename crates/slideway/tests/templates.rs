@@ -245,3 +245,19 @@ fn peg() {
         assert_locks_at("peg", depth / (2.0 * offset), &values);
     }
 }
+
+/// The width of the drawer is that of its shape, too: one fault about L is enough, the strictest.
+#[test]
+fn faults_name_the_template_s_parameters() {
+    let drawer = find("drawer").expect("a template");
+    let settings = Settings::default().parameter("L", "-100 mm").parameter("mu", "-0.1");
+    let faults = drawer.model(&settings, "drawer.toml").expect_err("nothing can be that long");
+    let told: Vec<String> = faults.sorted().iter().map(|fault| fault.kind.to_string()).collect();
+    assert_eq!(
+        told,
+        [
+            "L (length over which it is guided) must be greater than zero, but is -0.1",
+            "mu (friction coefficient of the guide) must be at least zero, but is -0.1"
+        ]
+    );
+}

@@ -2,7 +2,7 @@
 
 use slideway::check::check;
 use slideway::drive::DriveOptions;
-use slideway::limits::{LimitsOptions, Vary};
+use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
 use slideway::report::Style;
 use slideway::units::UnitSystem;
 use slideway::{
@@ -18,7 +18,7 @@ fn drawer() -> String {
         .replace("\"0.3 m\"", "\"300 mm\"")
         .replace("\"0 m\"", "\"0 mm\"")
         .replace("\"0.45 m\", \"0.7 m\"", "\"450 mm\", \"700 mm\"")
-        .replace("\"20 N\"", "\"0.02 kN\"")
+        .replace("\"20 N\"", "\"2 kN\"")
         .replace("\"0.1 m/s\"", "\"100 mm/s\"")
 }
 
@@ -91,8 +91,36 @@ fn a_parameter_is_shown_as_it_was_typed_last() {
 #[test]
 fn solve_shows_forces_speeds_and_coordinates() {
     let report = solve(&model()).expect("an answer");
-    let shown = ["x = 0 mm, rate 100 mm/s", "normal force in kN", "sliding in mm/s", "0.036364"];
+    let shown = ["x = 0 mm, rate 100 mm/s", "normal force in kN", "sliding in mm/s", "3.6364"];
     assert_shows(&text(&report), &shown, &["in N ", "in m/s"]);
+}
+
+/// The drawer with a single load of 2 kN typed, and with 20 N in its place: the push of 36.364 N is 0.036364 kN.
+#[test]
+fn small_forces_are_not_shown_in_the_unit_of_a_great_load() {
+    let small = model().with(&Settings::default().parameter("Q", 20)).expect("a force");
+    let report = solve(&small).expect("an answer");
+    assert_shows(&text(&report), &["normal force in N", "36.364", "sliding in mm/s"], &["kN"]);
+    let driven = drive(&small, &DriveOptions::default()).expect("an answer");
+    assert_shows(&text(&driven), &["push needs 36.364 N instead of 20 N", "push in N"], &["kN"]);
+    let held = hold(&small, &HoldOptions::default().hold_drives(true)).expect("an answer");
+    assert_shows(&text(&held), &["force in N"], &["kN"]);
+    let vary = Vary::between("L", "200 mm", "500 mm");
+    let plot = |model: &Model| {
+        let options = LimitsOptions::new(vary.clone()).effort(0);
+        limits_with_curves(model, &options, Quantity::Effort)
+            .expect("an answer")
+            .1
+            .units
+            .of("N")
+            .name()
+            .to_owned()
+    };
+    assert_eq!([plot(&small), plot(&model())], ["N", "kN"]);
+    // As typed, the option for SI units, and a program's numbers stay as they are.
+    assert_shows(&text(&solve(&model()).expect("an answer")), &["normal force in kN"], &["in N "]);
+    let si = small.with_units(UnitSystem::Si);
+    assert_shows(&text(&solve(&si).expect("an answer")), &["normal force in N", "36.364"], &["kN"]);
 }
 
 #[test]
@@ -134,8 +162,7 @@ fn json_stays_si_whatever_is_shown() {
 fn drive_shows_efforts_and_what_is_varied() {
     let options = DriveOptions::default().vary(Some(Vary::between("L", "200 mm", "400 mm")));
     let report = drive(&model(), &options).expect("an answer");
-    let shown =
-        ["push needs 0.036364 kN instead of 0.02 kN", "push in kN", "L in mm", "x = 0 mm, rate 100 mm/s"];
+    let shown = ["push needs 3.6364 kN instead of 2 kN", "push in kN", "L in mm", "x = 0 mm, rate 100 mm/s"];
     assert_shows(&text(&report), &shown, &[" N instead"]);
 }
 

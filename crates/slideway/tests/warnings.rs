@@ -125,10 +125,40 @@ fn a_state_far_from_the_drawing_is_told_with_its_body() {
     let at = |x: f64| of(&model.with(&Settings::default().position("x", x)).expect("a position"));
     assert_eq!(at(0.1), []);
     let found = at(100.0);
-    let [(Doubt::FarFromDrawing { body, distance, .. }, None)] = found.as_slice() else {
+    let [(Doubt::FarFromDrawing { body, distance, .. }, Some(place))] = found.as_slice() else {
         panic!("{found:?}")
     };
     assert_eq!((body.as_str(), distance.as_str()), ("drawer", "100 m"));
+    assert_eq!(place.source, Source::Setting(0));
+    // Whoever declares that it travels so far means it.
+    let long = text.replace("mu = \"mu\"", "mu = \"mu\"\ntravel = [0, \"200 m\"]");
+    let model = Model::parse(&long).expect("a sound model");
+    assert_eq!(of(&model.with(&Settings::default().position("x", 100.0)).expect("a position")), []);
+}
+
+/// The wedge's coefficients are parameters that are nothing but `mu`; a file's number is told in the file.
+#[test]
+fn what_a_setting_causes_is_told_at_the_setting() {
+    let wedge = Model::parse(gallery::find("wedge").expect("in the gallery").text).expect("a sound model");
+    let set = |name: &str, value: &str| {
+        of(&wedge.with(&Settings::default().parameter("Q", "800 N").parameter(name, value)).expect("sound"))
+    };
+    for (name, what) in [("mu", "the value of mu"), ("mu_wall", "the value of mu_wall")] {
+        let found = set(name, "30");
+        let [(Doubt::GreatFriction { what: told, .. }, Some(place))] = found.as_slice() else {
+            panic!("{found:?}")
+        };
+        let span = name.len() + 1..name.len() + 3;
+        assert_eq!((told.as_str(), place), (what, &Place { source: Source::Setting(1), span }));
+    }
+    // Where the friction is computed from what was set, too.
+    let text = gallery::find("wedge").expect("in the gallery").text;
+    let text = text.replace("mu_wall = \"mu\"", "rho = \"10 deg\"\nmu_wall = \"tan(rho)\"");
+    let model = Model::parse(&text).expect("a sound model");
+    let found = of(&model.with(&Settings::default().parameter("rho", "80 deg")).expect("sound"));
+    assert_eq!(names(&found), ["great_friction"]);
+    assert_eq!(found[0].1.as_ref().map(|place| place.source), Some(Source::Setting(0)));
+    assert_eq!(of(&model), []);
 }
 
 #[test]

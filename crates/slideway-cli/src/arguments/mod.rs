@@ -110,7 +110,7 @@ pub(crate) enum Command {
     #[command(after_help = map::HELP)]
     Map(MapArguments),
     /// Compute all solutions at every point of a grid, or for random samples, into a table
-    #[command(after_help = sweep::HELP)]
+    #[command(after_help = sweep::HELP, override_usage = sweep::USAGE, mut_arg("file", sweep::unless_merging))]
     Sweep(SweepArguments),
     /// Show what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]

@@ -42,7 +42,7 @@ pub(crate) struct ModelArguments {
 /// In which units numbers are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ShownUnits {
-    /// As the quantities of the model were typed.
+    /// As the quantities of the model were typed; computed forces, moments and powers in a unit that suits them.
     AsTyped,
     /// Those of the SI.
     #[value(name = "SI", alias = "si")]

@@ -1,6 +1,6 @@
 //! `slideway size`
 
-use super::values::{self, efficiency, effort, force, positive, pressure};
+use super::values::{Limit, efficiency, effort, force, positive, pressure};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind, Faults};
@@ -24,7 +24,8 @@ solution. At rest it concerns a load, or the effort of a drive. Against self-loc
 factor by which static friction may grow before the load is held however great it is. With
 `--against hold` the load must be held, and it is the factor by which static friction may be
 divided. Without a range, a coefficient of friction goes from 0 to 1 or twice its value, `friction`
-from 0 to 10, any other parameter from a fifth of its value to five times its value. For
+from 0 to 10, an angle that has a unit over its quarter turn (45 deg: 0 to 90 deg; 90 deg: 0 to
+180 deg), any other parameter from a fifth of its value to five times its value. For
 `--max-pressure 2MPa` the sliding joints of the model need a `pad`, their area in contact.
 
 Exit codes:
@@ -45,7 +46,7 @@ pub(crate) struct SizeArguments {
     pub(crate) vary: String,
 
     #[command(flatten)]
-    limit: Limit,
+    limit: Wanted,
 
     /// Against what.
     #[arg(long, value_enum, default_value_t)]
@@ -89,32 +90,32 @@ enum Against {
 /// What is wanted.
 #[derive(Debug, Args)]
 #[group(required = true, multiple = false)]
-struct Limit {
+struct Wanted {
     /// The wanted margin: a factor on friction.
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     margin: Option<f64>,
 
     /// Instead of a margin: no solution may need more effort of a drive than this, such as "30 N".
     #[arg(long, value_name = "EFFORT", value_parser = effort, conflicts_with = "against")]
-    max_effort: Option<values::Limit>,
+    max_effort: Option<Limit>,
 
     /// Instead of a margin: no solution may have a greater normal force than this, such as "2 kN".
     #[arg(long, value_name = "FORCE", value_parser = force, conflicts_with = "against")]
-    max_normal_force: Option<values::Limit>,
+    max_normal_force: Option<Limit>,
 
     /// Instead of a margin: no solution may have a greater bearing pressure than this, such as "2 MPa" or
     /// "2 N/mm^2": normal force over length times width of the contact's `pad` in the model.
     #[arg(long, value_name = "PRESSURE", value_parser = pressure, conflicts_with = "against")]
-    max_pressure: Option<values::Limit>,
+    max_pressure: Option<Limit>,
 
     /// Instead of a margin: no solution may have a lower efficiency than this, such as 0.7 or "70 %".
     #[arg(long, value_name = "RATIO", value_parser = efficiency, conflicts_with = "against")]
-    min_efficiency: Option<values::Limit>,
+    min_efficiency: Option<Limit>,
 }
 
-impl Limit {
+impl Wanted {
     /// The limit in place of a margin.
-    fn of_answers(&self) -> Option<&values::Limit> {
+    fn of_answers(&self) -> Option<&Limit> {
         let Self { max_effort, max_normal_force, max_pressure, min_efficiency, .. } = self;
         [max_effort, max_normal_force, max_pressure, min_efficiency].into_iter().find_map(Option::as_ref)
     }

@@ -3,11 +3,16 @@
 use super::limits::PlottedQuantity;
 use super::{Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
+use clap::{Arg, Args, ValueEnum};
 use slideway::fault::Faults;
-use slideway::sweep::{Sampling, Spread, SweepOptions, SweepPoints};
+use slideway::sweep::{Sampling, Shard, Spread, SweepOptions, SweepPoints};
 use slideway_tables::TableFormat;
+use std::path::PathBuf;
 use std::str::FromStr;
+
+pub(super) const USAGE: &str = "\
+slideway sweep [OPTIONS] --vary <NAME=VALUES> <MODEL>
+       slideway sweep [OPTIONS] --merge <FOLDER>";
 
 pub(super) const HELP: &str = "\
 What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for a factor on all
@@ -27,6 +32,10 @@ Examples:
   slideway sweep klepp-2002.toml --vary mu_1=0..0.8:81 --vary mu_2=0..0.4:41 --output klepp.npz
   slideway sweep slider-crank.toml --vary phi=\"-80 deg..80 deg:801\" --output crank.csv
   slideway sweep drawer.toml --vary mu=\"normal(0.6, 0.05)\" --samples 100000 --output drawer.npz
+On many machines, each command by any of them, in any order (built with the feature parquet):
+  slideway sweep drawer.toml --vary mu=0..1:100001 --shard 1/2 --output results/
+  slideway sweep drawer.toml --vary mu=0..1:100001 --shard 2/2 --output results/
+  slideway sweep --merge results/ --output drawer.npz
 
 Exit codes:
   0    done
@@ -34,16 +43,17 @@ Exit codes:
   3    not done within --time-limit
   130  interrupted (Ctrl-C)
 
-After a time limit or an interruption the finished part is kept beside --output; --resume continues.";
+After a time limit or an interruption the finished part is kept beside --output; --resume continues.
+A shard that was ended is continued by the same command.";
 
 /// Arguments of `slideway sweep`.
 #[derive(Debug, Args)]
 pub(crate) struct SweepArguments {
     #[command(flatten)]
-    pub(crate) model: ModelArguments,
+    pub(crate) model: Option<ModelArguments>,
 
     /// What to vary, and its values; may be repeated, the last one varying fastest.
-    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    #[arg(long, value_name = "NAME=VALUES", required_unless_present = MERGE)]
     vary: Vec<String>,
 
     /// Draw N random samples instead of a grid.
@@ -65,9 +75,18 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     more: MoreColumns,
 
-    /// Continue an interrupted sweep.
+    /// Continue an interrupted sweep. A shard is continued without it.
     #[arg(long, requires = "output")]
     pub(crate) resume: bool,
+
+    /// Compute one of N shards alone, K from 1, and write it as a Parquet file into the folder --output,
+    /// unless it is there.
+    #[arg(long, value_name = "K/N", requires = "output", conflicts_with_all = ["plot", "format"])]
+    pub(crate) shard: Option<Shard>,
+
+    /// Merge the shards in this folder into the table of the whole sweep.
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = NOT_FOR_MERGING)]
+    pub(crate) merge: Option<PathBuf>,
 
     /// Form of the table; by default that of the output file's extension, else CSV.
     #[arg(long, value_parser = table_format())]
@@ -85,6 +104,17 @@ pub(crate) struct SweepArguments {
 
     #[command(flatten)]
     pub(crate) destination: Destination,
+}
+
+/// The name of the option that merges shards.
+const MERGE: &str = "merge";
+/// What the shards tell themselves.
+const NOT_FOR_MERGING: [&str; 8] =
+    ["ModelArguments", "vary", "samples", "sampling", "seed", "no_breakpoints", "MoreColumns", "shard"];
+
+/// The argument of the model file, which is not needed to merge shards.
+pub(super) fn unless_merging(file: Arg) -> Arg {
+    file.required(false).required_unless_present(MERGE)
 }
 
 /// Columns that are left out unless they are asked for.

@@ -15,7 +15,7 @@ const PLOTTED_ROWS: usize = 801;
 
 /// Says which efforts the drives need.
 pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+    let plot = picture::beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
     if plot.is_some() && arguments.vary.is_none() {
         return Err(Failure::NoLine);
     }

@@ -13,7 +13,7 @@ use slideway_pictures::plot::{limits_figure, to_svg};
 
 /// Says for which values each contact mode exists, and plots it if asked to.
 pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+    let plot = picture::beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;

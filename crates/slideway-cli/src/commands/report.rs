@@ -13,7 +13,7 @@ use slideway::limits::{LimitsOptions, LimitsReport, Quantity, Vary, curves_with}
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::standstill::{HoldOptions, hold_with};
+use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{Figure, Page, to_html};
@@ -59,7 +59,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         sheet: &sheet,
         report: answer.as_ref().map_err(Vec::as_slice),
         efficiency: &efficiency,
-        rest: &rest,
+        rest: rest.as_ref().map_err(Vec::as_slice),
         limits: &limits,
         figures: &figures,
     };
@@ -93,12 +93,10 @@ fn efficiency(model: &Model, watch: &mut Watch) -> Vec<String> {
     }
 }
 
-/// Whether it stays at rest, in sentences, or why that is not known.
-fn rest(model: &Model, watch: &mut Watch) -> Vec<String> {
-    match hold_with(model, &HoldOptions::default(), &mut |progress| watch.look(progress)) {
-        Ok(report) => report.map(|report| report.verdict_in_words()).into_iter().collect(),
-        Err(faults) => reasons(&faults),
-    }
+/// Whether it stays at rest, or why that is not known; no reason where the work was ended.
+fn rest(model: &Model, watch: &mut Watch) -> Result<HoldReport, Vec<String>> {
+    let found = hold_with(model, &HoldOptions::default(), &mut |progress| watch.look(progress));
+    found.map_err(|faults| reasons(&faults))?.ok_or_else(Vec::new)
 }
 
 /// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if

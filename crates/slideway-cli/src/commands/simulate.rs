@@ -219,7 +219,7 @@ impl<'a> Files<'a> {
             Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
             None => None,
         };
-        let plot = beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+        let plot = beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
         let outputs = [table.as_ref().map(|(_, file)| file), plot.as_ref().map(|(_, file)| file)];
         let others = outputs.map(|file| file.and_then(Output::path));
         if let (Some(path), Some((_, file))) = (&arguments.animate, &animation)

@@ -12,7 +12,7 @@ use slideway_pictures::plot::{size_figure, to_svg};
 
 /// Finds the value of a parameter at which a margin is just met.
 pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+    let plot = picture::beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;

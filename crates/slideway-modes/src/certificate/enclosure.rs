@@ -13,10 +13,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::system::BoundedVector;
+use super::system::{BoundedVector, PatternSystem};
 use crate::dense::{self, Pace};
 use crate::interval::{Interval, Sign};
 use crate::interval_matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
+use crate::problem::{ContactState, ProblemView};
 
 /// Maximum number of enlargements of a trial bound.
 const INFLATIONS: usize = 16;
@@ -203,6 +204,33 @@ pub fn enclose_solution(
     inverse.correction(&regular)?;
     let solution = IntervalMatrix::from_intervals(&entries)?;
     Some(LinearEnclosure { solution, determinant: inverse.determinant_sign() })
+}
+
+/// The sign of `D` of one pattern, common to all values within the bounds of a problem; `None` if it is not
+/// verified, as near to where `D` vanishes.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use slideway_modes::ContactState::Positive;
+/// use slideway_modes::ModeProblem;
+/// use slideway_modes::certificate::{Sign, proven_determinant_sign};
+/// let locked = dmatrix![1.0, -2.0; -2.0, 1.0];
+/// let problem = ModeProblem::from_linear_complementarity(&locked, dvector![1.0, 1.0])?;
+/// assert_eq!(proven_determinant_sign(&problem, &[Positive; 2]), Some(Sign::Negative));
+/// # Ok::<(), slideway_modes::ModeProblemError>(())
+/// ```
+///
+/// # Panics
+/// If `pattern` does not have one state per contact.
+pub fn proven_determinant_sign<'a>(
+    problem: impl Into<ProblemView<'a>>,
+    pattern: &[ContactState],
+) -> Option<Sign> {
+    let problem = problem.into();
+    assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
+    let system = PatternSystem::new(problem, pattern)?;
+    let without_load = IntervalMatrix::exact(DMatrix::zeros(pattern.len(), 0));
+    Some(enclose_solution(&system.matrix, &without_load)?.determinant)
 }
 
 /// An enclosure of `A x`.

@@ -34,7 +34,7 @@ pub use crate::interval_matrix::IntervalMatrix;
 pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
-pub use enclosure::{LinearEnclosure, enclose_solution};
+pub use enclosure::{LinearEnclosure, enclose_solution, proven_determinant_sign};
 pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub use exclusion::proves_empty;

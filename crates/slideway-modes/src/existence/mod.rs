@@ -26,6 +26,7 @@ mod signs;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
+use crate::interval::Sign;
 use crate::problem::{BySide, ContactState, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
 use extent::Extent;
@@ -250,20 +251,29 @@ impl ModeProblemLine {
         Ok(Some(existence))
     }
 
-    /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and
-    /// the pattern; `None` if there is no such parameter. Without jumps, every load has exactly one solution
-    /// up to that parameter, if all determinants have the same orientation at `t = 0` (theory, section 5).
+    /// The smallest positive parameter at which the determinant of some pattern without gaps changes its sign,
+    /// and the pattern; `None` if no change is certain. Without jumps, every load has exactly one solution up
+    /// to that parameter, if all determinants have the same orientation at `t = 0` (theory, section 5).
+    ///
+    /// `sign_at` returns the sign of the determinant of a pattern at a parameter if it is certain. A zero
+    /// counts only between two signs that are certain and opposite: zeros at infinity, which the rounding of
+    /// the numbers along the line moves to great parameters, have no such sign beyond them.
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than `limit`.
-    pub fn first_locking(&self, limit: u64) -> Result<Option<(f64, Vec<ContactState>)>, TooManyModes> {
+    pub fn first_locking(
+        &self,
+        limit: u64,
+        sign_at: &dyn Fn(f64, &[ContactState]) -> Option<Sign>,
+    ) -> Result<Option<(f64, Vec<ContactState>)>, TooManyModes> {
         let mut first: Option<(f64, Vec<ContactState>)> = None;
         let pressed = |pattern: &Vec<ContactState>| !pattern.contains(&ContactState::Gap);
         for pattern in self.patterns(limit)?.into_iter().filter(pressed) {
-            let zeros = self.line(&pattern).determinant_zeros([0.0, 1.0]);
-            let least = zeros.into_iter().filter(|&zero| zero > 0.0).fold(f64::INFINITY, f64::min);
-            if least < first.as_ref().map_or(f64::INFINITY, |(known, _)| *known) {
-                first = Some((least, pattern));
+            let known = first.as_ref().map_or(f64::INFINITY, |(known, _)| *known);
+            let mut zeros = self.line(&pattern).determinant_zeros([0.0, 1.0]);
+            zeros.retain(|&zero| zero > 0.0 && zero < known);
+            if let Some(at) = first_change(&zeros, &|at| sign_at(at, &pattern)) {
+                first = Some((at, pattern));
             }
         }
         Ok(first)
@@ -433,6 +443,23 @@ impl ModeProblemLine {
         }
         mode
     }
+}
+
+/// The first of these increasing positive zeros beyond which a sign is certain and differs from the one before
+/// it; the first of several between which no sign is certain.
+fn first_change(zeros: &[f64], sign_at: &dyn Fn(f64) -> Option<Sign>) -> Option<f64> {
+    let &nearest = zeros.first()?;
+    let before = sign_at(0.0)?;
+    let mut since_certain = nearest;
+    for (index, &zero) in zeros.iter().enumerate() {
+        let next = zeros.get(index + 1).copied().unwrap_or(f64::INFINITY);
+        match sign_at(f64::midpoint(zero, next).min(2.0 * zero)) {
+            Some(sign) if sign != before => return Some(since_certain),
+            Some(_) => since_certain = next,
+            None => {}
+        }
+    }
+    None
 }
 
 /// In an unbounded range, places farther out than the inverse of this, relative to its start, count as

@@ -25,16 +25,21 @@ const SHIFTS: [f64; 3] = [0.0, -0.7, 0.7];
 /// Distances from the anchor that are tried.
 const DISTANCES: [f64; 14] =
     [5.0, 11.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0, 100.0, 125.0, 155.0, 190.0, 235.0, 290.0];
-/// Beyond this distance a line leads to the anchor.
+/// Beyond this distance a line leads to the anchor; so it does where something else that has a label is nearer.
 const LEADER: f64 = 30.0;
+/// What costs a line that leads over a shorter distance: it has to tell what the label names.
+const TOLD: f64 = 10.0;
+/// What it costs that a wall or an edge lies between a label and what it names.
+const BETWEEN: f64 = 2.0;
 /// What it costs that the line to what is named runs through another label, and for each place of another
 /// arrow or dimension on its way.
 const CROSSED: f64 = 12.0;
 const MET: f64 = 3.0;
 /// What a unit costs by which a label makes the drawing wider or higher.
 const OUTSIDE: f64 = 0.15;
-/// What it costs to cover a place of an arrow; of a dimension it is more.
+/// What it costs to cover a place of an arrow; of a dimension it is more, of a wall or the edge of a body less.
 const IMPORTANT: f64 = 10.0;
+const EDGE: f64 = 2.0;
 /// Free space around a label.
 const MARGIN: f64 = 2.0;
 /// Distance of the places of a line that labels keep clear of.
@@ -46,10 +51,11 @@ pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds
     let mut obstacles = obstacles(scene);
     obstacles.extend(outlines(scene));
     let texts = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
-    let mut room = Room { obstacles, taken: texts, drawn: scene.bounds(), within };
+    let named = labels.iter().map(Label::named).collect();
+    let mut room = Room { obstacles, named, taken: texts, drawn: scene.bounds(), within };
     for label in labels {
         let Some(bounds) = room.best(&label) else { continue };
-        if let Some(leader) = leader(&label, &bounds) {
+        if let Some(leader) = room.leader(&label, &bounds) {
             along(&leader, 1.0, &mut room.obstacles);
             scene.add(Class::Leader, Shape::Line(leader.to_vec()));
         }
@@ -64,6 +70,8 @@ pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds
 struct Room {
     /// Places along lines, each with what it costs to cover it.
     obstacles: Vec<(Point, f64)>,
+    /// What all labels name, from one end to the other.
+    named: Vec<[Point; 2]>,
     /// Other labels.
     taken: Vec<Bounds>,
     /// What the drawing takes so far.
@@ -109,17 +117,33 @@ impl Room {
     /// What a place costs, whatever its distance.
     fn cost(&self, label: &Label, bounds: &Bounds) -> f64 {
         let outside = self.drawn.map_or(0.0, |drawn| (drawn.with(*bounds).size() - drawn.size()).sum());
-        let led = leader(label, bounds)
-            .map_or(0.0, |leader| CROSSED * texts_on(&leader, &self.taken) + MET * self.met(&leader));
+        let led = match self.leader(label, bounds) {
+            Some(leader) => {
+                TOLD + CROSSED * texts_on(&leader, &self.taken) + MET * self.met(&leader, IMPORTANT)
+            }
+            None => BETWEEN * self.met(&link(label, bounds), EDGE),
+        };
         OUTSIDE * outside + crossed(bounds, &self.obstacles) + led
     }
 
-    /// The number of places of arrows and dimensions through which a line runs before it ends.
-    fn met(&self, [from, to]: &[Point; 2]) -> f64 {
+    /// The line that tells what a label names: where that is far, or something else that has a label is nearer.
+    fn leader(&self, label: &Label, bounds: &Bounds) -> Option<[Point; 2]> {
+        let own = label.named();
+        let distance = distance(bounds, own);
+        let is_nearer = |other: &[Point; 2]| *other != own && self::distance(bounds, *other) < distance;
+        let link = link(label, bounds);
+        ((link[1] - link[0]).norm() > LEADER || self.named.iter().any(is_nearer)).then_some(link)
+    }
+
+    /// The number of places of at least this weight through which a line runs before it ends.
+    fn met(&self, [from, to]: &[Point; 2], weight: f64) -> f64 {
         let along = unit(to - from, Point::x());
         let end = to - along * (2.0 * STEP);
-        let is_met = |(place, weight): &&(Point, f64)| {
-            *weight >= IMPORTANT && nearest_on_line(*place, [*from, end]).0 < 0.5 * STEP
+        let around = Bounds { least: from.inf(&end), greatest: from.sup(&end) }.widened(STEP);
+        let is_met = |(place, of_place): &&(Point, f64)| {
+            *of_place >= weight
+                && around.contains(place)
+                && nearest_on_line(*place, [*from, end]).0 < 0.5 * STEP
         };
         self.obstacles.iter().filter(is_met).count() as f64
     }
@@ -138,12 +162,26 @@ pub(super) fn reserve(label: &Label, obstacles: &mut Vec<(Point, f64)>) {
     along(&[middle - aside, middle + aside], IMPORTANT, obstacles);
 }
 
-/// The line from a label at some distance to what it names.
-fn leader(label: &Label, bounds: &Bounds) -> Option<[Point; 2]> {
-    let named = [label.anchor - label.reach, label.anchor + label.reach];
-    let (_, foot) = nearest_on_line(bounds.middle(), named);
-    let nearest = foot.sup(&bounds.least).inf(&bounds.greatest);
-    ((nearest - foot).norm() > LEADER).then_some([nearest, foot])
+impl Label {
+    /// What it names, from one end to the other.
+    fn named(&self) -> [Point; 2] {
+        [self.anchor - self.reach, self.anchor + self.reach]
+    }
+}
+
+/// The line from a label to the middle of what it names, or the nearest place of it.
+fn link(label: &Label, bounds: &Bounds) -> [Point; 2] {
+    let (_, foot) = nearest_on_line(bounds.middle(), label.named());
+    [foot.sup(&bounds.least).inf(&bounds.greatest), foot]
+}
+
+/// The distance of a label from a line that does not cross it.
+fn distance(bounds: &Bounds, line: [Point; 2]) -> f64 {
+    let Bounds { least, greatest } = *bounds;
+    let corners = [least, Point::new(least.x, greatest.y), greatest, Point::new(greatest.x, least.y)];
+    let from_corners = corners.into_iter().map(|corner| nearest_on_line(corner, line).0);
+    let from_ends = line.into_iter().map(|end| (end - end.sup(&least).inf(&greatest)).norm());
+    from_corners.chain(from_ends).fold(f64::INFINITY, f64::min)
 }
 
 /// The number of labels through which a line runs.
@@ -196,7 +234,7 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<(Point, f6
             Class::Hatch => 3.0,
             Class::Slot => 0.4,
             Class::Leader => 1.0,
-            _ => 2.0,
+            _ => EDGE,
         };
         match &element.shape {
             Shape::Line(corners) => along(corners, weight, &mut places),

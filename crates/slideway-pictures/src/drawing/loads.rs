@@ -7,6 +7,7 @@ use super::view::is_zero;
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
 use slideway::ids::{BodyId, Frame};
+use slideway::kinetics::load_wrenches;
 use slideway::mechanism::{Attachment, Drive, Effort, JointKind, Load, LoadKind, Mechanism, Pad, Quantity};
 use std::f64::consts::TAU;
 
@@ -132,9 +133,12 @@ impl Painter<'_> {
     /// Forces and torques, the efforts of the drives, the forces of pads, and weights.
     pub(super) fn loads(&mut self) {
         let mechanism = self.mechanism;
-        for load in &mechanism.loads {
+        for (index, load) in mechanism.loads.iter().enumerate() {
             match &load.kind {
                 LoadKind::Force { at, .. } => self.force_load(load, *at),
+                LoadKind::Spring { between, .. } | LoadKind::Damper { between, .. } => {
+                    self.connection_force(index, between);
+                }
                 LoadKind::Torque { body, moment, .. } => {
                     let moment = self.value_of(*moment);
                     if moment != Some(0.0) {
@@ -174,24 +178,43 @@ impl Painter<'_> {
     }
 
     fn force_load(&mut self, load: &Load, at: Attachment) {
-        let Some(force) =
-            load_force(self.mechanism, self.configuration, load).filter(|force| force.norm() > 0.0)
-        else {
-            return;
-        };
-        let text = self.named(&load.name, Some(force.norm()), "N");
-        self.force(Class::Load, at, force, text);
+        if let Some(force) = load_force(self.mechanism, self.configuration, load) {
+            let text = self.named(&load.name, Some(force.norm()), "N");
+            self.force(Class::Load, at, force, text);
+        }
     }
 
-    /// An arrow of a force that ends or begins where it acts, so that it lies outside of its body.
+    /// What a spring or damper puts on the bodies at its ends, where it is drawn.
+    fn connection_force(&mut self, index: usize, between: &[Attachment; 2]) {
+        let load = &self.mechanism.loads[index];
+        let Some(force) = load_force(self.mechanism, self.actual, load) else { return };
+        let places = self.ends(between, index);
+        for ((end, place), force) in between.iter().zip(places).zip([force, -force]) {
+            if let Some(body) = end.frame.body() {
+                let text = self.named(&load.name, Some(force.norm()), "N");
+                self.force_at(Class::Load, [place, self.centre(body)], force, text);
+            }
+        }
+    }
+
+    /// An arrow of a force on a body or on ground.
     fn force(&mut self, class: Class, at: Attachment, force: Vector2<f64>, text: String) {
         let place = self.attached(&at);
+        let centre = at.frame.body().map_or(place, |body| self.centre(body));
+        self.force_at(class, [place, centre], force, text);
+    }
+
+    /// An arrow that ends or begins where its force acts, so that it lies outside of the body with this centre; none
+    /// of no force.
+    fn force_at(&mut self, class: Class, [place, centre]: [Point; 2], force: Vector2<f64>, text: String) {
+        if force.norm() == 0.0 {
+            return;
+        }
         let direction = self.view.direction(force / force.norm());
         let is_known = class != Class::Drive;
         let to_scale = self.options.force_scale.filter(|_| is_known).map(|scale| scale * force.norm());
         let is_broken = to_scale.is_some_and(|length| length > LONGEST_LOAD);
         let length = to_scale.map_or(ARROW, |length| length.min(LONGEST_LOAD));
-        let centre = at.frame.body().map_or(place, |body| self.centre(body));
         let pushes = (centre - place).dot(&direction) > 1.0;
         let from = if pushes { place - direction * length } else { place };
         self.arrow(class, from, from + direction * length, text);
@@ -213,13 +236,14 @@ impl Painter<'_> {
     pub(super) fn arrow(&mut self, class: Class, from: Point, to: Point, text: String) {
         let direction = unit(to - from, Point::x());
         if (to - from).norm() < LEAST_ARROW {
-            self.scene.add(class, Shape::Head(from + direction * LEAST_ARROW, direction));
-            self.value(class, text, from, turned(direction));
+            let tip = from + direction * LEAST_ARROW;
+            self.scene.add(class, Shape::Head(tip, direction));
+            self.value_along(class, text, [from, tip], turned(direction));
         } else {
             self.scene.add(class, Shape::Arrow { from, to });
             let side = turned(direction);
             let side = if side.y > 0.0 { -side } else { side };
-            self.value_along(class, text, [from + side * 2.0, to + side * 2.0], side);
+            self.value_along(class, text, [from, to], side);
         }
     }
 
@@ -259,9 +283,7 @@ impl Painter<'_> {
                 let direction =
                     if turns { self.configuration.direction(at.frame, direction) } else { direction };
                 let force = direction * effort.unwrap_or(1.0);
-                if force.norm() > 0.0 {
-                    self.force(class, at, force, self.named(&drive.name, effort, "N"));
-                }
+                self.force(class, at, force, self.named(&drive.name, effort, "N"));
             }
             Effort::Torque { body, .. } => {
                 self.torque(class, body, effort.unwrap_or(1.0), self.named(&drive.name, effort, "N m"));
@@ -286,20 +308,17 @@ impl Painter<'_> {
     }
 }
 
-/// The force of a load in the world (N), if it is one and has a value in this state.
+/// The force of a load (N) where it begins, if it is a force, a spring or a damper and has a value in this state. A
+/// spring or damper acts with the opposite force on its other end.
 pub(super) fn load_force(
     mechanism: &Mechanism,
     configuration: &Configuration,
     load: &Load,
 ) -> Option<Vector2<f64>> {
-    let LoadKind::Force { at, components, axes, turns, .. } = &load.kind else { return None };
-    let value = |quantity| {
-        mechanism
-            .quantity(quantity, &configuration.coordinates, &configuration.rates, configuration.time)
-            .ok()
-    };
-    let force = axes[0] * value(components[0])? + axes[1] * value(components[1])?;
-    Some(if *turns { configuration.direction(at.frame, force) } else { force })
+    let is_force =
+        matches!(load.kind, LoadKind::Force { .. } | LoadKind::Spring { .. } | LoadKind::Damper { .. });
+    let wrenches = load_wrenches(mechanism, configuration, load).ok().filter(|_| is_force)?;
+    Some(wrenches.first()?.force)
 }
 
 /// The line of a spring.

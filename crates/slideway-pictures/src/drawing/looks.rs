@@ -17,6 +17,7 @@ use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
 use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
 use slideway::model::SliderKind;
+use slideway::model::outline::polygon;
 
 /// Places nearer to a line than this part of the size of the mechanism lie on it, as rounding goes.
 const ON_LINE: f64 = 1e-9;
@@ -62,7 +63,7 @@ pub(super) fn sliders(mechanism: &Mechanism) -> impl Iterator<Item = (JointId, &
 pub(super) fn corners(mechanism: &Mechanism, id: BodyId) -> Option<Vec<Vector2<f64>>> {
     let body = &mechanism.bodies[id.index()];
     if !body.outline.is_empty() {
-        return Some(body.outline.clone());
+        return Some(polygon(&body.outline));
     }
     match body.shape {
         Some(Shape::Rectangle([width, height])) => {

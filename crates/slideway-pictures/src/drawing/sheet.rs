@@ -94,6 +94,12 @@ pub fn sheet(
     report: Option<&SolveReport>,
     shown: Shown,
 ) -> Option<Sheet> {
+    // The numbers of a report stand in its units.
+    let mut shown_in_units = mechanism.clone();
+    if let Some(report) = report {
+        shown_in_units.units = report.model.units.clone();
+    }
+    let mechanism = &shown_in_units;
     let view = View::fitting(mechanism, &[configuration], PANEL);
     let drawn = Drawn { mechanism, configuration, report, view: &view };
     let panels = drawn.panels(shown)?;

@@ -258,7 +258,7 @@ pub fn rules(colour: &Colour) -> String {
         rule(class, format!("fill: {colour}; {}", pen(colour, 2.4)));
     }
     rule(".s-break", format!("fill: none; {}", pen(load, 1.6)));
-    rule(".s-drive .s-line", "stroke-dasharray: 5 4;".to_owned());
+    rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));
     rule(".s-leader", format!("fill: none; stroke-dasharray: 2 3; {}", pen(muted, 1.0)));
     rule(".s-words", format!("fill: {ink};"));

@@ -46,9 +46,9 @@ pub fn to_svg(report: &MapReport, settings: &Settings, theme: &Theme) -> Result<
     let whole = left + width + 3.0 * MARGIN + SAMPLE + 8.0 + LEGEND;
     let title = headline(report.title.as_deref(), &shown(report));
     let size = coordinate(TITLE);
-    let bold = [("class", "title"), ("font-size", &*size), ("font-weight", "bold"), ("fill", theme.ink)];
+    let large = [("class", "title"), ("font-size", &*size), ("fill", theme.ink)];
     for line in wrapped(&title, TITLE, whole - 2.0 * MARGIN) {
-        svg.label([MARGIN, top], &bold, &line);
+        svg.label([MARGIN, top], &large, &line);
         top += 1.3 * TITLE;
     }
     let size = coordinate(SMALL);

@@ -1,5 +1,6 @@
 //! The mechanism moving: one drawing for each frame, contact modes exaggerated.
 
+use crate::drawing::signs;
 use crate::drawing::svg::markup;
 use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
 use crate::theme::Theme;
@@ -151,14 +152,13 @@ impl<'h> Painted<'h> {
                 indices.push(index);
             }
             let mode = self.mode(sample);
-            let signs: Vec<String> = mode.chars().map(|sign| sign.to_string()).collect();
             let time = sample.configuration.time;
             let told = self.words(sample);
             let place = words.iter().position(|known| *known == told).unwrap_or_else(|| {
                 words.push(told);
                 words.len() - 1
             });
-            frames.push(FrameOf { time, mode: signs.join(" "), words: place, shapes: indices });
+            frames.push(FrameOf { time, mode: signs(&mode), words: place, shapes: indices });
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
         let bounds = bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH);

@@ -78,7 +78,8 @@ pub fn motion_figure(history: &History) -> Figure {
 }
 
 /// The phase portrait: the rate of every coordinate over its value, with arrowheads in the direction of time,
-/// and marks where the motion begins, comes to rest, jams and ends.
+/// and marks where the motion begins, comes to rest, jams and ends. Where an impulse changes the rate, at a stop
+/// or a jam, a dashed line leads from the rate before it to that after it.
 pub fn portrait_figure(history: &History) -> Figure {
     let samples = Samples::of(history);
     let coordinates = history.mechanism.coordinates.iter();
@@ -91,13 +92,19 @@ pub fn portrait_figure(history: &History) -> Figure {
         let axis = |name: String, unit: &Unit| Axis { name, unit: unit.name().to_owned(), ..Axis::default() };
         let (rate, column) = (format!("rate of {name}"), format!("{name}.rate"));
         let pieces = samples.pieces.iter();
-        let curves: Vec<Curve> =
+        let mut curves: Vec<Curve> =
             pieces.map(|piece| curve(piece, [&name, &column], &shown_in, branches.len())).collect();
         branches.push(branch(&rate, 0));
+        let points = points(history, &curves);
+        let jumps = jumps(history, &curves, branches.len());
+        if !jumps.is_empty() {
+            branches.push(Branch { name: format!("{rate} jumps"), colour: 0, stroke: Stroke::Dashed });
+        }
+        curves.extend(jumps);
         Panel {
             x: axis(name, &shown_in[0]),
             y: axis(rate, &shown_in[1]),
-            points: points(history, &curves),
+            points,
             curves,
             directed: true,
             ..Panel::default()
@@ -115,11 +122,7 @@ pub fn portrait_figure(history: &History) -> Figure {
 
 /// Where a motion begins, comes to rest, jams and ends, in the portrait of a coordinate.
 fn points(history: &History, curves: &[Curve]) -> Vec<MarkedPoint> {
-    let all = || curves.iter().flat_map(|curve| &curve.points);
-    let size = |axis: usize| {
-        extent(all().map(|point| point[axis])).map_or(0.0, |[least, greatest]| greatest - least)
-    };
-    let point_size = [size(0), size(1)].map(|size| POINT * size);
+    let point_size = point_size(curves);
     // A phase of no visible extent, at the rate zero, is a rest.
     let rests = |curve: &Curve| {
         let is_small = |axis: usize| {
@@ -128,25 +131,58 @@ fn points(history: &History, curves: &[Curve]) -> Vec<MarkedPoint> {
         };
         is_small(0) && is_small(1) && curve.points.iter().all(|point| point[1].abs() <= point_size[1])
     };
-    let jams = |time: f64| {
-        let here = history.events.iter().filter(|event| event.time == time);
-        here.flat_map(|event| &event.causes).any(|cause| matches!(cause, Cause::Jams { .. }))
-    };
     let mut points = Vec::new();
     let mut add = |at: Option<&[f64; 2]>, kind| points.extend(at.map(|at| MarkedPoint { at: *at, kind }));
     for (curve, group) in curves.iter().zip(groups(history)) {
         if rests(curve) {
             add(curve.points.first(), PointKind::Stop);
         }
-        if group.last().is_some_and(|phase| jams(phase.to)) {
+        if group
+            .last()
+            .is_some_and(|phase| ends_by(history, phase, |cause| matches!(cause, Cause::Jams { .. })))
+        {
             add(curve.points.last(), PointKind::Jam);
         }
     }
-    add(all().next(), PointKind::Start);
+    add(curves.iter().flat_map(|curve| &curve.points).next(), PointKind::Start);
     if let Some(last) = curves.last().filter(|last| !rests(last)) {
         add(last.points.last(), PointKind::End);
     }
     points
+}
+
+/// What an impulse changes in the portrait of a coordinate: from the end of one piece to the beginning of the next,
+/// where that can be seen.
+fn jumps(history: &History, curves: &[Curve], branch: usize) -> Vec<Curve> {
+    let is_impulse = |cause: &Cause| matches!(cause, Cause::Jams { .. } | Cause::Hits { .. });
+    let [_, least] = point_size(curves);
+    let groups = groups(history);
+    let pairs = curves.windows(2).zip(&groups);
+    let jump = |(pair, group): (&[Curve], &Vec<&PhaseInterval>)| {
+        let [from, to] = [*pair[0].points.last()?, *pair[1].points.first()?];
+        let is_seen = (to[1] - from[1]).abs() > least;
+        (is_seen && ends_by(history, group.last()?, is_impulse)).then(|| Curve {
+            branch,
+            quantity: 0,
+            points: vec![from, to],
+            ends: <[crate::plot::End; 2]>::default(),
+        })
+    };
+    pairs.filter_map(jump).collect()
+}
+
+/// Whether a phase ends by some cause.
+fn ends_by(history: &History, phase: &PhaseInterval, is_meant: impl Fn(&Cause) -> bool) -> bool {
+    let here = history.events.iter().filter(|event| event.time == phase.to);
+    here.flat_map(|event| &event.causes).any(is_meant)
+}
+
+/// Width and height of what is a point in the picture of some curves.
+fn point_size(curves: &[Curve]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let all = curves.iter().flat_map(|curve| &curve.points).map(|point| point[axis]);
+        extent(all).map_or(0.0, |[least, greatest]| POINT * (greatest - least))
+    })
 }
 
 fn names(history: &History) -> String {

@@ -10,7 +10,7 @@ use crate::typeface::{STACK, width};
 use std::fmt::Write;
 
 /// Room for the words below the drawing (drawing units).
-const CAPTION: f64 = 78.0;
+const CAPTION: f64 = 94.0;
 /// From the left edge to the words (drawing units).
 const INDENT: f64 = 12.0;
 /// How far the background of a frame that stands still goes beyond its edges (drawing units).
@@ -18,12 +18,13 @@ const INDENT: f64 = 12.0;
 const BLEED: f64 = 2.0;
 /// At most so many events are told in an SVG document.
 const MOST_TOLD: usize = 200;
-/// Size of the words of an event.
+/// Size of the words below the drawing.
 const WORDS: f64 = 13.0;
 /// Greatest length of the arrow that shows the scale of forces (drawing units).
 const LONGEST_SAMPLE: f64 = 60.0;
-/// Lines for the words of an event.
+/// Lines for the words of a frame, and for those of an event, and their distance (drawing units).
 const LINES: usize = 2;
+const LINE: f64 = 16.0;
 
 impl Animation {
     /// As a page by itself, with a slider for the time and the log of events.
@@ -287,16 +288,10 @@ pub(super) fn still_size(animation: &Animation) -> [f64; 2] {
     [size.x.ceil(), (size.y + CAPTION).ceil()]
 }
 
-/// Time and mode of a frame, below its drawing.
+/// Time and mode of a frame with its words.
 fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
-    let _ = write!(
-        out,
-        "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"15\">t = {:.4} s, mode {}</text>",
-        coordinate(animation.bounds.least.x + INDENT),
-        coordinate(animation.bounds.greatest.y + 16.0),
-        frame.time,
-        escaped(&frame.mode)
-    );
+    let words = animation.words.get(frame.words).map_or("", |words| words);
+    words_below(animation, 16.0, &format!("t = {:.4} s, mode {}: {words}", frame.time, frame.mode), out);
 }
 
 /// An arrow of a round force in the lower left corner of the drawing; nothing without forces.
@@ -321,15 +316,20 @@ fn speed_below(animation: &Animation, out: &mut String) {
         out,
         "<text class=\"s-dimension\" style=\"stroke: none\" x=\"{}\" y=\"{}\" font-size=\"12\">{}</text>",
         coordinate(animation.bounds.least.x + INDENT),
-        coordinate(animation.bounds.greatest.y + 72.0),
+        coordinate(animation.bounds.greatest.y + 90.0),
         speed(animation)
     );
 }
 
-/// The words of an event in the lines below the drawing; three dots where these do not hold all.
+/// The words of an event.
 fn words_of_event(animation: &Animation, time: f64, words: &str, out: &mut String) {
+    words_below(animation, 54.0, &format!("{time:.4} s: {words}"), out);
+}
+
+/// Words in lines from a place below the drawing on; three dots where these do not hold all.
+fn words_below(animation: &Animation, first: f64, words: &str, out: &mut String) {
     let space = animation.bounds.size().x - 2.0 * INDENT;
-    let mut lines = wrapped(&format!("{time:.4} s: {words}"), WORDS, space - width("…", WORDS));
+    let mut lines = wrapped(words, WORDS, space - width("…", WORDS));
     if lines.len() > LINES {
         lines.truncate(LINES);
         lines.iter_mut().skip(LINES - 1).for_each(|line| line.push('…'));
@@ -339,7 +339,7 @@ fn words_of_event(animation: &Animation, time: f64, words: &str, out: &mut Strin
             out,
             "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{}</text>",
             coordinate(animation.bounds.least.x + INDENT),
-            coordinate(animation.bounds.greatest.y + 38.0 + 16.0 * line as f64),
+            coordinate(animation.bounds.greatest.y + first + LINE * line as f64),
             escaped(text)
         );
     }

@@ -13,15 +13,13 @@ pub(super) fn body(page: &Page<'_>) -> String {
     let states = page.report.map(states).unwrap_or_default();
     let units = page.report.map(|report| report.model.units.clone()).unwrap_or_default();
     format!(
-        "{}\n<div class=\"beside\">\n{}\n{}</div>\n{}\n{}\n{}\n<footer class=\"quiet\">\n<p>Made by <code>{}</code>, slideway {}.</p>\n</footer>\n",
+        "{}\n<div class=\"beside\">\n{}\n{}</div>\n{}\n{}\n{}",
         header(page, !states.is_empty()),
         drawing(page),
         summary(page),
         solutions(&states, &units),
         limits(page),
         model(page),
-        text(page.command),
-        env!("CARGO_PKG_VERSION"),
     )
 }
 
@@ -35,8 +33,15 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
         Ok(report) => answer(report),
         Err(refused) => {
             let reasons = all(refused, |line| format!("<p>{}</p>\n", text(line)));
-            let words = "The kinetic problem has no answer in this state.";
-            format!("<p class=\"answer\" id=\"answer\"><strong>{words}</strong></p>\n{reasons}")
+            let words = match page.rest {
+                Ok(rest) => format!("At rest: {}", rest.answer()),
+                Err(_) => "The kinetic problem has no answer in this state.".to_owned(),
+            };
+            let motion = if page.rest.is_ok() { "<p>In motion it has no answer:</p>\n" } else { "" };
+            format!(
+                "<p class=\"answer\" id=\"answer\"><strong>{}</strong></p>\n{motion}{reasons}",
+                text(&words)
+            )
         }
     };
     let margins = if summary(page).is_empty() { "" } else { "<a href=\"#margins\">Margins</a>" };
@@ -281,5 +286,14 @@ fn model(page: &Page<'_>) -> String {
         let settings = all(page.settings, |setting| format!("<li><code>{}</code></li>\n", text(setting)));
         format!("<p>{name}, changed by</p>\n<ul>\n{settings}</ul>\n")
     };
-    format!("<section id=\"model\">\n<h2>Model</h2>\n{settings}<pre>{}</pre>\n</section>\n", text(page.text))
+    // Behind the model it would be all there is of the last printed page where the model fills the one before.
+    let command = format!(
+        "<p class=\"quiet\">Report made by <code>{}</code>, slideway {}.</p>\n",
+        text(page.command),
+        env!("CARGO_PKG_VERSION")
+    );
+    format!(
+        "<section id=\"model\">\n<h2>Model</h2>\n{command}{settings}<pre>{}</pre>\n</section>\n",
+        text(page.text)
+    )
 }

@@ -19,6 +19,7 @@ use crate::theme::{DARK, LIGHT, Theme};
 use slideway::limits::LimitsReport;
 use slideway::printable::lines;
 use slideway::report::SolveReport;
+use slideway::standstill::HoldReport;
 
 const HEAD: &str = include_str!("head.html");
 
@@ -39,8 +40,8 @@ pub struct Page<'a> {
     pub report: Result<&'a SolveReport, &'a [String]>,
     /// Which efforts the drives need, and the efficiency, in sentences; empty without drives.
     pub efficiency: &'a [String],
-    /// Whether it stays at rest, in sentences.
-    pub rest: &'a [String],
+    /// Whether it stays at rest, or why that is not known.
+    pub rest: Result<&'a HoldReport, &'a [String]>,
     /// For which values modes exist.
     pub limits: &'a [LimitsReport],
     /// Further figures.

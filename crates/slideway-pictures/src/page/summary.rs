@@ -5,10 +5,11 @@ use super::{Page, all, text};
 /// The section; nothing where none of these is known.
 pub(super) fn summary(page: &Page<'_>) -> String {
     let margins = page.report.map(|report| vec![report.margins_in_words()]).unwrap_or_default();
+    let rest = page.rest.map_or_else(<[String]>::to_vec, |report| vec![report.verdict_in_words()]);
     let parts = [
         ("Margins of friction", &*margins),
         ("Efforts and efficiency", page.efficiency),
-        ("At rest", page.rest),
+        ("At rest", &*rest),
     ];
     let part = |(title, sentences): (&str, &[String])| {
         let lines =

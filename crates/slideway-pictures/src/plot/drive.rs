@@ -51,7 +51,7 @@ impl Builder<'_> {
         let drives: Vec<usize> =
             all.filter(|(_, drive)| drive.unit == unit).map(|(index, _)| index).collect();
         for stretch in stretches(direction) {
-            let branch = self.branch(stretch.pattern, direction.direction);
+            let branch = self.branch(stretch.pattern, direction);
             for &drive in &drives {
                 let value =
                     |row: &CourseRow| row.efforts.as_ref().map(|efforts| shown.number_of(efforts[drive]));
@@ -77,7 +77,7 @@ impl Builder<'_> {
     fn efficiency(&mut self, direction: &CourseDirection) -> Panel {
         let mut curves = Vec::new();
         for stretch in stretches(direction) {
-            let branch = self.branch(stretch.pattern, direction.direction);
+            let branch = self.branch(stretch.pattern, direction);
             let value = |row: &CourseRow| Some(100.0 * row.efficiency?.value?);
             let curve = self.curve(&stretch.rows, (branch, 0), [End::Plain; 2], value);
             curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
@@ -119,15 +119,11 @@ impl Builder<'_> {
         Curve { branch, quantity, points: points.collect(), ends }
     }
 
-    /// The branch of a mode; its words are known where the model has it.
-    fn branch(&mut self, pattern: &str, direction: Sense) -> usize {
-        let here = self.report.directions.iter().filter(|known| known.direction == direction);
-        let solution = here.flat_map(|known| &known.solutions).find(|known| known.pattern == pattern);
-        let words = solution.map(|solution| {
-            let joints = solution.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode));
-            format!(":\u{a0}{}", joints.collect::<Vec<String>>().join("; "))
-        });
-        let name = format!("{}{}", signs(pattern), words.unwrap_or_default());
+    /// The branch of a mode, with its words.
+    fn branch(&mut self, pattern: &str, direction: &CourseDirection) -> usize {
+        let mode = direction.modes.iter().find(|mode| mode.pattern == pattern);
+        let words = mode.map_or_else(String::new, |mode| format!(":\u{a0}{}", mode.words));
+        let name = format!("{}{words}", signs(pattern));
         let modes = self.branches.iter().filter(|branch| branch.stroke == Stroke::Solid).count();
         self.entry(&name, modes, Stroke::Solid)
     }

@@ -130,9 +130,13 @@ fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(Sample, String)
     let entry = |set: &[usize]| match set {
         [one] => (Sample::Curve(branches[*one].colour, branches[*one].stroke), branches[*one].name.clone()),
         several => {
-            // What has an entry of its own is named by what is before its colon.
+            // What has an entry of its own is named by what is before its colon, and in brackets behind it: of those
+            // that coincide some may be attainable and some not.
             let name = |branch: &usize| match branches[*branch].name.split_once(":\u{a0}") {
-                Some((short, _)) if is_alone(*branch) => short.to_owned(),
+                Some((short, words)) if is_alone(*branch) => {
+                    let bracket = words.rfind(" (").filter(|_| words.ends_with(')'));
+                    format!("{short}{}", bracket.map_or("", |at| &words[at..]))
+                }
                 _ => branches[*branch].name.clone(),
             };
             let names: Vec<String> = several.iter().map(name).collect();

@@ -86,6 +86,8 @@ impl Builder<'_> {
     /// The curves of a mode, cut where its verdict changes.
     fn mode(&mut self, mode: &ModeLimits, curve: &limits::Curve, unit: &str) -> Vec<Curve> {
         let stroke = |verdict: Verdict| if mode.preload_gap { Stroke::Dotted } else { stroke_of(verdict) };
+        let all = curve.points.iter().map(|point| point.verdict);
+        let with = |wanted: Stroke| all.clone().filter(move |verdict| stroke(*verdict) == wanted);
         let mut drawn = Vec::new();
         let mut start = 0;
         while start < curve.points.len() {
@@ -93,7 +95,7 @@ impl Builder<'_> {
             let length =
                 curve.points[start..].iter().take_while(|point| stroke(point.verdict) == now).count();
             let end = start + length;
-            let branch = self.branch(mode, now);
+            let branch = self.branch(mode, now, with(now));
             // The next stretch begins where this one ends.
             let points = &curve.points[start.saturating_sub(1)..end];
             let ends = [
@@ -120,12 +122,17 @@ impl Builder<'_> {
     }
 
     /// The branch of a mode with a stroke; every mode has one colour.
-    fn branch(&mut self, mode: &ModeLimits, stroke: Stroke) -> usize {
+    fn branch(
+        &mut self,
+        mode: &ModeLimits,
+        stroke: Stroke,
+        verdicts: impl Iterator<Item = Verdict>,
+    ) -> usize {
         let colour = self.patterns.iter().position(|pattern| *pattern == mode.pattern).unwrap_or_else(|| {
             self.patterns.push(mode.pattern.clone());
             self.patterns.len() - 1
         });
-        let name = mode_name(mode, stroke);
+        let name = mode_name(mode, verdicts);
         let same = self.branches.iter().position(|branch| branch.name == name);
         same.unwrap_or_else(|| {
             self.branches.push(Branch { name, colour, stroke });
@@ -193,18 +200,28 @@ pub(super) fn without_empty_ends(panels: &mut [Panel]) {
     }
 }
 
-/// Signs, contact modes in words, and what the stroke means.
-fn mode_name(mode: &ModeLimits, stroke: Stroke) -> String {
+/// Signs, contact modes in words, and what a mechanism with slightly elastic guides does in them, where it does not settle
+/// on them.
+fn mode_name(mode: &ModeLimits, verdicts: impl Iterator<Item = Verdict>) -> String {
     let signs: Vec<String> =
         mode.pattern.chars().map(|sign| sign.to_string().replace('-', "\u{2212}")).collect();
     let words: Vec<String> =
         mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
-    let meaning = match stroke {
-        Stroke::Solid => "",
-        Stroke::Dashed => " (threshold, not attainable)",
-        Stroke::Dotted => " (preload gap)",
-        Stroke::DashDotted => " (attainable only with damping, or undecided)",
-    };
+    let mut meanings: Vec<&str> = Vec::new();
+    for verdict in verdicts {
+        let meaning = match verdict {
+            _ if mode.preload_gap => "preload gap",
+            Verdict::Attainable => continue,
+            Verdict::Unattainable => "threshold, not attainable",
+            Verdict::Flutter => "attainable only with damping",
+            Verdict::Undecided => "not decided whether attainable",
+            Verdict::NotComputed => "attainability not computed",
+        };
+        if !meanings.contains(&meaning) {
+            meanings.push(meaning);
+        }
+    }
+    let meaning = if meanings.is_empty() { String::new() } else { format!(" ({})", meanings.join(", or ")) };
     format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
 }
 

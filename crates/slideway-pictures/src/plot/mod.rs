@@ -100,12 +100,7 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
     }
     let mut y = MARGIN + TITLE;
     for line in wrapped(&figure.title, TITLE, WIDTH - 2.0 * MARGIN) {
-        let attributes = [
-            ("class", "title"),
-            ("font-size", &*coordinate(TITLE)),
-            ("font-weight", "bold"),
-            ("fill", theme.ink),
-        ];
+        let attributes = [("class", "title"), ("font-size", &*coordinate(TITLE)), ("fill", theme.ink)];
         svg.label([MARGIN, y], &attributes, &line);
         y += 1.3 * TITLE;
     }

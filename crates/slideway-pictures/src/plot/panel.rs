@@ -134,12 +134,8 @@ impl<'f> PanelLayout<'f> {
 
     fn title(&self, theme: &Theme, svg: &mut Svg) {
         if !self.panel.title.is_empty() {
-            let attributes = [
-                ("class", "panel-title"),
-                ("font-size", &*coordinate(TEXT)),
-                ("font-weight", "bold"),
-                ("fill", theme.ink),
-            ];
+            let attributes =
+                [("class", "panel-title"), ("font-size", &*coordinate(TEXT)), ("fill", theme.ink)];
             svg.label([self.frame.left, self.top + 10.0 + TEXT], &attributes, &self.panel.title);
         }
     }

@@ -5,11 +5,22 @@ use slideway::model::Settings;
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{
-    Bounds, Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Shown, View, scene, sheet,
+    Bounds, Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Sheet, Shown, Text, View,
+    scene, sheet,
 };
 use slideway_pictures::theme::{DARK, LIGHT};
+use std::sync::LazyLock;
 
-/// The models at several positions: settings of coordinates by name.
+/// The models at several positions, and the templates, each with the sheet of all its drawings.
+static CASES: LazyLock<Vec<(String, Case, Sheet)>> = LazyLock::new(|| {
+    let with_sheet = |(name, case): (String, Case)| {
+        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+        (name, case, sheet)
+    };
+    cases().into_iter().map(with_sheet).collect()
+});
+
+/// Settings of coordinates by name.
 fn cases() -> Vec<(String, Case)> {
     let elsewhere: [(&str, &[(&str, &str)]); 10] = [
         ("cam-follower", &[("lift", "20 mm")]),
@@ -33,13 +44,15 @@ fn cases() -> Vec<(String, Case)> {
             .fold(Settings::default(), |settings, (coordinate, value)| settings.position(coordinate, value));
         (format!("{name} at {positions:?}"), Case::new(text, &settings))
     });
-    drawn.chain(moved).collect()
+    let templates = slideway::template::TEMPLATES.iter().map(|template| {
+        (format!("template {}", template.name), Case::new(template.text, &Settings::default()))
+    });
+    drawn.chain(moved).chain(templates).collect()
 }
 
 #[test]
 fn everything_is_within_the_view_box() {
-    for (name, case) in cases() {
-        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    for (name, _, sheet) in &*CASES {
         let bounds = sheet.bounds;
         for element in &sheet.scene.elements {
             let Some(inner) = element.shape.bounds() else { continue };
@@ -53,8 +66,7 @@ fn everything_is_within_the_view_box() {
 
 #[test]
 fn no_two_texts_overlap() {
-    for (name, case) in cases() {
-        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    for (name, _, sheet) in &*CASES {
         let texts: Vec<_> = sheet.scene.texts().map(|(_, text)| text).collect();
         for (index, text) in texts.iter().enumerate() {
             for other in &texts[..index] {
@@ -68,8 +80,7 @@ fn no_two_texts_overlap() {
 /// Letters over a dimension or over hatching are hard to read: each label has a place without.
 #[test]
 fn no_text_covers_a_dimension_or_hatching() {
-    for (name, case) in cases() {
-        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    for (name, _, sheet) in &*CASES {
         let texts: Vec<_> = sheet.scene.texts().map(|(_, text)| (text, text.bounds())).collect();
         for class in [Class::Dimension, Class::Hatch] {
             for shape in of_class(&sheet.scene, class) {
@@ -81,6 +92,51 @@ fn no_text_covers_a_dimension_or_hatching() {
             }
         }
     }
+}
+
+/// Each value is the nearest of its colour to what it names, or a line leads there: no two stand beside one arrow.
+#[test]
+fn no_two_values_stand_beside_one_arrow() {
+    for (name, _, sheet) in &*CASES {
+        let leaders: Vec<_> = of_class(&sheet.scene, Class::Leader).collect();
+        for class in [Class::Reaction, Class::Friction, Class::Load, Class::Drive, Class::Velocity] {
+            let arrows: Vec<&Shape> =
+                of_class(&sheet.scene, class).filter(|shape| !matches!(shape, Shape::Text(_))).collect();
+            let of_class = sheet.scene.texts().filter(|(of, _)| *of == class).map(|(_, text)| text);
+            let is_led = |text: &&Text| {
+                let bounds = text.bounds().widened(1.0);
+                let leads =
+                    |leader: &&Shape| matches!(leader, Shape::Line(places) if bounds.contains(&places[0]));
+                leaders.iter().any(leads)
+            };
+            // Arrows that begin at one place are equally near.
+            let near = |text: &Text| -> Vec<usize> {
+                let far: Vec<f64> = arrows.iter().map(|arrow| distance(&text.bounds(), arrow)).collect();
+                let least = far.iter().copied().fold(f64::INFINITY, f64::min);
+                (0..arrows.len()).filter(|index| far[*index] < least + 1.0).collect()
+            };
+            let mut texts: Vec<(&Text, Vec<usize>)> =
+                of_class.filter(|text| !is_led(text)).map(|text| (text, near(text))).collect();
+            texts.sort_by_key(|(_, near)| near.len());
+            let mut named = Vec::new();
+            for (text, near) in texts {
+                let own = near.iter().find(|arrow| !named.contains(*arrow));
+                named.push(*own.unwrap_or_else(|| panic!("{name}: {text:?} and another beside one arrow")));
+            }
+        }
+    }
+}
+
+/// The distance of a text from the nearest place of a shape.
+fn distance(text: &Bounds, shape: &Shape) -> f64 {
+    let places: Vec<Point> = match shape {
+        Shape::Arrow { from, to } => between(*from, *to).collect(),
+        Shape::Head(tip, direction) => between(*tip - direction * 9.0, *tip).collect(),
+        Shape::Line(places) => places.windows(2).flat_map(|pair| between(pair[0], pair[1])).collect(),
+        _ => Vec::new(),
+    };
+    let far = places.iter().map(|place| (place - place.sup(&text.least).inf(&text.greatest)).norm());
+    far.fold(f64::INFINITY, f64::min)
 }
 
 /// Places a unit apart on the way from one place to another.
@@ -112,8 +168,7 @@ fn long_plates_are_torn_off_and_others_are_whole() {
 
 #[test]
 fn every_solution_has_its_picture_and_caption() {
-    for (name, case) in cases() {
-        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    for (name, case, sheet) in &*CASES {
         let has = |wanted: &str| sheet.scene.texts().any(|(_, text)| text.text.starts_with(wanted));
         assert!(has("The mechanism, to scale"), "{name}");
         let count = case.report.as_ref().map_or(0, |report| report.solutions.len());

@@ -51,6 +51,7 @@ __all__ = [
     "CountLimits",
     "Course",
     "CourseDirection",
+    "CourseMode",
     "CourseRow",
     "CriticalContact",
     "Curve",
@@ -388,7 +389,8 @@ MetEnd = Literal["range", "margin", "jump", "no_position"]
 - `"range"`: The range ends.
 - `"margin"`: The margin is just met.
 - `"jump"`: The margin jumps.
-- `"no_position"`: The mechanism cannot be assembled or solved beyond."""
+- `"no_position"`: The mechanism cannot be assembled or solved beyond, or the model does not allow the values
+there: `SizeReport::without_position` says why."""
 
 ModeEndCause = Literal[
     "nothing",
@@ -1019,10 +1021,22 @@ class CourseDirection(Record):
     """Which direction it is."""
     rows: tuple[CourseRow, ...]
     """One row for each value and each solution there; a value without a solution has one row without a pattern."""
+    modes: tuple[CourseMode, ...]
+    """The modes of the rows, each once."""
     blow_ups: tuple[BlowUp, ...]
     """Values at which efforts grow without bound, in ascending order."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
     """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CourseMode(Record):
+    """A mode that occurs."""
+
+    pattern: str
+    """One sign for each contact."""
+    words: str
+    """The contact modes of all sliding joints, in words."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1628,8 +1642,8 @@ class Margins(Record):
     """From this greater factor on there are solutions again; absent if there are none."""
     uniqueness: float | None = None
     """Up to this factor every load has exactly one solution (below 1: some other load has none or several
-    already); absent if that is never lost, or was not computed because preloads jump with the side of
-    contact."""
+    already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
+    because preloads jump with the side of contact."""
     critical_contact: CriticalContact | None = None
     """The contact whose friction alone changes the number of solutions first; absent if none does."""
 
@@ -2167,8 +2181,8 @@ class SizeReport(Report):
     met: tuple[MetInterval, ...]
     """The intervals in which the wanted margin is met, in ascending order."""
     without_position: tuple[RangeWithoutPosition, ...]
-    """Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces,
-    which is no locking."""
+    """Ranges in which the mechanism cannot be assembled or solved, the model does not allow the values, or a
+    guided slider is between its faces, which is no locking."""
     samples: tuple[Sample, ...]
     """The margin at evenly spaced values, and where the wanted one is just met."""
     guarantee: str

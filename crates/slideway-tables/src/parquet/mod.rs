@@ -4,8 +4,11 @@
 //! Words are dictionary-encoded. Parquet itself has no place for the unit of a column, so units stand in the
 //! metadata of the file. (The format: <https://parquet.apache.org/docs/file-format/>.)
 
+mod reader;
 mod records;
+pub(crate) mod seal;
 
+pub(crate) use reader::ShardReader;
 pub(crate) use records::convert;
 
 use crate::Metadata;
@@ -22,6 +25,13 @@ use std::sync::Arc;
 
 /// Rows of a group: as many as fit easily into memory.
 pub const GROUP: usize = 1 << 17;
+
+/// Entries of the metadata of files: the command that made it, the text of the model, the program with its
+/// version, and what a shard tells of itself.
+pub(crate) const COMMAND: &str = "slideway.command";
+pub(crate) const MODEL: &str = "slideway.model";
+pub(crate) const PROGRAM: &str = "slideway.program";
+pub(crate) const MANIFEST: &str = "slideway.shard";
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,11 +84,21 @@ impl<W: Write + Send> ParquetTable<W> {
     /// # Errors
     /// If it cannot be written.
     pub fn new(sink: W, columns: &[Column], metadata: &Metadata) -> io::Result<Self> {
+        Self::new_with(sink, columns, metadata, [])
+    }
+
+    /// [`Self::new`] with more entries of the metadata of the file, behind the others.
+    fn new_with<const MORE: usize>(
+        sink: W,
+        columns: &[Column],
+        metadata: &Metadata,
+        more: [(&'static str, String); MORE],
+    ) -> io::Result<Self> {
         let fields: Result<Vec<_>, _> = columns.iter().map(|column| field(column).map(Arc::new)).collect();
         let schema = fields
             .and_then(|fields| Type::group_type_builder("slideway").with_fields(fields).build())
             .map_err(failure)?;
-        let properties = properties(columns, metadata);
+        let properties = properties(columns, metadata, more);
         let writer = SerializedFileWriter::new(sink, Arc::new(schema), Arc::new(properties));
         Ok(Self { writer: writer.map_err(failure)? })
     }
@@ -126,7 +146,11 @@ fn field(column: &Column) -> Result<Type, ParquetError> {
 }
 
 /// Encodings, and what the file tells of itself.
-fn properties(columns: &[Column], metadata: &Metadata) -> WriterProperties {
+fn properties<const MORE: usize>(
+    columns: &[Column],
+    metadata: &Metadata,
+    more: [(&'static str, String); MORE],
+) -> WriterProperties {
     let units: BTreeMap<&str, &str> = columns
         .iter()
         .filter(|column| !column.unit.is_empty())
@@ -135,15 +159,15 @@ fn properties(columns: &[Column], metadata: &Metadata) -> WriterProperties {
     let units = serde_json::json!(units).to_string();
     let program = Metadata::program();
     let texts = [
-        ("command", &metadata.command),
-        ("model", &metadata.model),
-        ("program", &program),
-        ("units", &units),
+        (COMMAND, metadata.command.clone()),
+        (MODEL, metadata.model.clone()),
+        (PROGRAM, program.clone()),
+        ("slideway.units", units),
     ];
-    let texts = texts.map(|(key, text)| KeyValue::new(format!("slideway.{key}"), text.clone()));
+    let texts = texts.into_iter().chain(more).map(|(key, text)| KeyValue::new(key.to_owned(), text));
     let mut properties = WriterProperties::builder()
         .set_created_by(program)
-        .set_key_value_metadata(Some(texts.to_vec()))
+        .set_key_value_metadata(Some(texts.collect()))
         .set_compression(Compression::SNAPPY)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_max_row_group_row_count(None);

@@ -1,28 +1,38 @@
 //! Parquet files from records.
 
-use super::{Column, ColumnKind, GROUP, ParquetTable, Values};
+use super::{Column, ColumnKind, GROUP, MANIFEST, ParquetTable, Values, seal};
 use crate::record::{Field, FieldKind, fields};
-use crate::{Layout, Metadata};
+use crate::{Encoder, Layout, Manifest};
 use ::parquet::data_type::ByteArray;
 use slideway::report::defined;
+use slideway::sweep::Tally;
 use std::array;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
-/// Makes a Parquet file of so many bytes of records. `go_on` is told which part is done, and breaks to end it
+/// Makes a Parquet file of so many bytes of records, sealed if it is a shard, which comes to `tally`. `go_on` is told which part is done, and breaks to end it
 /// early.
 ///
 /// # Errors
 /// If a file cannot be read or written.
 pub(crate) fn convert(
     (mut records, bytes): (&File, u64),
-    (layout, metadata): (&Layout, &Metadata),
+    (encoder, tally): (&Encoder, &Tally),
     sink: &File,
     go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> io::Result<ControlFlow<()>> {
+    let Encoder { layout, metadata, part, .. } = encoder;
     let fields = fields(layout);
-    let mut table = ParquetTable::new(sink, &columns(&fields, layout), metadata)?;
+    let columns = columns(&fields, layout);
+    let mut table = match part {
+        None => ParquetTable::new(sink, &columns, metadata)?,
+        Some(part) => {
+            let manifest = Manifest { part: part.clone(), tally: tally.clone() };
+            let more = [(MANIFEST, serde_json::to_string(&manifest)?), seal::placeholder()];
+            ParquetTable::new_with(sink, &columns, metadata, more)?
+        }
+    };
     let record: usize = fields.iter().map(|field| field.kind.size()).sum();
     records.seek(SeekFrom::Start(0))?;
     let mut left = bytes;
@@ -45,11 +55,15 @@ pub(crate) fn convert(
         }))?;
         left -= size;
     }
-    table.finish().map(ControlFlow::Continue)
+    table.finish()?;
+    if part.is_some() {
+        seal::seal(sink)?;
+    }
+    Ok(ControlFlow::Continue(()))
 }
 
 /// The columns of fields.
-fn columns(fields: &[Field], layout: &Layout) -> Vec<Column> {
+pub(super) fn columns(fields: &[Field], layout: &Layout) -> Vec<Column> {
     let numbers = || layout.varied.iter().chain(&layout.numbers);
     let column = |field: &Field| Column {
         name: field.name.clone(),

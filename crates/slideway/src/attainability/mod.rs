@@ -39,8 +39,6 @@ const MOST_SOLUTIONS: usize = 32;
 /// Inertia of a motion without mass where its fate is sought, as a share of the greatest other.
 const VANISHING_SHARE: f64 = 1e-3;
 
-const REVERSED: &str =
-    "the line of action of a drive makes the fast motion of elastic guides unstable without friction";
 const ROUNDING: &str = "an eigenvalue of the fast motion is zero within rounding";
 
 /// A solution whose attainability is asked for.
@@ -61,8 +59,8 @@ pub struct ElasticGuides<'p> {
     /// Of every contact (N/m); 1 if the model does not give all of them.
     stiffness: Vec<f64>,
     given: bool,
-    /// Whether the fast motion is stable without friction; with drives it may not be.
-    stable: bool,
+    /// Why the fast motion is not stable, if it is not without friction either, which drives may cause.
+    reversed: Option<String>,
 }
 
 impl<'p> ElasticGuides<'p> {
@@ -81,7 +79,8 @@ impl<'p> ElasticGuides<'p> {
                 .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
             spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
         });
-        Self { problem, inertia, stiffness, given, stable }
+        let reversed = (!stable).then(|| reversed(mechanism));
+        Self { problem, inertia, stiffness, given, reversed }
     }
 
     /// The attainability of each of these solutions, which are all that the mechanism has and none of them on
@@ -98,7 +97,7 @@ impl<'p> ElasticGuides<'p> {
         if sides.len() > MOST_CONTACTS {
             return Verdict::NotComputed;
         }
-        let (Some(inertia), true) = (&self.inertia, self.stable) else { return Verdict::Undecided };
+        let (Some(inertia), None) = (&self.inertia, &self.reversed) else { return Verdict::Undecided };
         let mode = mode_matrix(self.problem, sides);
         let oriented = mode.determinant();
         let spectrum = Pencil::new(inertia, mode)
@@ -116,8 +115,9 @@ impl<'p> ElasticGuides<'p> {
             let reason = format!("more than {MOST_CONTACTS} contacts");
             return Attainability::without_eigenvalues(Verdict::NotComputed, &reason);
         }
-        let (Some(inertia), true) = (&self.inertia, self.stable) else {
-            return Attainability::without_eigenvalues(Verdict::Undecided, REVERSED);
+        let (Some(inertia), None) = (&self.inertia, &self.reversed) else {
+            let reason = self.reversed.as_deref().unwrap_or_default();
+            return Attainability::without_eigenvalues(Verdict::Undecided, reason);
         };
         let mode = mode_matrix(self.problem, sides);
         let oriented = mode.determinant();
@@ -201,6 +201,17 @@ impl<'p> ElasticGuides<'p> {
             }
         }
     }
+}
+
+/// What is assumed of the drives, and what to change.
+fn reversed(mechanism: &Mechanism) -> String {
+    let holds = mechanism.drives.iter().map(|drive| {
+        format!("{} holds {}", drive.name, mechanism.coordinates[drive.coordinate.index()].name)
+    });
+    format!(
+        "each drive is taken to hold its coordinate exactly while the guides give way ({}), and pushes along such a line that this is unstable without any friction; choose as coordinate the displacement of the point on which the drive pushes, `x = \"BODY.POINT\"`",
+        holds.collect::<Vec<_>>().join(", ")
+    )
 }
 
 fn fate(end: End, numbers: &[usize]) -> Fate {

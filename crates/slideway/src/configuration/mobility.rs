@@ -12,8 +12,9 @@ use nalgebra::{DMatrix, DVector, SVD, Vector2};
 
 /// Singular values below this multiple of the greatest count as zero.
 pub(super) const RANK_TOLERANCE: f64 = 1e-9;
-/// Length of the step, in sizes of the mechanism, that tells a singular position from a redundant structure.
-const PROBE: f64 = 1e-2;
+/// Length of the step, in sizes of the mechanism or rad, that tells what is so in this position alone: a singular
+/// position from a redundant structure, a joint that just stops sliding from one that never slides.
+pub(crate) const PROBE: f64 = 1e-2;
 /// Kinetic energies below this multiple of the greatest count as none.
 const NO_INERTIA: f64 = 1e-12;
 
@@ -274,13 +275,21 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
     })
 }
 
+/// A motion of the bodies, (x, y, angle) of each, or its opposite: that in which loads (N, N, N m of each) move it.
+/// Of loads that do no work but for rounding it is the one whose greatest component is positive.
+pub(crate) fn moved_by(motion: DVector<f64>, loads: &DVector<f64>) -> DVector<f64> {
+    let (work, terms) = (loads.dot(&motion), loads.abs().dot(&motion.abs()));
+    let forwards = if work.abs() > RANK_TOLERANCE * terms { work } else { motion[motion.icamax()] };
+    if forwards < 0.0 { -motion } else { motion }
+}
+
 /// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words: each in the
-/// direction in which loads (N, N, N m of every body) move it, if there are any that do.
+/// direction in which loads (N, N, N m of every body) move it.
 pub(crate) fn motions_without_inertia(
     mechanism: &Mechanism,
     configuration: &Configuration,
     motions: &DMatrix<f64>,
-    loads: Option<&DVector<f64>>,
+    loads: &DVector<f64>,
 ) -> Vec<String> {
     let masses = mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]);
     let masses = DVector::from_iterator(motions.nrows(), masses);
@@ -292,15 +301,7 @@ pub(crate) fn motions_without_inertia(
     let greatest = eigen.eigenvalues.amax();
     let without = (0..motions.ncols()).filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest);
     let in_words = |index: usize| {
-        let mut motion = motions * eigen.eigenvectors.column(index);
-        // Of loads that do no work but for rounding, or without any, it is the direction whose greatest
-        // component is positive.
-        let work = loads.map(|loads| (loads.dot(&motion), loads.abs().dot(&motion.abs())));
-        let work = work.filter(|(work, terms)| work.abs() > RANK_TOLERANCE * terms);
-        let forwards = work.map_or(motion[motion.icamax()], |(work, _)| work);
-        if forwards < 0.0 {
-            motion = -motion;
-        }
+        let motion = moved_by(motions * eigen.eigenvectors.column(index), loads);
         motion_in_words(mechanism, configuration, &motion)
     };
     without.map(in_words).collect()

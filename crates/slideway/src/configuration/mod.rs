@@ -23,7 +23,9 @@ pub(crate) use assembly::widest_gap_of_drawing;
 pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
-pub(crate) use mobility::{advance, free_motions, motion_in_words, motions_without_inertia, null_space};
+pub(crate) use mobility::{
+    PROBE, advance, free_motions, motion_in_words, motions_without_inertia, moved_by, null_space,
+};
 
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};

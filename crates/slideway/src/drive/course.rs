@@ -1,10 +1,10 @@
 //! The efforts over a parameter, a coordinate or friction.
 
 use super::efforts::{Efforts, GROWTH};
-use super::report::{Approach, BlowUp, CourseDirection, CourseRow, Sense};
+use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, Sense};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{ModesFound, RangeWithoutProblem, Varied, find, guarantee};
+use crate::limits::{ModesFound, Naming, RangeWithoutProblem, Varied, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::solve::{Stages, pattern};
@@ -39,11 +39,23 @@ pub(super) fn direction(
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
     let course = Tabulated { varied, efforts: &efforts, range, found: &found, blow_ups: &blow_ups, work };
     let rows = course.rows(steps);
+    let modes = modes(&rows, &Naming::new(varied.model())?);
     let without_mode_problem = RangeWithoutProblem::of(&found);
     Ok((
         guarantee(&found, &varied.shown_in),
-        CourseDirection { direction, rows, blow_ups, without_mode_problem },
+        CourseDirection { direction, rows, modes, blow_ups, without_mode_problem },
     ))
+}
+
+/// The modes of the rows, each once, in words.
+fn modes(rows: &[CourseRow], naming: &Naming) -> Vec<CourseMode> {
+    let mut modes: Vec<CourseMode> = Vec::new();
+    for pattern in rows.iter().filter_map(|row| row.pattern.as_ref()) {
+        if modes.iter().all(|known| known.pattern != *pattern) {
+            modes.push(CourseMode { pattern: pattern.clone(), words: naming.in_words(pattern) });
+        }
+    }
+    modes
 }
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes

@@ -39,7 +39,7 @@ mod text;
 
 pub(crate) use efforts::Efforts;
 pub use report::{
-    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport,
+    Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
     DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense,
 };
 
@@ -132,6 +132,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         course,
         conclusion: Vec::new(),
     };
+    report.suit_units();
     report.conclusion = text::conclusion(&report, locked(model.has_guided_sliders()));
     finite(report)
 }

@@ -32,6 +32,23 @@ pub struct DriveReport {
     pub conclusion: Vec<String>,
 }
 
+impl DriveReport {
+    /// Has its efforts and powers shown in units in which those of the model's state read well.
+    pub(super) fn suit_units(&mut self) {
+        let units: Vec<&'static str> = self.drives.iter().map(|drive| drive.unit).collect();
+        let values = |efforts: &[f64], power: f64| -> Vec<(&'static str, f64)> {
+            units.iter().copied().zip(efforts.iter().copied()).chain([("W", power)]).collect()
+        };
+        let of_direction = |direction: &DriveDirection| {
+            let free = values(&direction.frictionless.efforts, direction.frictionless.power);
+            let solutions = direction.solutions.iter().flat_map(|one| values(&one.efforts, one.power));
+            free.into_iter().chain(solutions).collect::<Vec<_>>()
+        };
+        let values: Vec<_> = self.directions.iter().flat_map(of_direction).collect();
+        self.units = std::mem::take(&mut self.units).suited_to(values);
+    }
+}
+
 /// A drive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -159,10 +176,22 @@ pub struct CourseDirection {
     /// One row for each value and each solution there; a value without a solution has one row without a
     /// pattern.
     pub rows: Vec<CourseRow>,
+    /// The modes of the rows, each once.
+    pub modes: Vec<CourseMode>,
     /// Values at which efforts grow without bound, in ascending order.
     pub blow_ups: Vec<BlowUp>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+}
+
+/// A mode that occurs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct CourseMode {
+    /// One sign for each contact.
+    pub pattern: String,
+    /// The contact modes of all sliding joints, in words.
+    pub words: String,
 }
 
 /// The efforts in one solution at one value.

@@ -1,8 +1,11 @@
 //! Entities of a drawing: lines, circles, points and words of each layer.
 
+use super::blocks::left_out;
+use super::curves::{ellipse, spline};
 use super::groups::Record;
-use super::paths::{arc, bulge};
+use super::paths::{Corner, arc, bulge};
 use super::{ImportFault, shown};
+use crate::model::OutlineCorner;
 use nalgebra::Vector2;
 use std::collections::BTreeMap;
 
@@ -24,10 +27,10 @@ pub(super) struct Layer {
     pub(super) left_out: BTreeMap<String, usize>,
 }
 
-/// A line of straight pieces.
+/// A line of straight pieces and arcs.
 #[derive(Debug, Clone)]
 pub(super) struct Path {
-    pub(super) corners: Vec<Vector2<f64>>,
+    pub(super) corners: Vec<Corner>,
     pub(super) is_closed: bool,
 }
 
@@ -39,24 +42,8 @@ pub(super) struct Words {
     pub(super) height: f64,
 }
 
-/// Reads the entities.
-pub(super) fn drawing(records: &[Record<'_>]) -> Result<Drawing, ImportFault> {
-    let mut drawing = Drawing::default();
-    let mut records = records.iter().peekable();
-    while let Some(record) = records.next() {
-        let mut vertices = Vec::new();
-        while let Some(vertex) = records.next_if(|next| next.kind == "VERTEX") {
-            vertices.push(vertex);
-        }
-        records.next_if(|next| next.kind == "SEQEND");
-        let name = record.first(8).map_or("0", |group| group.value);
-        drawing.layer(name).read(record, &vertices)?;
-    }
-    Ok(drawing)
-}
-
 impl Drawing {
-    fn layer(&mut self, name: &str) -> &mut Layer {
+    pub(super) fn layer(&mut self, name: &str) -> &mut Layer {
         let found = self.layers.iter().position(|layer| layer.name == name);
         let index = found.unwrap_or_else(|| {
             self.layers.push(Layer { name: name.to_owned(), ..Layer::default() });
@@ -67,8 +54,8 @@ impl Drawing {
 }
 
 impl Layer {
-    fn read(&mut self, record: &Record<'_>, vertices: &[&Record<'_>]) -> Result<(), ImportFault> {
-        if record.flags(67)? == 1 {
+    pub(super) fn read(&mut self, record: &Record<'_>, vertices: &[&Record<'_>]) -> Result<(), ImportFault> {
+        if record.is_on_sheet() {
             self.leave_out(format!("{} on a sheet (paper space)", shown(record.kind)));
             return Ok(());
         }
@@ -79,7 +66,8 @@ impl Layer {
         match record.kind {
             "LINE" => {
                 let ends = [place(record, 10, 1.0)?, place(record, 11, 1.0)?];
-                self.paths.push(Path { corners: ends.to_vec(), is_closed: false });
+                let corners = ends.map(|at| OutlineCorner { at, arc_through: None }).to_vec();
+                self.paths.push(Path { corners, is_closed: false });
             }
             "POINT" => self.points.push(place(record, 10, 1.0)?),
             "CIRCLE" => self.circles.push((place(record, 10, sign)?, record.number(40)?.abs())),
@@ -87,16 +75,22 @@ impl Layer {
                 let centre = place(record, 10, 1.0)?;
                 let angles = [record.number(50)?, record.number(51)?].map(f64::to_radians);
                 let corners = arc(centre, record.number(40)?, angles);
-                self.paths.push(Path { corners: mirrored(corners, sign), is_closed: false });
+                self.paths.push(Path { corners: mirrored(&corners, sign), is_closed: false });
             }
             "LWPOLYLINE" => {
                 let path = polyline(&light_vertices(record)?, record.flags(70)?);
-                self.paths.push(Path { corners: mirrored(path.corners, sign), ..path });
+                self.paths.push(Path { corners: mirrored(&path.corners, sign), ..path });
             }
             "POLYLINE" if record.flags(70)? & MESH == 0 => {
                 let path = polyline(&heavy_vertices(vertices)?, record.flags(70)?);
-                self.paths.push(Path { corners: mirrored(path.corners, sign), ..path });
+                self.paths.push(Path { corners: mirrored(&path.corners, sign), ..path });
             }
+            "ELLIPSE" => self.paths.push(ellipse(record, sign)?),
+            "SPLINE" => match spline(record)? {
+                Some(path) => self.paths.push(path),
+                None => self.leave_out("SPLINE without control points that fit its knots".to_owned()),
+            },
+            "INSERT" => self.leave_out(left_out(record)),
             "TEXT" | "MTEXT" => self.read_words(record, sign)?,
             kind => self.leave_out(shown(kind)),
         }
@@ -129,7 +123,7 @@ const CONTROL: u32 = 16;
 
 /// The sense of the x axis of an entity: 1, or -1 if its plane is seen from behind (extrusion direction along
 /// -z: the x axis of its own coordinates is then -x). None for other planes.
-fn sign_of_plane(record: &Record<'_>) -> Result<Option<f64>, ImportFault> {
+pub(super) fn sign_of_plane(record: &Record<'_>) -> Result<Option<f64>, ImportFault> {
     let normal = [record.number_or(210, 0.0)?, record.number_or(220, 0.0)?, record.number_or(230, 1.0)?];
     let is_plane = normal[0] == 0.0 && normal[1] == 0.0 && normal[2] != 0.0;
     Ok(is_plane.then(|| normal[2].signum()))
@@ -140,8 +134,8 @@ fn place(record: &Record<'_>, code: i32, sign: f64) -> Result<Vector2<f64>, Impo
     Ok(Vector2::new(sign * record.number(code)?, record.number(code + 10)?))
 }
 
-fn mirrored(corners: Vec<Vector2<f64>>, sign: f64) -> Vec<Vector2<f64>> {
-    corners.into_iter().map(|corner| Vector2::new(sign * corner.x, corner.y)).collect()
+fn mirrored(corners: &[Corner], sign: f64) -> Vec<Corner> {
+    corners.iter().map(|corner| corner.map(|place| Vector2::new(sign * place.x, place.y))).collect()
 }
 
 /// The vertices of a light polyline with their bulges.
@@ -169,18 +163,13 @@ fn heavy_vertices(records: &[&Record<'_>]) -> Result<Vec<(Vector2<f64>, f64)>, I
     Ok(vertices)
 }
 
-/// A polyline with its arcs as straight pieces.
+/// A polyline with its arcs.
 fn polyline(vertices: &[(Vector2<f64>, f64)], flags: u32) -> Path {
     let is_closed = flags & 1 == 1;
-    let mut corners = Vec::new();
-    for (index, (place, bulged)) in vertices.iter().enumerate() {
-        corners.push(*place);
+    let corner = |(index, (at, bulged)): (usize, &(Vector2<f64>, f64))| {
         let next = vertices.get(index + 1).or(vertices.first().filter(|_| is_closed));
-        if let Some((next, _)) = next
-            && *bulged != 0.0
-        {
-            corners.extend(bulge([*place, *next], *bulged));
-        }
-    }
-    Path { corners, is_closed }
+        let arc_through = next.filter(|_| *bulged != 0.0).map(|(next, _)| bulge([*at, *next], *bulged));
+        OutlineCorner { at: *at, arc_through }
+    };
+    Path { corners: vertices.iter().enumerate().map(corner).collect(), is_closed }
 }

@@ -1,6 +1,7 @@
 //! The pairs of group code and value of which a DXF file consists.
 
 use super::{ImportFault, shown};
+use std::collections::BTreeMap;
 
 /// One pair, with the line of its value.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,15 @@ pub(super) struct Sections<'t> {
     /// `$INSUNITS`
     pub(super) unit: Option<i32>,
     pub(super) entities: Vec<Record<'t>>,
+    /// The blocks by their names in capital letters: these are the same in any.
+    pub(super) blocks: BTreeMap<String, Block<'t>>,
+}
+
+/// Entities that are inserted together.
+#[derive(Debug, Clone)]
+pub(super) struct Block<'t> {
+    pub(super) head: Record<'t>,
+    pub(super) entities: Vec<Record<'t>>,
 }
 
 /// Reads a file as far as its `EOF`.
@@ -34,6 +44,7 @@ pub(super) fn sections(text: &str) -> Result<Sections<'_>, ImportFault> {
     let records = records(text.strip_prefix('\u{feff}').unwrap_or(text))?;
     let mut unit = None;
     let mut entities = None;
+    let mut blocks: Vec<Block<'_>> = Vec::new();
     let mut section = "";
     for record in records {
         match record.kind {
@@ -46,11 +57,22 @@ pub(super) fn sections(text: &str) -> Result<Sections<'_>, ImportFault> {
                 }
             }
             "ENDSEC" => section = "",
+            "BLOCK" if section == "BLOCKS" => blocks.push(Block { head: record, entities: Vec::new() }),
+            "ENDBLK" => {}
+            _ if section == "BLOCKS" => {
+                if let Some(block) = blocks.last_mut() {
+                    block.entities.push(record);
+                }
+            }
             _ if section == "ENTITIES" => entities.iter_mut().for_each(|all| all.push(record.clone())),
             _ => {}
         }
     }
-    Ok(Sections { unit, entities: entities.ok_or(ImportFault::NoEntities)? })
+    let name = |block: &Block<'_>| {
+        block.head.first(2).map_or_else(String::new, |group| group.value.to_ascii_uppercase())
+    };
+    let blocks = blocks.into_iter().map(|block| (name(&block), block)).collect();
+    Ok(Sections { unit, entities: entities.ok_or(ImportFault::NoEntities)?, blocks })
 }
 
 /// The records of a file: each begins with a group 0.
@@ -107,6 +129,11 @@ impl<'t> Record<'t> {
     pub(super) fn flags(&self, code: i32) -> Result<u32, ImportFault> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         self.number_or(code, 0.0).map(|flags| flags as u32)
+    }
+
+    /// Whether it is on a sheet for printing (paper space).
+    pub(super) fn is_on_sheet(&self) -> bool {
+        self.first(67).is_some_and(|group| group.value == "1")
     }
 
     /// The number that follows a variable of the header.

@@ -5,10 +5,12 @@
 //! left out in silence: comments in the model name it.
 //!
 //! # Files
-//! `groups.rs` reads the group codes of the format, `entities.rs` the entities of the drawing, `paths.rs`
-//! makes polygons of lines and arcs, `written.rs` writes the model. Group codes are those of the *DXF
+//! `groups.rs` reads the group codes of the format, `entities.rs` the entities of the drawing, `curves.rs` ellipses
+//! and splines, `blocks.rs` inserts blocks, `paths.rs` joins lines and arcs, `written.rs` writes the model. Group codes are those of the *DXF
 //! Reference* of Autodesk.
 
+mod blocks;
+mod curves;
 mod entities;
 mod groups;
 mod paths;
@@ -121,6 +123,8 @@ pub enum ImportFault {
     NotFinite,
     #[error("the drawing has more than {limit} bytes; leave layers out")]
     DrawingTooLarge { limit: u64 },
+    #[error("the drawing has more than {limit} entities with those that its blocks insert; leave layers out")]
+    TooManyEntities { limit: usize },
     #[error("the model would have {size} bytes, and at most {SIZE_LIMIT} are read; leave layers out")]
     TooLarge { size: usize },
 }
@@ -132,8 +136,8 @@ fn in_words(left_out: &[String]) -> String {
 /// The text of a model file with the outlines and points of a DXF drawing.
 ///
 /// Every layer with an outline or a point is a body. Its outline is the greatest closed line of the layer:
-/// closed polylines, and lines, arcs and open polylines that join end to end; without any, its greatest
-/// circle. Points are the `POINT`s and the centres of circles; points of several layers in one place are one
+/// closed polylines, and lines, arcs, parts of ellipses, splines and open polylines that join end to end; without any,
+/// its greatest circle. Ellipses and splines become arcs that stay near them. Blocks are inserted. Points are the `POINT`s and the centres of circles; points of several layers in one place are one
 /// point of several bodies. A `TEXT` beside a point is its name. The layer `ground` has points only.
 ///
 /// ```
@@ -155,7 +159,7 @@ pub fn dxf(text: &str, options: &ImportOptions) -> Result<String, ImportFault> {
         (None, None | Some(0)) => return Err(ImportFault::NoUnit),
         (None, Some(code)) => Unit::of_code(code).ok_or(ImportFault::UnknownUnit { code })?,
     };
-    let drawing = entities::drawing(&sections.entities)?;
+    let drawing = blocks::Reader::new(&sections).read(&sections.entities)?;
     let bodies = paths::Bodies::of(&drawing);
     if bodies.layers.is_empty() && bodies.spots.is_empty() {
         return Err(ImportFault::Nothing { left_out: bodies.left_out });

@@ -3,16 +3,19 @@
 use super::entities::{Drawing, Layer, Path, Words};
 use super::shown;
 use crate::expression::{is_reserved, is_valid_name};
+use crate::model::OutlineCorner;
+use crate::model::outline::moments;
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Places nearer to each other than this part of the size of the drawing are one.
 const JOINED: f64 = 1e-6;
-/// Greatest angle (rad) of a straight piece of an arc: it keeps within 0.4 % of its radius.
-const PIECE: f64 = TAU / 36.0;
 /// How far a text may be from the point that it names, in heights of its letters.
 const BESIDE: f64 = 4.0;
+
+/// A corner of a line, and the arc that begins there.
+pub(super) type Corner = OutlineCorner<Vector2<f64>>;
 
 /// The bodies and points of a drawing, in its units.
 #[derive(Debug, Clone)]
@@ -30,7 +33,14 @@ pub(super) struct Body {
     /// The name of the layer.
     pub(super) layer: String,
     /// Corners; empty if there is no closed line.
-    pub(super) outline: Vec<Vector2<f64>>,
+    pub(super) outline: Vec<Corner>,
+}
+
+impl Body {
+    /// The corners of the outline, and what its arcs go through.
+    pub(super) fn places(&self) -> impl Iterator<Item = Vector2<f64>> {
+        self.outline.iter().flat_map(|corner| [Some(corner.at), corner.arc_through]).flatten()
+    }
 }
 
 /// A point of bodies or ground.
@@ -45,65 +55,61 @@ pub(super) struct Spot {
     radius: f64,
 }
 
-/// The places on a part of a circle, its ends included, from one angle to another counter-clockwise.
-pub(super) fn arc(centre: Vector2<f64>, radius: f64, [from, to]: [f64; 2]) -> Vec<Vector2<f64>> {
+/// A part of a circle from one angle to another counter-clockwise, in arcs of at most half of it; all of it where
+/// both are the same.
+pub(super) fn arc(centre: Vector2<f64>, radius: f64, [from, to]: [f64; 2]) -> Vec<Corner> {
     let turn = (to - from).rem_euclid(TAU);
     let turn = if turn == 0.0 { TAU } else { turn };
-    let count = (turn / PIECE).ceil();
-    steps(count)
-        .map(|step| {
-            let (sin, cos) = (from + turn * step / count).sin_cos();
-            centre + Vector2::new(cos, sin) * radius
-        })
-        .collect()
-}
-
-/// The places between the ends of an arc that has a bulge: the tangent of a quarter of its angle, positive
-/// counter-clockwise.
-pub(super) fn bulge([from, to]: [Vector2<f64>; 2], bulge: f64) -> Vec<Vector2<f64>> {
-    let angle = 4.0 * bulge.atan();
-    let half = 0.5 * (to - from);
-    let across = Vector2::new(-half.y, half.x);
-    let centre = from + half + across * ((1.0 - bulge * bulge) / (2.0 * bulge));
-    let count = (angle.abs() / PIECE).ceil();
-    let turned = |step: f64| {
-        let (sin, cos) = (angle * step / count).sin_cos();
-        let arm = from - centre;
-        centre + Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y)
+    let place = |angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        centre + Vector2::new(cos, sin) * radius
     };
-    steps(count).map(turned).skip(1).take_while(|place| (place - to).norm() > JOINED * half.norm()).collect()
+    let arcs = if turn > PI { 2 } else { 1 };
+    let half = turn / f64::from(2 * arcs);
+    let corner = |number: i32| {
+        let angle = from + 2.0 * half * f64::from(number);
+        let arc_through = (number < arcs).then(|| place(angle + half));
+        OutlineCorner { at: place(angle), arc_through }
+    };
+    (0..=arcs).map(corner).collect()
 }
 
-/// 0, 1 and so on up to a whole number.
-fn steps(count: f64) -> impl Iterator<Item = f64> {
-    std::iter::successors(Some(0.0), |step| Some(step + 1.0)).take_while(move |step| *step <= count)
-}
-
-/// Twice the area of a polygon, positive counter-clockwise.
-fn doubled_area(corners: &[Vector2<f64>]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|(from, to)| from.perp(to)).sum()
+/// The middle of an arc that has a bulge: the tangent of a quarter of its angle, positive counter-clockwise.
+pub(super) fn bulge([from, to]: [Vector2<f64>; 2], bulge: f64) -> Vector2<f64> {
+    let half = 0.5 * (to - from);
+    from + half + Vector2::new(half.y, -half.x) * bulge
 }
 
 impl Body {
-    /// The centroid of the outline as a homogeneous plate, and the square of its radius of gyration about
-    /// that: x_S = 1/(6 A) sum (x_i + x_k) a_i and r^2 + |S|^2 = 1/(12 A) sum (x_i^2 + x_i x_k + x_k^2 + the
-    /// same of y) a_i with a_i = x_i y_k - x_k y_i, corner k after i, A = 1/2 sum a_i.
+    /// The centroid of the outline as a homogeneous plate, and the square of its radius of gyration about that.
     pub(super) fn plate(&self) -> Option<(Vector2<f64>, f64)> {
-        let origin = *self.outline.first()?;
-        let places: Vec<Vector2<f64>> = self.outline.iter().map(|corner| corner - origin).collect();
-        let area = doubled_area(&places);
-        let next = places.iter().cycle().skip(1);
-        let (mut centre, mut square) = (Vector2::zeros(), 0.0);
-        for (from, to) in places.iter().zip(next) {
-            let part = from.perp(to);
-            centre += (from + to) * (part / (3.0 * area));
-            square += (from.norm_squared() + from.dot(to) + to.norm_squared()) * (part / (6.0 * area));
-        }
+        let origin = self.outline.first()?.at;
+        let shifted: Vec<Corner> =
+            self.outline.iter().map(|corner| corner.map(|place| place - origin)).collect();
+        let (area, first, polar) = moments(&shifted);
+        let (centre, square) = (first / area, polar / area);
         Some((origin + centre, square - centre.norm_squared())).filter(|(centre, square)| {
             centre.iter().all(|part| part.is_finite()) && *square > 0.0 && square.is_finite()
         })
     }
+}
+
+/// The area within an outline, whichever way it goes.
+fn area(corners: &[Corner]) -> f64 {
+    let origin = corners.first().map_or_else(Vector2::zeros, |corner| corner.at);
+    let shifted: Vec<Corner> = corners.iter().map(|corner| corner.map(|place| place - origin)).collect();
+    moments(&shifted).0.abs()
+}
+
+/// The same line from its other end.
+fn reversed(corners: &[Corner]) -> Vec<Corner> {
+    let before = corners.iter().rev().skip(1).map(|corner| corner.arc_through).chain([None]);
+    corners
+        .iter()
+        .rev()
+        .zip(before)
+        .map(|(corner, arc_through)| OutlineCorner { arc_through, ..*corner })
+        .collect()
 }
 
 impl Bodies {
@@ -133,8 +139,8 @@ impl Bodies {
 
     /// Whether every corner and every point has a place.
     pub(super) fn are_finite(&self) -> bool {
-        let corners = self.layers.iter().flat_map(|body| &body.outline);
-        let mut places = corners.chain(self.spots.iter().map(|spot| &spot.at));
+        let corners = self.layers.iter().flat_map(Body::places);
+        let mut places = corners.chain(self.spots.iter().map(|spot| spot.at));
         places.all(|place| place.iter().all(|part| part.is_finite()))
     }
 
@@ -225,7 +231,7 @@ impl Names {
 /// The diagonal of the rectangle around everything.
 fn size(drawing: &Drawing) -> f64 {
     let of_layer = |layer: &Layer| {
-        let corners = layer.paths.iter().flat_map(|path| path.corners.clone());
+        let corners = layer.paths.iter().flat_map(|path| &path.corners).map(|corner| corner.at);
         let circles = layer.circles.iter().flat_map(|(centre, radius)| {
             let across = Vector2::new(*radius, *radius);
             [centre - across, centre + across]
@@ -239,17 +245,17 @@ fn size(drawing: &Drawing) -> f64 {
 }
 
 /// The greatest closed line of a layer, or its greatest circle, and how many other lines it has.
-fn outline(layer: &Layer, near: f64) -> (Vec<Vector2<f64>>, usize) {
+fn outline(layer: &Layer, near: f64) -> (Vec<Corner>, usize) {
     let (closed, open): (Vec<Path>, Vec<Path>) = layer.paths.iter().cloned().partition(|path| path.is_closed);
     let (joined, left_open) = chained(open, near);
-    let mut loops: Vec<Vec<Vector2<f64>>> = closed
+    let (mut loops, flat): (Vec<Vec<Corner>>, Vec<Vec<Corner>>) = closed
         .into_iter()
         .map(|path| path.corners)
         .chain(joined)
         .map(|corners| without_repetition(corners, near))
-        .filter(|corners| corners.len() >= 3 && doubled_area(corners) != 0.0)
-        .collect();
-    loops.sort_by(|a, b| doubled_area(b).abs().total_cmp(&doubled_area(a).abs()));
+        .partition(|corners| area(corners) != 0.0);
+    let left_open = left_open + flat.len();
+    loops.sort_by(|a, b| area(b).total_cmp(&area(a)));
     if loops.is_empty() {
         let greatest =
             layer.circles.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, radius)| *radius > near);
@@ -260,16 +266,29 @@ fn outline(layer: &Layer, near: f64) -> (Vec<Vector2<f64>>, usize) {
     (loops.swap_remove(0), others)
 }
 
-fn without_repetition(mut corners: Vec<Vector2<f64>>, near: f64) -> Vec<Vector2<f64>> {
-    corners.dedup_by(|a, b| (*a - *b).norm() <= near);
-    while corners.len() > 1 && (corners[0] - corners[corners.len() - 1]).norm() <= near {
-        corners.pop();
+/// Without the straight pieces, and the arcs, that are shorter than what counts as one place.
+fn without_repetition(corners: Vec<Corner>, near: f64) -> Vec<Corner> {
+    let mut kept: Vec<Corner> = Vec::new();
+    let is_short = |corner: &Corner, next: Vector2<f64>| {
+        let places = [Some(next), corner.arc_through];
+        places.into_iter().flatten().all(|place| (place - corner.at).norm() <= near)
+    };
+    for corner in corners {
+        match kept.last_mut() {
+            Some(last) if is_short(last, corner.at) => last.arc_through = corner.arc_through,
+            _ => kept.push(corner),
+        }
     }
-    corners
+    while let [first, .., last] = kept[..]
+        && is_short(&last, first.at)
+    {
+        kept.pop();
+    }
+    kept
 }
 
 /// Closed lines that lines make which join end to end, and the number of those that make none.
-fn chained(paths: Vec<Path>, near: f64) -> (Vec<Vec<Vector2<f64>>>, usize) {
+fn chained(paths: Vec<Path>, near: f64) -> (Vec<Vec<Corner>>, usize) {
     let ends = Ends::of(&paths, near);
     let mut paths: Vec<Option<Path>> = paths.into_iter().map(Some).collect();
     let (mut closed, mut open) = (Vec::new(), 0);
@@ -277,20 +296,21 @@ fn chained(paths: Vec<Path>, near: f64) -> (Vec<Vec<Vector2<f64>>>, usize) {
         let Some(Path { mut corners, .. }) = paths[index].take() else { continue };
         let mut count = 1;
         while let [first, .., last] = corners[..]
-            && (first - last).norm() > near
-            && let Some(next) = ends.at(last, &paths)
+            && (first.at - last.at).norm() > near
+            && let Some(next) = ends.at(last.at, &paths)
             && let Some(Path { corners: mut more, .. }) = paths[next].take()
         {
-            if more.first().is_none_or(|start| (start - last).norm() > near) {
-                more.reverse();
+            if more.first().is_none_or(|start| (start.at - last.at).norm() > near) {
+                more = reversed(&more);
+            }
+            if let (Some(joint), Some(start)) = (corners.last_mut(), more.first()) {
+                joint.arc_through = start.arc_through;
             }
             corners.extend(more.into_iter().skip(1));
             count += 1;
         }
         match corners[..] {
-            [first, _, .., last] if corners.len() > 3 && (first - last).norm() <= near => {
-                closed.push(corners);
-            }
+            [first, _, .., last] if (first.at - last.at).norm() <= near => closed.push(corners),
             _ => open += count,
         }
     }
@@ -306,7 +326,7 @@ struct Ends {
 
 impl Ends {
     fn of(paths: &[Path], near: f64) -> Self {
-        let place = |corner: Option<&Vector2<f64>>| corner.copied().unwrap_or_default();
+        let place = |corner: Option<&Corner>| corner.map(|corner| corner.at).unwrap_or_default();
         let places: Vec<[Vector2<f64>; 2]> =
             paths.iter().map(|path| [place(path.corners.first()), place(path.corners.last())]).collect();
         let mut ends = Self { cells: BTreeMap::new(), near, places };

@@ -1,18 +1,19 @@
 //! The model file that a drawing becomes.
 
-use super::paths::{Bodies, Body, Spot};
+use super::paths::{Bodies, Body, Corner, Spot};
 use super::{Unit, shown};
 use crate::drawing::quoted;
 use nalgebra::Vector2;
 use std::fmt::Write;
 
-/// Corners in a line of an outline.
+/// Places in a line of an outline.
 const IN_A_LINE: usize = 4;
 
 /// The text of the model.
 pub(super) fn model(bodies: &Bodies, unit: Unit, title: Option<&str>) -> String {
-    let corners = bodies.layers.iter().flat_map(|body| &body.outline);
-    let size = corners.chain(bodies.spots.iter().map(|spot| &spot.at)).map(Vector2::amax).fold(0.0, f64::max);
+    let corners = bodies.layers.iter().flat_map(Body::places);
+    let places = corners.chain(bodies.spots.iter().map(|spot| spot.at));
+    let size = places.map(|place| place.amax()).fold(0.0, f64::max);
     let writer = Writer { bodies, unit, decimals: decimals(size) };
     let mut text = writer.head();
     if let Some(title) = title {
@@ -38,7 +39,8 @@ impl Writer<'_> {
     fn head(&self) -> String {
         let mut head = format!(
             "# Outlines and points of a DXF drawing, in {}; each layer is a body. To be completed: the masses, the joints\n\
-             # (below are those that points in one place suggest), loads, and coordinates.\n",
+             # (below are those that points in one place suggest), loads, and coordinates. `slideway check` on this file says\n\
+             # what is still missing.\n",
             self.unit
         );
         if !self.bodies.left_out.is_empty() {
@@ -78,9 +80,9 @@ impl Writer<'_> {
         }
         if !body.outline.is_empty() {
             text.push_str("outline = [\n");
-            for corners in body.outline.chunks(IN_A_LINE) {
-                let corners: Vec<String> = corners.iter().map(|corner| self.place(*corner)).collect();
-                let _ = writeln!(text, "    {},", corners.join(", "));
+            let places: Vec<String> = body.outline.iter().flat_map(|corner| self.corner(corner)).collect();
+            for places in places.chunks(IN_A_LINE) {
+                let _ = writeln!(text, "    {},", places.join(", "));
             }
             text.push_str("]\n");
         }
@@ -111,6 +113,12 @@ impl Writer<'_> {
             );
         }
         text
+    }
+
+    /// A corner, and the arc to the next one.
+    fn corner(&self, corner: &Corner) -> impl Iterator<Item = String> {
+        let arc = corner.arc_through.map(|through| format!("{{ through = {} }}", self.place(through)));
+        [self.place(corner.at)].into_iter().chain(arc)
     }
 
     fn place(&self, place: Vector2<f64>) -> String {

@@ -89,11 +89,11 @@ impl<T: Real> Applied<T> {
     }
 }
 
-/// What a single load puts on the bodies.
+/// What a single load puts on the bodies and on ground, in the order in which the model names its ends.
 ///
 /// # Errors
 /// A load without a value or direction.
-pub(super) fn of_one<T: Real>(
+pub fn load_wrenches<T: Real>(
     mechanism: &Mechanism<T>,
     configuration: &Configuration<T>,
     load: &Load<T>,

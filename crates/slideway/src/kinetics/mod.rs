@@ -19,11 +19,11 @@ mod system;
 
 pub(crate) use elastic::MasslessMotions;
 pub(crate) use influences::{Accuracy, Elimination, Influences};
-pub use loads::Wrench;
 pub(crate) use loads::{Applied, unit_effort as effort_forces};
+pub use loads::{Wrench, load_wrenches};
 pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows};
 
-use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
+use crate::configuration::{Configuration, ContactGeometry, motion_in_words, moved_by};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
@@ -147,7 +147,7 @@ impl KineticEquations {
         let assembled = Assembled::new(mechanism, configuration)?;
         let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows } = assembled;
         let factorization = factor(matrix).map_err(|singular| {
-            Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular)
+            Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
         })?;
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
     }
@@ -164,7 +164,7 @@ impl KineticEquations {
     ) -> Result<DVector<f64>, Fault> {
         let mut forces = DVector::zeros(self.load.len());
         let builder = Builder { mechanism, configuration, layout: &self.layout };
-        for wrench in &loads::of_one(mechanism, configuration, load)? {
+        for wrench in &load_wrenches(mechanism, configuration, load)? {
             builder.add(wrench, |row, value| forces[row] += value);
         }
         Ok(self.without_noise(&self.factorization.solve(&[&forces])[0]))
@@ -359,8 +359,9 @@ impl<T: Real> Builder<'_, T> {
 }
 
 impl Builder<'_> {
-    /// Which motion or drive makes the equations singular: read off a vector that they map to zero.
-    fn singular_fault(&self, singular: &Singular) -> Fault {
+    /// Which motion or drive makes the equations singular: read off a vector that they map to zero. The motion is
+    /// told in the sense in which the loads move it.
+    fn singular_fault(&self, singular: &Singular, load: &DVector<f64>) -> Fault {
         let Singular { null_vector, weights, condition } = singular;
         let bodies = 3 * self.mechanism.bodies.len();
         let efforts = self.layout.len() - self.layout.drives;
@@ -385,7 +386,8 @@ impl Builder<'_> {
                 FaultKind::Overflow { quantity }
             });
         };
-        let motion = motion_in_words(self.mechanism, self.configuration, &accelerations);
+        let motion = moved_by(accelerations, &load.rows(0, bodies).into_owned());
+        let motion = motion_in_words(self.mechanism, self.configuration, &motion);
         Fault::new(FaultKind::MotionWithoutInertia { motion }, self.mechanism.bodies[first].place.clone())
     }
 

@@ -1,7 +1,7 @@
 //! From what was found to what is told.
 
 use super::conclusion::conclusion;
-use super::found::{Elsewhere, Knowledge, Method, ModesFound};
+use super::found::{Elsewhere, Knowledge, Method, ModesFound, SameEnds};
 use super::guarantee::guarantee;
 use super::report::{
     CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
@@ -27,7 +27,9 @@ impl VariedQuantity {
 
 impl RangeWithoutProblem {
     pub(crate) fn of(found: &ModesFound) -> Vec<Self> {
-        let range = |gap: &super::found::Gap| Self { from: gap.from, to: gap.to, reason: gap.reason() };
+        let end = |at: f64| found.same_ends.told(at);
+        let range =
+            |gap: &super::found::Gap| Self { from: end(gap.from), to: end(gap.to), reason: gap.reason() };
         found.gaps.iter().map(range).collect()
     }
 }
@@ -87,7 +89,13 @@ impl Naming {
         bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
     }
 
-    fn mode(&self, mode: &ModeInterval, speeds: &[SpeedLimits]) -> ModeLimits {
+    fn mode(&self, mode: &ModeInterval, speeds: &[SpeedLimits], same_ends: SameEnds) -> ModeLimits {
+        let end = |at: f64| finite(at).map(|at| same_ends.told(at));
+        let speed = |speed: &SpeedLimits| SpeedLimits {
+            from: same_ends.told(speed.from),
+            to: same_ends.told(speed.to),
+            ..speed.clone()
+        };
         let signs = signs(&mode.pattern);
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
             let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
@@ -98,14 +106,14 @@ impl Naming {
             preload_gap: mode.pattern.contains(&ContactState::Gap),
             joints: self.joint_modes(&signs),
             signs,
-            from: finite(mode.from.at),
-            to: finite(mode.to.at),
+            from: end(mode.from.at),
+            to: end(mode.to.at),
             from_is: (&mode.from.cause).into(),
             to_is: (&mode.to.cause).into(),
             from_at: self.ends_at(&mode.from.cause),
             to_at: self.ends_at(&mode.to.cause),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
-            speeds: speeds.to_vec(),
+            speeds: speeds.iter().map(speed).collect(),
         }
     }
 
@@ -122,8 +130,8 @@ impl Naming {
 
     fn direction(&self, (found, speeds): Found<'_>) -> Direction {
         let count = |(interval, known): (&CountInterval, &Knowledge)| CountLimits {
-            from: interval.from,
-            to: interval.to,
+            from: found.same_ends.told(interval.from),
+            to: found.same_ends.told(interval.to),
             solutions: interval.solutions,
             preload_gap_states: interval.gap_states,
             known: match known.elsewhere {
@@ -141,7 +149,7 @@ impl Naming {
                 .modes
                 .iter()
                 .zip(speeds)
-                .map(|(mode, speeds)| self.mode(mode, speeds))
+                .map(|(mode, speeds)| self.mode(mode, speeds, found.same_ends))
                 .collect(),
             counts: found.counts.iter().zip(&found.known).map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),

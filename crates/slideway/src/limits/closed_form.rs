@@ -5,7 +5,7 @@
 //! line between mode problems that were made at its ends: on one line over all of it small values would drown
 //! in the rounding of great ones.
 
-use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
+use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
@@ -68,7 +68,7 @@ pub(super) fn closed_form(
         gaps: outside(varied, options.range, [from, to]),
         method,
         tried: pieces.into_iter().flatten().collect(),
-        same_end: 0.0,
+        same_ends: SameEnds::zeros(options.range, [from, to]),
         between_faces: SingleValues::Impossible,
     }))
 }

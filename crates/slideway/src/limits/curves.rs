@@ -69,6 +69,14 @@ pub struct Curve {
     pub points: Vec<CurvePoint>,
 }
 
+impl Curve {
+    /// The point nearest to a value; none if it has no points.
+    fn nearest(&self, at: f64) -> Option<&CurvePoint> {
+        let way = |point: &&CurvePoint| (point.at - at).abs();
+        self.points.iter().min_by(|one, other| way(one).total_cmp(&way(other)))
+    }
+}
+
 /// The quantities of every mode over what is varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
@@ -76,7 +84,7 @@ pub struct Curves {
     pub quantity: Quantity,
     /// In which unit values of what is varied are to be shown.
     pub shown_in: Unit,
-    /// In which units the values of its series are to be shown.
+    /// In which units the values of its series are to be shown: those that suit them nearest to the model.
     pub units: Units,
     /// What the values of every point are.
     pub series: Vec<Series>,
@@ -141,7 +149,11 @@ fn curves_of(
     let forwards = curves(&analysis.varied, &analysis.found);
     let reversed = analysis.reversed.as_ref().map(|(varied, found)| curves(varied, found));
     let report = finite(analysis.report(&naming))?;
-    let (shown_in, units) = (analysis.varied.shown_in, model.units.clone());
+    let present = analysis.varied.present().unwrap_or_default();
+    let near = forwards.iter().chain(reversed.iter().flatten()).filter_map(|curve| curve.nearest(present));
+    let units = near.flat_map(|point| series.iter().map(|one| one.unit).zip(point.values.iter().copied()));
+    let units = model.units.clone().suited_to(units);
+    let shown_in = analysis.varied.shown_in;
     Ok((report, Curves { quantity, shown_in, units, series, forwards, reversed }))
 }
 

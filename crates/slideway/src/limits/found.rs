@@ -1,8 +1,11 @@
 //! What is found of modes in a range.
 
+use super::scan::HALVINGS;
 use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};
 
+/// Bisected ends nearer to each other than this share of the range are one.
+const SAME: f64 = 1e-9;
 /// The most patterns whose limits are computed.
 pub(super) const PATTERNS: u64 = 1 << 14;
 
@@ -16,10 +19,48 @@ pub(crate) struct ModesFound {
     pub(crate) method: Method,
     /// Every value at which the mode problem was made.
     pub(crate) tried: Vec<f64>,
-    /// Ends of modes nearer to each other than this were taken for one.
-    pub(crate) same_end: f64,
+    pub(crate) same_ends: SameEnds,
     /// The states with a guided slider between its faces at single values.
     pub(crate) between_faces: SingleValues,
+}
+
+/// Which ends in a range were taken for one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SameEnds {
+    /// Ends nearer to each other than this.
+    pub(crate) within: f64,
+    /// The ends of the range and zero, each with the distance within which an end is told as it.
+    landmarks: [(f64, f64); 3],
+}
+
+impl SameEnds {
+    /// Ends that were bisected between values of a range.
+    pub(crate) fn bisected([from, to]: [f64; 2]) -> Self {
+        let within = SAME * (to - from);
+        Self { within, landmarks: [from, to, 0.0].map(|value| (value, within)) }
+    }
+
+    /// Zeros of determinants, which are told as they are, where the ends of what the model allows of the range
+    /// were bisected: these are told apart from where they lead as far as halving can tell.
+    pub(super) fn zeros([from, to]: [f64; 2], allowed: [f64; 2]) -> Self {
+        let resolution = (to - from) * 0.5_f64.powi(HALVINGS);
+        let reach = |value: f64| {
+            let distances = allowed.map(|end| (end - value).abs());
+            distances.into_iter().filter(|distance| *distance <= resolution).fold(0.0, f64::max)
+        };
+        Self { within: 0.0, landmarks: [from, to, 0.0].map(|value| (value, reach(value))) }
+    }
+
+    /// Whether what lies between two ends has an extent.
+    pub(super) fn are_two(&self, from: f64, to: f64) -> bool {
+        to - from > self.within
+    }
+
+    /// An end as it is told: as the end of the range or the zero that it is the same as.
+    pub(crate) fn told(&self, at: f64) -> f64 {
+        let same = self.landmarks.iter().find(|(value, reach)| (at - value).abs() <= *reach);
+        same.map_or(at, |(value, _)| *value)
+    }
 }
 
 /// How the ends of modes were found.

@@ -16,9 +16,9 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
                 .to_owned()
         }
         Method::Bracketing => format!(
-            "{} values were tried, and changes between them were bisected to machine precision; ends closer to each other than {} are one.",
+            "{} values were tried, and changes between them were bisected to machine precision; ends closer than {} to each other, to an end of the range or to zero are one.",
             found.tried.len(),
-            shown_in.with(&format!("{:.1e}", shown_in.number_of(found.same_end)))
+            shown_in.with(&format!("{:.1e}", shown_in.number_of(found.same_ends.within)))
         ),
     }];
     sentences.extend(knowledge(found, shown_in));

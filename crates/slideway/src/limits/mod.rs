@@ -49,7 +49,7 @@ mod vary;
 pub(crate) use answer::Naming;
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
 pub(crate) use find::find;
-pub(crate) use found::ModesFound;
+pub(crate) use found::{ModesFound, SameEnds};
 pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{

@@ -3,6 +3,7 @@
 //! [`standstill`](crate::standstill) decides at evenly spaced values, and what changes between two of them is
 //! bisected.
 
+use super::found::SameEnds;
 use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
 use super::scan::{bisect, kind};
 use super::vary::Vary;
@@ -66,7 +67,13 @@ fn rest_limits_of(
         let (model, friction) = varied.model_at(at)?;
         can_rest((&model, friction), options, work)
     };
-    let spans = spans(range, &found, work);
+    let same_ends = SameEnds::bisected(range);
+    let told = |span: SpanOfRest| SpanOfRest {
+        from: same_ends.told(span.from),
+        to: same_ends.told(span.to),
+        ..span
+    };
+    let spans: Vec<SpanOfRest> = spans(range, &found, work).into_iter().map(told).collect();
     if spans.iter().all(|span| span.reason.is_some()) {
         // Nowhere an answer: the faults in the middle say why.
         found(f64::midpoint(range[0], range[1]))?;
@@ -77,8 +84,9 @@ fn rest_limits_of(
         vary: VariedQuantity::new(&varied, range, varied.present().unwrap_or_default()),
         load: options.load.clone(),
         guarantee: format!(
-            "Decided at values {} apart; where the answer changes between two of them it was bisected. Narrower stretches may be missed.",
-            varied.shown_in.precise((range[1] - range[0]) / STEPS as f64)
+            "Decided at values {} apart; where the answer changes between two of them it was bisected; what is closer than {} to an end of the range or to zero is told as there. Narrower stretches may be missed.",
+            varied.shown_in.precise((range[1] - range[0]) / STEPS as f64),
+            varied.shown_in.with(&format!("{:.1e}", varied.shown_in.number_of(same_ends.within)))
         ),
         spans,
     })

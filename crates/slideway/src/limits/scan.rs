@@ -4,7 +4,7 @@
 //! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values
 //! inside every interval between two ends that has none yet, until no further mode turns up.
 
-use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
+use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
 use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::ContactState;
@@ -19,16 +19,13 @@ use std::ops::ControlFlow;
 /// Steps of the evenly spaced values.
 const STEPS: usize = 500;
 /// Halvings between two values: down to neighbouring numbers.
-const HALVINGS: usize = 100;
+pub(super) const HALVINGS: i32 = 100;
 /// How often the distance to where there is no mode problem is halved.
 const APPROACH: i32 = 40;
 /// Where in an interval between two ends values are tried, as fractions of it.
 const INSIDE: [f64; 3] = [0.5, 0.19, 0.83];
 /// How often intervals without values are sought.
 const ROUNDS: usize = 12;
-/// Ends nearer to each other than this share of the range are one.
-const SAME: f64 = 1e-9;
-
 /// The mode problem at a place, alone.
 struct Tried {
     at: f64,
@@ -70,6 +67,7 @@ impl Scanner<'_> {
             self.add(&mut places, missing.into_iter())?;
             modes = self.modes(&places, &mut ends);
         }
+        modes.retain(|mode| self.same_ends().are_two(mode.from.at, mode.to.at));
         let existence = Existence { modes, ..Existence::default() };
         let gaps = gaps(&places);
         let is_covered = |[from, to]: &[f64; 2]| {
@@ -89,7 +87,7 @@ impl Scanner<'_> {
             gaps,
             method: Method::Bracketing,
             tried: places.iter().map(|place| place.at).collect(),
-            same_end: SAME * (to - from),
+            same_ends: self.same_ends(),
             between_faces: SingleValues::Impossible,
         })
     }
@@ -163,10 +161,14 @@ impl Scanner<'_> {
     }
 
     fn cells(&self, modes: &[ModeInterval], gaps: &[Gap]) -> Vec<[f64; 2]> {
-        let [from, to] = self.options.range;
         let ends = modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
         let gaps = gaps.iter().flat_map(|gap| [gap.from, gap.to]);
-        cells(ends.chain(gaps).chain([from, to]), |next, kept| next - kept <= SAME * (to - from))
+        let same = self.same_ends();
+        cells(ends.chain(gaps).chain(self.options.range), |next, kept| !same.are_two(kept, next))
+    }
+
+    fn same_ends(&self) -> SameEnds {
+        SameEnds::bisected(self.options.range)
     }
 
     /// The intervals of all patterns that are present somewhere.
@@ -235,7 +237,7 @@ impl Scanner<'_> {
         };
         // Ends so close are one, and where the position is lost nothing else ends a mode.
         let [from, to] = self.options.range;
-        let further = (near + (SAME * (to - from)).copysign(outside - inside)).clamp(from, to);
+        let further = (near + self.same_ends().within.copysign(outside - inside)).clamp(from, to);
         if self.line(further).is_none() {
             return self.lost(near, further);
         }

@@ -18,8 +18,7 @@ use crate::solve::{Stages, pattern};
 /// from where the work is to end.
 pub(super) fn speeds(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Vec<SpeedLimits>> {
     let model = varied.model();
-    let is_driven = |index: usize| model.drives.iter().any(|drive| drive.coordinate.index() == index);
-    let free: Vec<usize> = (0..model.coordinates.len()).filter(|&index| !is_driven(index)).collect();
+    let free: Vec<usize> = (0..model.coordinates.len()).filter(|&index| model.is_free(index)).collect();
     let modes = found.existence.modes.iter().enumerate();
     let all = found.existence.modes.len();
     let of_mode = |(index, mode): (usize, &ModeInterval)| {

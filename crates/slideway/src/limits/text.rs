@@ -44,7 +44,12 @@ impl Report for RestLimitsReport {
                 (Some(false), _) => "it does not hold".to_owned(),
                 (None, _) => "not decided".to_owned(),
             };
-            text.headline(&format!("{}: {verdict}.", unit.range(&vary.name, [*from, *to])));
+            let place = if from == to {
+                format!("{} = {}", vary.name, unit.precise(*from))
+            } else {
+                unit.range(&vary.name, [*from, *to])
+            };
+            text.headline(&format!("{place}: {verdict}."));
         }
         text.line(&self.guarantee);
         text.text()

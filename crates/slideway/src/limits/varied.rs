@@ -255,6 +255,11 @@ impl Varied {
         }
     }
 
+    /// Whether it is an angle, which a parameter is by the unit in which it was typed.
+    pub(crate) fn is_angle(&self) -> bool {
+        self.typed_unit().is_some_and(|unit| unit.si() == "rad")
+    }
+
     /// The SI unit, empty for pure numbers.
     pub(crate) fn unit(&self) -> String {
         match self.kind {

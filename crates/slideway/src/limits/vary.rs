@@ -1,16 +1,16 @@
 //! What is to be varied, and over which range.
 
 use super::varied::Varied;
+use crate::expression::{TO, ends_of_range};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
 use crate::model::{Model, Value};
+use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 use std::str::FromStr;
 
 /// Without a range a parameter goes from its value divided by this to its value multiplied by it.
 const FACTOR_AROUND: f64 = 5.0;
-/// Between the ends of a range.
-const TO: &str = "..";
 
 /// What is to be varied, and over which range: a parameter, a coordinate, or all coefficients of friction
 /// together ([`FRICTION`](super::FRICTION)).
@@ -57,9 +57,8 @@ impl Vary {
             return usual().map_err(|faults| faults.in_argument(&self.name, |_| 0..self.name.len()));
         };
         let (what, fault) = (varied.in_words(), |kind| Faults::from(self.fault(kind)));
-        let start = self.name.len() + 1;
-        let second = start + from.to_string().len() + TO.len();
-        let (from, to) = (self.end(varied, from, start)?, self.end(varied, to, second)?);
+        let [first, second] = self.starts(from);
+        let (from, to) = (self.end(varied, from, first)?, self.end(varied, to, second)?);
         if from.abs().max(to.abs()) > *MAGNITUDES.end() {
             return Err(fault(FaultKind::Overflow { quantity: format!("the range of {}", varied.name) }));
         }
@@ -104,9 +103,7 @@ impl Vary {
         let (Some([from, to]), Ok(varied)) = (&self.range, Varied::new(model, &self.name)) else {
             return found;
         };
-        let start = self.name.len() + 1;
-        let second = start + from.to_string().len() + TO.len();
-        for (end, start) in [(from, start), (to, second)] {
+        for (end, start) in [from, to].into_iter().zip(self.starts(from)) {
             let doubt = end.without_unit(&self.name, varied.typed_unit());
             let span = start..start + end.to_string().len();
             found.extend(
@@ -114,6 +111,12 @@ impl Vary {
             );
         }
         found
+    }
+
+    /// Where both ends of the range, of which the first is this, begin in the text of the argument.
+    fn starts(&self, from: &Value) -> [usize; 2] {
+        let first = self.name.len() + 1;
+        [first, first + from.to_string().len() + TO.len()]
     }
 
     /// A fault of the range.
@@ -143,14 +146,11 @@ impl FromStr for Vary {
     fn from_str(text: &str) -> Result<Self, Faults> {
         let Some((name, range)) = text.split_once('=') else { return Ok(Self::usual(text.trim())) };
         let name = name.trim();
-        match range.split_once(TO) {
-            // The end of `0...1` would be 0.1, which nobody means.
-            Some((from, to)) if !to.starts_with('.') => Ok(Self::between(name, from.trim(), to.trim())),
-            _ => {
-                let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
-                Err(Fault::of_argument(kind, text, text.len() - range.len()..text.len()).into())
-            }
+        if let Ok(Some((from, to))) = ends_of_range(range) {
+            return Ok(Self::between(name, from.trim(), to.trim()));
         }
+        let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
+        Err(Fault::of_argument(kind, text, text.len() - range.len()..text.len()).into())
     }
 }
 
@@ -158,12 +158,13 @@ impl fmt::Display for Vary {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.range {
             None => formatter.write_str(&self.name),
-            Some([from, to]) => write!(formatter, "{}={from}..{to}", self.name),
+            Some([from, to]) => write!(formatter, "{}={from}{TO}{to}", self.name),
         }
     }
 }
 
-/// A range around the value in the model; coordinates and values of zero need one.
+/// A range around the value in the model; coordinates and values of zero need one. Angles, which are known by
+/// their unit, have the quarter turn in which they stand: sines and cosines keep their signs there.
 ///
 /// # Errors
 /// A fault if a range is needed.
@@ -174,6 +175,10 @@ pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], F
     let present = varied.present()?;
     if model.is_friction_coefficient(&varied.name) {
         Ok([0.0, (2.0 * present).max(1.0)])
+    } else if varied.is_angle() && !varied.is_coordinate() {
+        // Between two of them it has both. Adding zero turns -0 into 0.
+        let quarters = present / FRAC_PI_2;
+        Ok([(quarters - 1.0).ceil(), (quarters + 1.0).floor()].map(|quarters| quarters * FRAC_PI_2 + 0.0))
     } else if varied.is_coordinate() || present == 0.0 {
         Err(varied.range_needed())
     } else {

@@ -170,9 +170,8 @@ fn parts(stages: &Stages, friction: f64, with_accelerations: bool) -> Result<Par
 
 /// The coordinates that no drive moves, with their rates.
 fn free(stages: &Stages) -> Vec<(usize, f64)> {
-    let drives = &stages.mechanism.drives;
     let rates = stages.mechanism.coordinates.iter().map(|coordinate| coordinate.rate).enumerate();
-    rates.filter(|(index, _)| drives.iter().all(|drive| drive.coordinate.index() != *index)).collect()
+    rates.filter(|(index, _)| stages.mechanism.is_free(*index)).collect()
 }
 
 fn have_same_signs(one: &[(usize, f64)], other: &[(usize, f64)]) -> bool {

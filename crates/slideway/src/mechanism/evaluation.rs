@@ -110,7 +110,7 @@ impl<T: Real> Evaluation<'_, T> {
             centre_of_mass,
             points,
             shape: self.shape(&body.inertia),
-            outline: body.outline.iter().map(|corner| self.vector(*corner)).collect(),
+            outline: body.outline.iter().map(|corner| corner.map(|place| self.vector(*place))).collect(),
         }
     }
 

@@ -11,7 +11,9 @@ use crate::expression::{Expression, Values};
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
-use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind, Stop};
+use crate::model::{
+    CarriedBy, CrossingDirection, Formula, Model, OutlineCorner, PreloadLine, SliderKind, Stop,
+};
 use crate::units::Units;
 use evaluation::Evaluation;
 use nalgebra::Vector2;
@@ -73,7 +75,7 @@ pub struct Body<T = f64> {
     /// Its shape in the drawing, if the model gives one.
     pub shape: Option<Shape<T>>,
     /// The corners of its outline in the drawing, for looks only; empty if the model gives none.
-    pub outline: Vec<Vector2<T>>,
+    pub outline: Vec<OutlineCorner<Vector2<T>>>,
 }
 
 /// Shape of a homogeneous body.
@@ -444,6 +446,11 @@ impl Mechanism {
 }
 
 impl Mechanism {
+    /// Whether no drive moves a coordinate, counted from 0.
+    pub(crate) fn is_free(&self, coordinate: usize) -> bool {
+        self.drives.iter().all(|drive| drive.coordinate.index() != coordinate)
+    }
+
     /// Refuses more contacts than can be dealt with, before any matrix is built.
     ///
     /// # Errors

@@ -113,16 +113,26 @@ impl Model {
         self.contacts().flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
     }
 
-    /// Whether some coefficient of friction is this parameter itself, so that its negative values make no
-    /// sense.
+    /// Whether some coefficient of friction is this parameter itself, perhaps through others that are nothing
+    /// but it, so that its negative values make no sense.
     pub(crate) fn is_itself_friction(&self, parameter: &str) -> bool {
-        let wanted = self.parameters.iter().position(|other| &*other.name == parameter);
         let mut coefficients =
             self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
-        let is_it = |index: usize| Some(Symbol::Parameter(index));
-        wanted.is_some_and(|index| {
-            coefficients.any(|id| self.formula(id).expression.only_symbol() == is_it(index))
+        let wanted = self.parameters.iter().find(|other| &*other.name == parameter);
+        wanted.is_some_and(|wanted| coefficients.any(|id| self.same_as(id).any(|same| same == wanted.value)))
+    }
+
+    /// The formulas that this one is nothing but, through parameters: first itself, last that with the number.
+    fn same_as(&self, formula: FormulaId) -> impl Iterator<Item = FormulaId> + '_ {
+        std::iter::successors(Some(formula), |&id| match self.formula(id).expression.only_symbol()? {
+            Symbol::Parameter(index) => Some(self.parameters[index].value),
+            _ => None,
         })
+    }
+
+    /// The formula with the number or the expression that this one takes its value from unchanged.
+    pub(crate) fn source_of(&self, formula: FormulaId) -> FormulaId {
+        self.same_as(formula).last().unwrap_or(formula)
     }
 
     /// Whether a parameter changes nothing but coefficients of friction and preloads.
@@ -131,6 +141,11 @@ impl Model {
         let left_out: Vec<FormulaId> = own.chain(self.contacts().flat_map(Contact::friction)).collect();
         let mut others = (0..self.formulas.len()).map(FormulaId).filter(|id| !left_out.contains(id));
         !others.any(|id| self.uses(id, parameter))
+    }
+
+    /// Whether no drive moves a coordinate, counted from 0.
+    pub(crate) fn is_free(&self, coordinate: usize) -> bool {
+        self.drives.iter().all(|drive| drive.coordinate.index() != coordinate)
     }
 
     /// The contacts of all sliding joints, in the order of the mechanism's.

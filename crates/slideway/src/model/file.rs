@@ -3,7 +3,7 @@
 //! The doc comments of this file, and those of `schema.rs`, are what an editor shows for each key.
 //! `schema.json` is what they give; a test holds it to them.
 
-use super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
+use super::quantity::{Components, Direction, Name, OutlinePlace, PerSide, Place, Quantity, Span};
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -74,10 +74,11 @@ pub(super) struct BodyTable {
     pub(super) centre_of_mass: Option<Place>,
     /// `true` for a body without mass.
     pub(super) massless: Option<bool>,
-    /// What the body looks like in drawings: the corners of a polygon, each a point's name or [x, y]. It
-    /// moves with the body, and no answer depends on it.
+    /// What the body looks like in drawings: corners, each a point's name or [x, y], joined by straight
+    /// lines, or by an arc where { through = place } stands between them. It moves with the body, and no
+    /// answer depends on it.
     #[cfg_attr(test, schemars(length(min = 3)))]
-    pub(super) outline: Option<Vec<Place>>,
+    pub(super) outline: Option<Vec<OutlinePlace>>,
 }
 
 /// Shape of a homogeneous body: exactly one of the keys.

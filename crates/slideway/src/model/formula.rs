@@ -37,6 +37,9 @@ impl Origin {
     }
 }
 
+/// What has to be of a quantity that is [`Allowed::Positive`].
+pub(crate) const POSITIVE: &str = "greater than zero";
+
 /// Which values a quantity may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Allowed {
@@ -114,7 +117,7 @@ impl Formula {
         let value = value.map_err(|fault| self.origin.fault(fault))?;
         let (allowed, wanted) = match self.allowed {
             Allowed::Any => (true, ""),
-            Allowed::Positive => (value.lower() > 0.0, "greater than zero"),
+            Allowed::Positive => (value.lower() > 0.0, POSITIVE),
             Allowed::NotNegative => (value.lower() >= 0.0, "at least zero"),
         };
         if allowed {

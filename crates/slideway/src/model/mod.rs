@@ -34,12 +34,14 @@
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
 //! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
 //! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `value.rs` is what is
-//! given, `settings.rs` applies changes, `typed.rs` tells in which units a file was typed.
+//! given, `settings.rs` applies changes, `typed.rs` tells in which units a file was typed, `outline.rs`
+//! has the arcs of outlines.
 
 mod check;
 mod dependence;
 mod file;
 mod formula;
+pub mod outline;
 mod quantity;
 mod range;
 mod read;
@@ -54,7 +56,9 @@ mod value;
 
 pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
+pub(crate) use formula::POSITIVE;
 pub use formula::{Allowed, Formula, Origin, Varies};
+pub use outline::OutlineCorner;
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
 pub use stop::Stop;
@@ -138,7 +142,7 @@ pub struct Body {
     /// Its named points.
     pub points: Vec<NamedPoint>,
     /// The corners of its outline in the drawing, for looks only; empty if the file gives none.
-    pub outline: Vec<[FormulaId; 2]>,
+    pub outline: Vec<OutlineCorner<[FormulaId; 2]>>,
 }
 
 /// A named point of the drawing.

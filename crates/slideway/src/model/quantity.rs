@@ -71,6 +71,23 @@ pub(super) enum Place {
     Coordinates(Box<Components>),
 }
 
+/// A place of an outline.
+#[derive(Debug, Clone)]
+pub(super) enum OutlinePlace {
+    /// A corner.
+    Corner(Place),
+    /// A place on the arc from the corner before it to the one behind it.
+    Through(Through),
+}
+
+/// A place that an arc passes.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
+pub(super) struct Through {
+    /// A place on the arc between two corners: a point's name or [x, y].
+    pub(super) through: Place,
+}
+
 /// A direction in the drawing.
 #[derive(Debug, Clone)]
 pub(super) enum Direction {
@@ -191,6 +208,20 @@ impl<'de> Either<'de> for Place {
     }
 }
 
+impl<'de> Either<'de> for OutlinePlace {
+    const EXPECTED: &'static str =
+        "the name of a point, its coordinates [x, y], or { through = .. } for an arc";
+    fn from_quantity(quantity: Quantity) -> Option<Self> {
+        Place::from_quantity(quantity).map(Self::Corner)
+    }
+    fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {
+        Place::from_sequence(sequence).map(Self::Corner)
+    }
+    fn from_map<A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        Through::deserialize(de::value::MapAccessDeserializer::new(map)).map(Self::Through)
+    }
+}
+
 impl<'de> Either<'de> for Direction {
     const EXPECTED: &'static str = "an angle, or two points [\"from\", \"to\"]";
     fn from_quantity(quantity: Quantity) -> Option<Self> {
@@ -223,6 +254,12 @@ impl<'de> Either<'de> for Gravity {
 }
 
 impl<'de> Deserialize<'de> for Place {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserialize_either(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for OutlinePlace {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserialize_either(deserializer)
     }

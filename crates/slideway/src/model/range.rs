@@ -1,13 +1,12 @@
 //! Parameters that are only known within bounds: `mu = "0.1..0.15"`.
 
 use super::{Model, Parameter};
-use crate::expression::{Expression, ExpressionFault, ExpressionFaultKind, Names, Values, parse};
+use crate::expression::{
+    Expression, ExpressionFault, ExpressionFaultKind, Names, TO, Values, ends_of_range, parse,
+};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Interval;
 use crate::units::Unit;
-
-/// What separates the ends of a range.
-pub(super) const TO: &str = "..";
 
 /// A parameter that is known within bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,11 +38,10 @@ pub(super) type Parsed = (Expression, Option<Box<[Expression; 2]>>);
 /// # Errors
 /// The faults of the expressions, with places in the whole text.
 pub(super) fn parse_value(text: &str, names: &Names) -> Result<Parsed, Vec<ExpressionFault>> {
-    let Some((from, to)) = text.split_once(TO) else { return Ok((parse(text, names)?, None)) };
-    if to.starts_with('.') {
-        let dots = from.len()..from.len() + TO.len() + 1;
-        return Err(vec![ExpressionFault { kind: ExpressionFaultKind::ThreeDots, span: dots }]);
-    }
+    let three_dots = |span| vec![ExpressionFault { kind: ExpressionFaultKind::ThreeDots, span }];
+    let Some((from, to)) = ends_of_range(text).map_err(three_dots)? else {
+        return Ok((parse(text, names)?, None));
+    };
     let start = from.len() + TO.len();
     let ends = [(from, 0), (to, start)].map(|(end, offset)| {
         parse(end, names).map_err(|mut faults| {

@@ -4,7 +4,9 @@
 //! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > /tmp/schema.json`, to be moved here.
 
 use super::file::{BodyTable, CoordinateTable, DriveTable, EventTable, TableTable};
-use super::quantity::{Components, Direction, Gravity, Name, PerSide, Place, Quantity, Sides};
+use super::quantity::{
+    Components, Direction, Gravity, Name, OutlinePlace, PerSide, Place, Quantity, Sides, Through,
+};
 use super::sections::{JointContents, LoadContents};
 use crate::units::UnitSystem;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
@@ -83,6 +85,15 @@ impl JsonSchema for Place {
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<Components>())
+    }
+}
+
+impl JsonSchema for OutlinePlace {
+    fn schema_name() -> Cow<'static, str> {
+        "OutlinePlace".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Place>(), &generator.subschema_for::<Through>())
     }
 }
 

@@ -6,19 +6,21 @@ use super::{Coordinate, Model, Value};
 use crate::expression::{Dimension, Expression, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
 use crate::ids::FormulaId;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The name that a setting of the time bears.
 const TIME: &str = "time";
 
 /// Changes to a model, in the order in which they were given; a later one wins.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Settings {
     entries: Vec<Setting>,
 }
 
 /// One change.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Setting {
     /// What is changed.
@@ -42,7 +44,8 @@ impl Setting {
 }
 
 /// What a setting changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum SettingKind {
     /// A parameter (`--set`).

@@ -1,8 +1,7 @@
 //! The units in which the quantities of a model file were typed.
 
-use super::range::TO;
 use super::{Formula, Model, Value};
-use crate::expression::{Dimension, Names, written_units};
+use crate::expression::{Dimension, Names, TO, written_units};
 use crate::fault::Doubt;
 use crate::units::{TypedUnits, Unit};
 

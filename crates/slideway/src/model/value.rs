@@ -1,10 +1,12 @@
 //! Values as they are given: a number, or a text.
 
+use serde::Serialize;
 use std::fmt;
 
 /// A value as it is given: a number in SI units, or a text with a unit or an expression of parameters, such
 /// as `25 mm` or `2*l*cos(alpha)`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum Value {
     /// A number in SI units. As in a file, it is the decimal that is written with the fewest digits.

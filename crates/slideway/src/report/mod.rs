@@ -201,6 +201,15 @@ pub struct PatternSummary {
     pub gap_patterns: u64,
 }
 
+impl SolveReport {
+    /// Has its forces, moments, powers and pressures shown in units in which they read well.
+    pub(crate) fn suit_units(&mut self) {
+        let states = self.solutions.iter().chain(&self.preload_gap_states);
+        let values: Vec<(&'static str, f64)> = states.flat_map(Solution::efforts).collect();
+        self.model.units = std::mem::take(&mut self.model.units).suited_to(values);
+    }
+}
+
 /// One solution, or one state of a preload gap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -245,6 +254,17 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// Its forces, moments and pressures with their SI units.
+    fn efforts(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let contacts = self.contacts.iter().flat_map(|contact| {
+            let forces = [contact.normal_force, contact.friction_force].map(|force| ("N", force));
+            let couple = contact.couple.map(|couple| ("N m", couple));
+            forces.into_iter().chain(couple).chain(contact.pressure.map(|pressure| ("Pa", pressure)))
+        });
+        let hinges = self.hinges.iter().flat_map(|hinge| hinge.force.map(|force| ("N", force)));
+        contacts.chain(hinges).chain(self.drives.iter().map(|drive| (drive.unit, drive.effort)))
+    }
+
     /// What it has at a contact.
     ///
     /// # Panics
@@ -341,8 +361,8 @@ pub struct Margins {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several
-    /// already); absent if that is never lost, or was not computed because preloads jump with the side of
-    /// contact.
+    /// already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
+    /// because preloads jump with the side of contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.

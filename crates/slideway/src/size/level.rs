@@ -5,6 +5,7 @@ use super::Against;
 use crate::drive::{EfficiencyKind, Efforts};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
+use crate::mechanism::Contact;
 use crate::modes::existence::TooManyModes;
 use crate::progress::Work;
 use crate::report::Solution;
@@ -41,42 +42,51 @@ pub(super) fn level(
     };
     let between_faces = varied.states_between_faces(value, 1.0, None, work);
     let states = patterns.iter().filter_map(of_pattern).chain(between_faces.iter().map(between));
-    let levels = states.map(|forces| of_forces(varied, against, &efforts, &forces));
-    let levels: Vec<f64> = levels.collect::<Result<_, _>>()?;
+    let picked = picked(varied, against, &efforts)?;
+    let levels: Vec<f64> =
+        states.map(|forces| of_forces(against, picked, &efforts, &forces)).collect::<Result<_, _>>()?;
     let worst = if matches!(against, Against::Efficiency) { f64::min } else { f64::max };
     Ok(levels.into_iter().reduce(worst))
 }
 
+/// The place of the drive or contact that is named among all; none if all of them count.
+fn picked(varied: &Varied, against: &Against, at: &Efforts) -> Result<Option<usize>, Faults> {
+    let names = |counts: &dyn Fn(&Contact) -> bool| -> Vec<Option<&str>> {
+        at.contacts.iter().map(|contact| counts(contact).then_some(&*contact.name)).collect()
+    };
+    let (name, what, names) = match against {
+        Against::Effort { drive } => {
+            (drive, "drive", varied.model().drives.iter().map(|drive| Some(&*drive.name)).collect())
+        }
+        Against::NormalForce { contact } => (contact, "contact", names(&|_| true)),
+        Against::Pressure { contact } => (contact, "contact", names(&|contact| contact.pad.is_some())),
+        _ => return Ok(None),
+    };
+    let Some(name) = name else { return Ok(None) };
+    let index = names.iter().position(|other| *other == Some(name.as_str()));
+    let unknown = || {
+        let known = names.iter().copied().flatten();
+        let nearest = crate::fault::nearest(name, known.clone());
+        let known = known.map(str::to_owned).collect();
+        Fault::general(FaultKind::UnknownName { what, name: name.clone(), nearest, known })
+    };
+    index.map(Some).ok_or_else(|| unknown().into())
+}
+
 /// The greatest absolute effort, normal force or bearing pressure of a solution, or its efficiency.
-fn of_forces(varied: &Varied, against: &Against, at: &Efforts, forces: &Forces) -> Result<f64, Faults> {
-    let named = |name: &Option<String>, values: &[f64], names: &[String], what: &'static str| {
-        let Some(name) = name else {
-            return Ok(values.iter().fold(0.0, |most: f64, value| most.max(value.abs())));
-        };
-        let index = names.iter().position(|other| other == name).ok_or_else(|| {
-            let nearest = crate::fault::nearest(name, names.iter().map(String::as_str));
-            let kind = FaultKind::UnknownName { what, name: name.clone(), nearest, known: names.to_vec() };
-            Faults::from(Fault::general(kind))
-        })?;
-        Ok(values[index].abs())
+fn of_forces(against: &Against, picked: Option<usize>, at: &Efforts, forces: &Forces) -> Result<f64, Faults> {
+    let greatest = |values: &[f64]| match picked {
+        Some(index) => values[index].abs(),
+        None => values.iter().fold(0.0, |most: f64, value| most.max(value.abs())),
     };
     match against {
-        Against::Effort { drive } => {
-            let drives: Vec<String> =
-                varied.model().drives.iter().map(|drive| drive.name.to_string()).collect();
-            named(drive, &forces.efforts, &drives, "drive")
-        }
-        Against::NormalForce { contact } => {
-            let contacts: Vec<String> = at.contacts.iter().map(|contact| contact.name.to_string()).collect();
-            named(contact, &forces.normal_forces, &contacts, "contact")
-        }
-        Against::Pressure { contact } => {
-            let with_pad =
-                at.contacts.iter().zip(&forces.normal_forces).filter_map(|(contact, force)| {
-                    Some((contact.name.to_string(), contact.pressure(*force)?))
-                });
-            let (contacts, pressures): (Vec<String>, Vec<f64>) = with_pad.unzip();
-            let pressure = named(contact, &pressures, &contacts, "contact")?;
+        Against::Effort { .. } => Ok(greatest(&forces.efforts)),
+        Against::NormalForce { .. } => Ok(greatest(&forces.normal_forces)),
+        Against::Pressure { .. } => {
+            // Where there is no pad there is none.
+            let contacts = at.contacts.iter().zip(&forces.normal_forces);
+            let pressures = contacts.map(|(contact, force)| contact.pressure(*force).unwrap_or_default());
+            let pressure = greatest(&pressures.collect::<Vec<_>>());
             let overflow = || FaultKind::Overflow { quantity: "the bearing pressure".to_owned() };
             if pressure.is_finite() { Ok(pressure) } else { Err(Fault::general(overflow()).into()) }
         }

@@ -4,7 +4,7 @@ use super::margin::{Margin, MarginQuestion};
 use super::search::{End, MetCause, SizesFound, Tried};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
-use crate::limits::VariedQuantity;
+use crate::limits::{SameEnds, VariedQuantity};
 use crate::model::{Effort, Model};
 use crate::units::Unit;
 use serde::Serialize;
@@ -88,8 +88,8 @@ pub struct SizeReport {
     pub present: Sample,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
-    /// Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces,
-    /// which is no locking.
+    /// Ranges in which the mechanism cannot be assembled or solved, the model does not allow the values, or a
+    /// guided slider is between its faces, which is no locking.
     pub without_position: Vec<RangeWithoutPosition>,
     /// The margin at evenly spaced values, and where the wanted one is just met.
     pub samples: Vec<Sample>,
@@ -131,7 +131,8 @@ pub enum MetEnd {
     Margin,
     /// The margin jumps.
     Jump,
-    /// The mechanism cannot be assembled or solved beyond.
+    /// The mechanism cannot be assembled or solved beyond, or the model does not allow the values there:
+    /// [`SizeReport::without_position`] says why.
     NoPosition,
 }
 
@@ -199,6 +200,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
     let unit = unit(model, &options.against);
     let told: Told<'_> = &|margin| against.told(margin, options.margin);
     let vary = VariedQuantity::new(question.varied, *range, *value);
+    let same_ends = SameEnds::bisected(*range);
     let mut report = SizeReport {
         schema: SCHEMA,
         title: model.title.clone(),
@@ -214,8 +216,8 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         },
         both_directions: options.both_directions,
         present: sample(&Tried { at: *value, margin: *present }, told),
-        met: found.met.iter().map(|ends| interval(ends, told)).collect(),
-        without_position: found.gaps.iter().map(gap).collect(),
+        met: found.met.iter().map(|ends| interval(ends, same_ends, told)).collect(),
+        without_position: found.gaps.iter().map(|one| gap(one, same_ends)).collect(),
         samples: samples(found, (*steps, options.margin), told),
         tried: found.places.iter().map(|place| sample(place, told)).collect(),
         guarantee: words::guarantee(*range, *steps, against, &question.varied.shown_in),
@@ -248,14 +250,15 @@ pub(super) fn unit(model: &Model, against: &Against) -> &'static str {
 /// What a margin of the search stands for.
 type Told<'t> = &'t dyn Fn(Margin) -> (SampleKind, Option<f64>);
 
-fn interval([from, to]: &[End; 2], told: Told<'_>) -> MetInterval {
+fn interval([from, to]: &[End; 2], same_ends: SameEnds, told: Told<'_>) -> MetInterval {
     let jumps_to = |end: &End| match end.cause {
         MetCause::Jump(margin) => told(margin).1,
         _ => None,
     };
+    let place = |end: &End| if end.cause == MetCause::NoPosition { same_ends.told(end.at) } else { end.at };
     MetInterval {
-        from: from.at,
-        to: to.at,
+        from: place(from),
+        to: place(to),
         from_is: cause(from),
         to_is: cause(to),
         from_jumps_to: jumps_to(from),
@@ -272,9 +275,9 @@ fn cause(end: &End) -> MetEnd {
     }
 }
 
-fn gap(gap: &super::search::SizeGap) -> RangeWithoutPosition {
+fn gap(gap: &super::search::SizeGap, same_ends: SameEnds) -> RangeWithoutPosition {
     let reason = gap.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string());
-    RangeWithoutPosition { from: gap.from, to: gap.to, reason }
+    RangeWithoutPosition { from: same_ends.told(gap.from), to: same_ends.told(gap.to), reason }
 }
 
 fn sample(place: &Tried, told: Told<'_>) -> Sample {

@@ -2,6 +2,7 @@
 
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
+use crate::limits::no_answer;
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::units::Unit;
@@ -33,12 +34,8 @@ impl Words<'_> {
         sentences.extend(self.constant());
         let report = self.report;
         for gap in &report.without_position {
-            sentences.push(format!(
-                "From {} to {} there is no answer, which does not count as locking: {}.",
-                quantity(report, gap.from),
-                quantity(report, gap.to),
-                gap.reason
-            ));
+            let told = no_answer([gap.from, gap.to], &report.vary.shown_in, &gap.reason);
+            sentences.push(told.trim_start().to_owned());
         }
         sentences
     }
@@ -86,9 +83,20 @@ impl Words<'_> {
         let bare = report.vary.shown_in.precise_number(interval.from);
         match (interval.from_is, interval.to_is) {
             (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
+            (MetEnd::NoPosition, MetEnd::Range) => {
+                format!("at least {from}, below which there is no answer (examined up to {to})")
+            }
+            (MetEnd::Range, MetEnd::NoPosition) => {
+                format!("at most {to}, above which there is no answer (examined down to {from})")
+            }
             (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
             (MetEnd::Range, _) => format!("at most {to} (examined down to {from})"),
             _ if interval.from == interval.to => format!("{from} alone"),
+            (MetEnd::NoPosition, MetEnd::NoPosition) => {
+                format!("from {bare} to {to}, beyond which there is no answer")
+            }
+            (MetEnd::NoPosition, _) => format!("from {bare}, below which there is no answer, to {to}"),
+            (_, MetEnd::NoPosition) => format!("from {bare} to {to}, above which there is no answer"),
             _ => format!("from {bare} to {to}"),
         }
     }

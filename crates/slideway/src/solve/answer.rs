@@ -367,11 +367,10 @@ impl<'a> Answer<'a> {
 
     fn coordinates(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Vec<report::CoordinateAcceleration> {
         let accelerations = self.equations.coordinate_accelerations(unknowns);
-        let is_driven = |index| self.mechanism.drives.iter().any(|drive| drive.coordinate.index() == index);
         let one = |(index, acceleration): (usize, f64)| {
             let coordinate = &self.mechanism.coordinates[index];
             let bounds = self.acceleration_bounds(state, index);
-            let speed = (!is_driven(index)).then(|| SpeedChange::of(coordinate.rate, bounds));
+            let speed = self.mechanism.is_free(index).then(|| SpeedChange::of(coordinate.rate, bounds));
             let slows = speed == Some(SpeedChange::SlowsDown);
             report::CoordinateAcceleration {
                 name: coordinate.name.to_string(),

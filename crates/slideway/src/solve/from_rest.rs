@@ -2,13 +2,14 @@
 
 use super::margins::PATTERNS;
 use crate::model::Model;
-use crate::progress::undisturbed;
+use crate::progress::{Callback, watched};
 use crate::report::{FromRest, SolveReport, SpeedChange};
 use crate::standstill::{HoldOptions, HoldReport, HoldVerdict, hold_within};
 
 /// Adds what the same loads do from rest, if some coordinate slows down, no drive prescribes a motion, and
-/// there are no more states of joints and contacts than modes for which margins are computed.
-pub(super) fn add(report: &mut SolveReport, model: &Model) {
+/// there are no more states of joints and contacts than modes for which margins are computed; not if the callback
+/// breaks.
+pub(super) fn add(report: &mut SolveReport, model: &Model, progress: &mut Callback<'_>) {
     let mut coordinates = report.solutions.iter().flat_map(|solution| &solution.coordinates);
     if coordinates.all(|coordinate| coordinate.speed != Some(SpeedChange::SlowsDown)) {
         return;
@@ -16,8 +17,9 @@ pub(super) fn add(report: &mut SolveReport, model: &Model) {
     if !model.drives.is_empty() {
         return;
     }
-    let hold = undisturbed(|work| hold_within(model, &HoldOptions::default(), PATTERNS, work));
-    report.from_rest = hold.ok().filter(|hold| hold.undecided == 0).map(|hold| from_rest(report, &hold));
+    let hold = watched(progress, |work| hold_within(model, &HoldOptions::default(), PATTERNS, work));
+    let hold = hold.ok().flatten().filter(|hold| hold.undecided == 0);
+    report.from_rest = hold.map(|hold| from_rest(report, &hold));
 }
 
 fn from_rest(report: &SolveReport, hold: &HoldReport) -> FromRest {

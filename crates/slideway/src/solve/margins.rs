@@ -2,12 +2,19 @@
 
 use super::stages::ProblemData;
 use super::state::pattern;
+use crate::enclosure::EnclosedModeProblem;
 use crate::fault::Faults;
+use crate::interval::Interval;
 use crate::mechanism::Mechanism;
+use crate::modes::certificate::{
+    IntervalInfluence, IntervalMatrix, IntervalModeProblem, proven_determinant_sign,
+};
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
 };
+use crate::modes::{BySide, ContactState};
 use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport};
+use nalgebra::DMatrix;
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
@@ -16,8 +23,9 @@ pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.
 pub(crate) const AT_ONCE: f64 = 1e-9;
 
-/// Adds the margins to a report, if there are few enough modes, and each can be followed.
-pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>) {
+/// Adds the margins to a report, if there are few enough modes, and each can be followed. The one of every
+/// load needs bounds of the exact numbers.
+pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Option<&EnclosedModeProblem>) {
     let Some(all) = Growth::along(data, &|_| true) else {
         report.margins_missing = Some(MarginsMissing::TooManyModes);
         return;
@@ -46,7 +54,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>) {
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
-        uniqueness: all.uniqueness(),
+        uniqueness: enclosed.and_then(|enclosed| all.uniqueness(&enclosed.influence)),
         critical_contact: critical_contact(data),
     });
 }
@@ -85,13 +93,17 @@ impl Growth {
         Some(Self { line, existence, counts })
     }
 
-    /// The factor up to which every load has exactly one solution; none if there is no such factor, or with
-    /// jumps.
-    fn uniqueness(&self) -> Option<f64> {
+    /// The factor up to which every load has exactly one solution, where a determinant is proven to change its
+    /// sign; none if there is no such factor, or with jumps.
+    fn uniqueness(&self, influence: &IntervalInfluence) -> Option<f64> {
         if self.line.has_jump.iter().any(|&jump| jump) {
             return None;
         }
-        self.line.first_locking(PATTERNS).ok()?.map(|(factor, _)| factor)
+        let sign_at = |factor: f64, pattern: &[ContactState]| {
+            let problem = IntervalModeProblem::from_influence(&rougher(influence, factor)?).ok()?;
+            proven_determinant_sign(&problem, pattern)
+        };
+        self.line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
     }
 
     /// The factor at which there is another number of solutions, gap states counted apart.
@@ -116,6 +128,16 @@ impl Growth {
             |mode: &&ModeInterval| self::pattern(&mode.pattern) == pattern && mode.from.at <= 1.0 + AT_ONCE;
         self.existence.modes.iter().find(same)
     }
+}
+
+/// Bounds with every coefficient of friction multiplied by a factor; none if one overflows.
+fn rougher(influence: &IntervalInfluence, factor: f64) -> Option<IntervalInfluence> {
+    let times = |mu: &IntervalMatrix| {
+        let scaled = |row, column| mu.entry(row, column) * Interval::point(factor);
+        IntervalMatrix::from_intervals(&DMatrix::from_fn(mu.shape().0, 1, scaled))
+    };
+    let mu = BySide { positive: times(&influence.mu.positive)?, negative: times(&influence.mu.negative)? };
+    Some(IntervalInfluence { mu, ..influence.clone() })
 }
 
 fn is_jammed(count: &CountInterval) -> bool {

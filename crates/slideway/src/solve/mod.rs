@@ -29,6 +29,7 @@ mod friction;
 mod from_rest;
 mod margins;
 mod mode_problem;
+mod no_sliding;
 mod parts;
 mod stages;
 mod state;
@@ -154,10 +155,11 @@ pub fn solve_with(
     let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
     report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
     if options.margins {
-        margins::add(&mut report, stages.data());
-        from_rest::add(&mut report, model);
+        margins::add(&mut report, stages.data(), enclosed.as_ref().ok());
+        from_rest::add(&mut report, model, progress);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
+    report.suit_units();
     finite(report)
 }
 

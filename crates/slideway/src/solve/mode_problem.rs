@@ -1,5 +1,6 @@
 //! From a mechanism's influence coefficients to the pure numbers of its mode problem.
 
+use super::no_sliding::why;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
@@ -28,10 +29,8 @@ pub fn velocity_signs(mechanism: &Mechanism, configuration: &Configuration) -> R
         let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
         let joint = mechanism.contacts[first].joint;
         let place = mechanism.joints[joint.index()].place.clone();
-        let at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
-        let coordinates =
-            mechanism.coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
-        let kind = FaultKind::ZeroSlidingVelocity { contacts, coordinates, at_rest };
+        let why = why(mechanism, configuration, first);
+        let kind = FaultKind::ZeroSlidingVelocity { contacts, why };
         return Err(Fault::new(kind, place).into());
     }
     Ok(signs)

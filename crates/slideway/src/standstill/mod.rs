@@ -158,7 +158,7 @@ pub(crate) fn hold_within(
         HoldVerdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
-    finite(HoldReport {
+    let mut report = HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
         units: model.units.clone(),
@@ -176,7 +176,9 @@ pub(crate) fn hold_within(
         release_patterns: if motions_without_inertia.is_empty() { all_patterns } else { 0 },
         motions_without_inertia,
         rest_patterns,
-    })
+    };
+    report.suit_units();
+    finite(report)
 }
 
 /// Whether a mechanism with so many times the friction can stay at rest in its position; none where that could
@@ -306,7 +308,7 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
     let motions = held_motions(setup, free_motions(mechanism, configuration));
-    motions_without_inertia(mechanism, configuration, &motions, Some(&setup.loads()))
+    motions_without_inertia(mechanism, configuration, &motions, &setup.loads())
 }
 
 /// The motions that drives leave.

@@ -87,6 +87,22 @@ pub struct HoldReport {
     pub undecided: usize,
 }
 
+impl HoldReport {
+    /// Has its forces and moments shown in units in which they read well.
+    pub(super) fn suit_units(&mut self) {
+        let reactions = self.at_rest.iter().map(|rest| &rest.reactions);
+        let reactions = reactions.chain(self.releases.iter().map(|release| &release.reactions));
+        let load = self.load.iter().filter(|load| !load.unit.is_empty());
+        let held = load.flat_map(|load| load.held.iter().map(|range| (load.unit, *range)));
+        let ranges = reactions.flat_map(Reactions::with_units).chain(held);
+        let ends = ranges.flat_map(|(unit, Range { least, greatest })| {
+            [least, greatest].into_iter().flatten().map(move |end| (unit, end))
+        });
+        let values: Vec<(&'static str, f64)> = ends.collect();
+        self.units = std::mem::take(&mut self.units).suited_to(values);
+    }
+}
+
 /// A coordinate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -282,12 +298,18 @@ impl Reactions {
         self
     }
 
+    /// All ranges with their SI units.
+    pub(super) fn with_units(&self) -> Vec<(&'static str, Range)> {
+        let contacts = self.contacts.iter().flat_map(|contact| {
+            let forces = [contact.normal_force, contact.friction_force].map(|force| ("N", force));
+            forces.into_iter().chain(contact.couple.map(|couple| ("N m", couple)))
+        });
+        let hinges = self.hinges.iter().flat_map(|hinge| hinge.force.map(|force| ("N", force)));
+        contacts.chain(hinges).chain(self.drives.iter().map(|drive| (drive.unit, drive.effort))).collect()
+    }
+
     /// All ranges.
     pub(super) fn ranges(&self) -> Vec<Range> {
-        let contacts = self.contacts.iter().flat_map(|contact| {
-            [Some(contact.normal_force), Some(contact.friction_force), contact.couple].into_iter().flatten()
-        });
-        let hinges = self.hinges.iter().flat_map(|hinge| hinge.force);
-        contacts.chain(hinges).chain(self.drives.iter().map(|drive| drive.effort)).collect()
+        self.with_units().into_iter().map(|(_, range)| range).collect()
     }
 }

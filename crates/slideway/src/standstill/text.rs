@@ -26,12 +26,36 @@ impl Report for HoldReport {
 }
 
 impl HoldReport {
-    /// Whether it stays at rest, and what is known of the load that is varied, in lines of words.
+    /// Which drives are taken as absent or hold, whether it stays at rest, and what is known of the load that
+    /// is varied, in lines of words.
     pub fn verdict_in_words(&self) -> String {
         let mut text = Page::new(self, Style::Plain);
+        text.drives();
         text.verdict();
         text.load();
         text.text().trim().to_owned()
+    }
+
+    /// Whether it stays at rest, in one sentence: "It holds: it stays at rest."
+    pub fn answer(&self) -> String {
+        let ways = count(self.releases.len(), "state", "states");
+        match self.verdict {
+            HoldVerdict::Holds => "It holds: it stays at rest.".to_owned(),
+            HoldVerdict::MayHold => "It holds: it can stay at rest.".to_owned(),
+            HoldVerdict::HoldsUntilPushed => {
+                format!(
+                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
+                )
+            }
+            HoldVerdict::HoldsOrSlips => {
+                format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest.")
+            }
+            HoldVerdict::Moves => format!("It does not hold: {ways} in which it begins to move."),
+            HoldVerdict::Neither => {
+                "It can neither stay at rest nor begin to move with finite accelerations.".to_owned()
+            }
+            HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
+        }
     }
 }
 
@@ -50,40 +74,27 @@ impl Text<'_> {
         if let Some(steps) = report.steps_from_drawing {
             self.line(&followed(steps));
         }
-        if !report.released_drives.is_empty() {
-            self.line(&format!("Without the drives: {}", report.released_drives.join(", ")));
-        }
-        if !report.holding_drives.is_empty() {
-            self.line(&format!("Held by the drives: {}", report.holding_drives.join(", ")));
-        }
+        self.drives();
         self.line("");
     }
 
+    fn drives(&mut self) {
+        let HoldReport { released_drives, holding_drives, .. } = self.report;
+        if !released_drives.is_empty() {
+            self.line(&format!("Without the drives: {}", released_drives.join(", ")));
+        }
+        if !holding_drives.is_empty() {
+            self.line(&format!("Held by the drives: {}", holding_drives.join(", ")));
+        }
+    }
+
     fn verdict(&mut self) {
-        let ways = count(self.report.releases.len(), "state", "states");
-        let (colour, words) = match self.report.verdict {
-            HoldVerdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
-            HoldVerdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
-            HoldVerdict::HoldsUntilPushed => (
-                AnsiColor::Green,
-                format!(
-                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
-                ),
-            ),
-            HoldVerdict::HoldsOrSlips => (
-                AnsiColor::Yellow,
-                format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest."),
-            ),
-            HoldVerdict::Moves => {
-                (AnsiColor::Red, format!("It does not hold: {ways} in which it begins to move."))
-            }
-            HoldVerdict::Neither => (
-                AnsiColor::Red,
-                "It can neither stay at rest nor begin to move with finite accelerations.".to_owned(),
-            ),
-            HoldVerdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
+        let colour = match self.report.verdict {
+            HoldVerdict::Holds | HoldVerdict::MayHold | HoldVerdict::HoldsUntilPushed => AnsiColor::Green,
+            HoldVerdict::HoldsOrSlips => AnsiColor::Yellow,
+            HoldVerdict::Moves | HoldVerdict::Neither | HoldVerdict::DoesNotHold => AnsiColor::Red,
         };
-        self.painted(colour.on_default().bold(), &words, "");
+        self.painted(colour.on_default().bold(), &self.report.answer(), "");
         if !self.report.motions_without_inertia.is_empty() {
             self.line("How it begins to move is not determined, since these motions have no inertia:");
             for motion in &self.report.motions_without_inertia {

@@ -6,12 +6,13 @@ use crate::limits::{LimitsOptions, ModeLimits, Vary, limits_with};
 use crate::model::Model;
 use crate::progress::Callback;
 use crate::report::ModeEndCause;
+use serde::{Deserialize, Serialize};
 
 /// Ends that are nearer to each other than this part of the range are one.
 const SAME: f64 = 1e-12;
 
 /// A point at which a mode begins or ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Inserted {
     /// Its number among all points.
     pub(super) number: u64,
@@ -21,18 +22,46 @@ pub(super) struct Inserted {
     pub(super) own: bool,
 }
 
-/// The ends of modes on an axis in their order, or why there are none; nothing if the callback breaks.
-pub(super) fn between(
-    model: &Model,
-    axis: &Axis,
-    callback: &mut Callback<'_>,
-) -> Option<(Vec<Inserted>, Option<String>)> {
+/// The exact ends of modes that a sweep inserts between the points of its axis, or why there are none: what a
+/// sweep has to find before its first point. Whoever has it need not look for it again
+/// ([`super::Sweep::with_breakpoints`]).
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Breakpoints {
+    /// In ascending order.
+    inserted: Vec<Inserted>,
+    without: Option<String>,
+}
+
+impl Breakpoints {
+    /// Why no ends were inserted though they were asked for.
+    pub(super) fn without(&self) -> Option<&str> {
+        self.without.as_deref()
+    }
+
+    /// How many are no points of the sweep itself.
+    pub(super) fn own(&self) -> u64 {
+        self.inserted.iter().filter(|breakpoint| breakpoint.own).count() as u64
+    }
+
+    /// The one that is the point of this number, and how many points before it are inserted ones.
+    pub(super) fn at(&self, number: u64) -> (Option<&Inserted>, u64) {
+        let before = self.inserted.partition_point(|breakpoint| breakpoint.number < number);
+        let exact = self.inserted.get(before).filter(|breakpoint| breakpoint.number == number);
+        let own = self.inserted[..before].iter().filter(|breakpoint| breakpoint.own).count() as u64;
+        (exact, own)
+    }
+}
+
+/// The ends of modes on an axis; nothing if the callback breaks.
+pub(super) fn between(model: &Model, axis: &Axis, callback: &mut Callback<'_>) -> Option<Breakpoints> {
     // Listed values are those that are wanted.
-    let Some([from, to]) = axis.values.range() else { return Some((Vec::new(), None)) };
+    let Some([from, to]) = axis.values.range() else { return Some(Breakpoints::default()) };
     let options = LimitsOptions::new(Vary::between(&axis.quantity.name, from, to)).effort(0);
     let report = match limits_with(model, &options, callback) {
         Ok(report) => report?,
-        Err(faults) => return Some((Vec::new(), Some(faults.to_string()))),
+        Err(faults) => {
+            return Some(Breakpoints { inserted: Vec::new(), without: Some(faults.to_string()) });
+        }
     };
     let mut ends: Vec<(f64, Breakpoint)> = report.modes.iter().flat_map(ends).collect();
     ends.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -49,7 +78,7 @@ pub(super) fn between(
         let own = axis.values.at(low) != at;
         inserted.push(Inserted { number: low + before, at, breakpoint, own });
     }
-    Some((inserted, None))
+    Some(Breakpoints { inserted, without: None })
 }
 
 /// Both ends of a mode, unless they are those of the range.

@@ -51,8 +51,18 @@ pub(super) struct Columns {
 
 /// Names of the columns that are no numbers of a state: a varied quantity of such a name bears the prefix
 /// `vary.`.
-const RESERVED: [&str; 9] =
-    ["point", "breakpoint", "status", "solutions", "gap_states", "rejected", "kind", "branch", "pattern"];
+const RESERVED: [&str; 10] = [
+    "point",
+    "breakpoint",
+    "status",
+    "solutions",
+    "gap_states",
+    "rejected",
+    "kind",
+    "branch",
+    "determinant_sign",
+    "pattern",
+];
 
 impl Columns {
     /// The columns of a mechanism; accelerations of bodies and hinge forces only if `all` is asked for.

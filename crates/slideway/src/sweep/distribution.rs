@@ -1,11 +1,14 @@
 //! Distributions by their quantiles, and the points of the unit cube at which samples are drawn.
 
+use serde::{Deserialize, Serialize};
+
 /// Constants of the pseudo-random numbers: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom
 /// number generators, OOPSLA 2014 (SplitMix64).
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// How samples are spread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Spread {
     /// Independent of one another.
     #[default]
@@ -16,7 +19,7 @@ pub enum Spread {
 }
 
 /// How many samples there are, and which.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sampling {
     /// Number of samples.
     pub count: u64,

@@ -38,8 +38,8 @@
 //! all else about a point, `evaluator.rs` solves it, `together.rs` many points that differ in friction alone
 //! (`modes::batch`), `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`,
 //! `branches.rs` numbers what continues what, `breakpoints.rs` asks `limits`, `line.rs` is what plots need to
-//! know of an axis. `modes::screen` is its enumeration, `configuration::Follower` and `kinetics::influences`
-//! are the stages for neighbouring states. Files are the command line's (`table/`).
+//! know of an axis, `shard.rs` divides the points. `modes::screen` is its enumeration, `configuration::Follower` and `kinetics::influences`
+//! are the stages for neighbouring states. Files are made by the crate `slideway-tables`.
 
 mod axis;
 mod branches;
@@ -53,6 +53,7 @@ mod line;
 mod options;
 mod quantity;
 mod rows;
+mod shard;
 mod stages;
 mod summary;
 mod text;
@@ -61,11 +62,13 @@ mod told;
 mod writer;
 
 pub use branches::Branches;
+pub use breakpoints::Breakpoints;
 pub use columns::Column;
 pub use distribution::{Sampling, Spread};
 pub use line::Line;
 pub use options::{GridAxis, GridValues, SampledAxis, SampledValues, SweepOptions, SweepPoints};
 pub use rows::{Breakpoint, PointStatus, Refusal, RowHead, RowKind, RowVerdict, Rows};
+pub use shard::{Shard, ShardFault};
 pub use summary::{Probability, Tally};
 
 use crate::fault::{AxisProblem, Faults};
@@ -74,14 +77,13 @@ use crate::model::Model;
 use crate::progress::Callback;
 use crate::units::Units;
 use axis::{Axis, Values};
-use breakpoints::Inserted;
 use columns::Columns;
 use evaluator::{Evaluator, Plan, Points};
 use friction::FrictionFormulas;
 use options::fault;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// Points that are computed one after another: the unit of parallel work, and of what is lost where a sweep
 /// is ended. So that this is little, there are fewer where a point takes longer: points that are solved
@@ -100,9 +102,10 @@ pub struct Sweep {
     plan: Plan,
     axes: Vec<Axis>,
     samples: Option<Sampling>,
-    inserted: Vec<Inserted>,
-    without_breakpoints: Option<String>,
-    points: u64,
+    breakpoints: Breakpoints,
+    /// The points that are computed.
+    range: Range<u64>,
+    shard: Option<Shard>,
 }
 
 /// How far a sweep has come: all that is needed to go on.
@@ -141,6 +144,28 @@ impl Sweep {
         options: &SweepOptions,
         callback: &mut Callback<'_>,
     ) -> Result<Option<Self>, Faults> {
+        Self::prepare(model, options, |axis| breakpoints::between(model, axis, callback))
+    }
+
+    /// [`Sweep::new`] with exact ends of modes that were found before, for the same model and options.
+    ///
+    /// # Errors
+    /// As [`Sweep::new`].
+    pub fn with_breakpoints(
+        model: &Model,
+        options: &SweepOptions,
+        breakpoints: Breakpoints,
+    ) -> Result<Self, Faults> {
+        // Nothing breaks, so that there is one.
+        Self::prepare(model, options, |_| Some(breakpoints))?.ok_or_else(Faults::default)
+    }
+
+    /// A sweep; nothing if `find` finds no answer to what ends of modes are on an axis.
+    fn prepare(
+        model: &Model,
+        options: &SweepOptions,
+        find: impl FnOnce(&Axis) -> Option<Breakpoints>,
+    ) -> Result<Option<Self>, Faults> {
         let mechanism = Mechanism::new(model)?;
         mechanism.check_size()?;
         let axes = axes(model, &options.points)?;
@@ -165,22 +190,53 @@ impl Sweep {
         };
         let own = samples
             .map_or_else(|| axes.iter().map(|axis| axis.values.len()).product(), |samples| samples.count);
-        let (inserted, without_breakpoints) = match &axes[..] {
+        let breakpoints = match &axes[..] {
             [axis] if options.breakpoints && samples.is_none() => {
-                match breakpoints::between(model, axis, callback) {
-                    Some(found) => found,
-                    None => return Ok(None),
-                }
+                let Some(found) = find(axis) else { return Ok(None) };
+                found
             }
-            _ => (Vec::new(), None),
+            _ => Breakpoints::default(),
         };
-        let points = own + inserted.iter().filter(|breakpoint| breakpoint.own).count() as u64;
-        Ok(Some(Self { plan, axes, samples, inserted, without_breakpoints, points }))
+        let range = 0..own + breakpoints.own();
+        Ok(Some(Self { plan, axes, samples, breakpoints, range, shard: None }))
+    }
+
+    /// The part of the sweep that is a shard. Its points keep their numbers and their rows are those of the
+    /// whole sweep, but for the branches, which are not numbered: what they continue may lie before the
+    /// shard. [`Sweep::append`] of the whole sweep numbers them.
+    ///
+    /// Shards consist of whole chunks (see [Order](self#order)), and differ in size by one at most.
+    #[must_use]
+    pub fn shard(&self, shard: Shard) -> Self {
+        let (size, all) = (self.plan.chunk(), self.range.end);
+        let chunks = shard.range(all.div_ceil(size));
+        let range = (chunks.start * size).min(all)..(chunks.end * size).min(all);
+        Self { range, shard: Some(shard), ..self.clone() }
+    }
+
+    /// Which shard of a sweep it is; none if it is a whole one.
+    pub fn of_shard(&self) -> Option<Shard> {
+        self.shard
+    }
+
+    /// The numbers of its points.
+    pub fn range(&self) -> Range<u64> {
+        self.range.clone()
     }
 
     /// Number of points, inserted ones included.
     pub fn points(&self) -> u64 {
-        self.points
+        self.range.end - self.range.start
+    }
+
+    /// The exact ends of modes that are inserted, for [`Sweep::with_breakpoints`].
+    pub fn breakpoints(&self) -> &Breakpoints {
+        &self.breakpoints
+    }
+
+    /// Whether the point of this number was inserted, because it is none of the sweep's own.
+    pub fn is_inserted(&self, number: u64) -> bool {
+        self.breakpoints.at(number).0.is_some_and(|breakpoint| breakpoint.own)
     }
 
     /// The numbers of each row, in their order: the varied quantities first.
@@ -203,9 +259,14 @@ impl Sweep {
         self.samples.is_none()
     }
 
+    /// Whether its branches are numbered: those of a shard are not.
+    pub fn numbers_branches(&self) -> bool {
+        self.has_branches() && self.shard.is_none()
+    }
+
     /// Why no exact ends of modes were inserted though they were asked for.
     pub fn without_breakpoints(&self) -> Option<&str> {
-        self.without_breakpoints.as_deref()
+        self.breakpoints.without()
     }
 
     /// Distributions that were cut off at zero because friction is never negative: name, and the part that
@@ -255,9 +316,7 @@ impl Sweep {
         let mut ready = self.compute(state.done, goes_on);
         while !ready.is_empty() {
             for rows in &mut ready {
-                self.number(rows, &mut state.branches);
-                state.tally.add(rows);
-                state.done += rows.points;
+                self.append(rows, state);
             }
             let encoded: Vec<E> = ready.par_iter().map(encode).collect();
             let next = state.done;
@@ -270,15 +329,23 @@ impl Sweep {
         }
     }
 
-    /// The rows of some chunks of points, from this one on; fewer, or none, where they were not all to be
+    /// Appends rows to what is done: numbers their branches, counts them. They are those of whole points, and
+    /// follow the rows that were appended before.
+    pub fn append(&self, rows: &mut Rows, state: &mut SweepState) {
+        self.number(rows, &mut state.branches);
+        state.tally.add(rows);
+        state.done += rows.points;
+    }
+
+    /// The rows of some chunks of points behind those that are done; fewer, or none, where they were not all to be
     /// computed.
-    fn compute(&self, from: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Rows> {
+    fn compute(&self, done: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Rows> {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
         let size = self.plan.chunk();
-        let first = from.div_ceil(size);
+        let first = (self.range.start + done).div_ceil(size);
         let starts: Vec<u64> = (first..first + chunks as u64)
             .map(|chunk| chunk * size)
-            .filter(|start| *start < self.points)
+            .filter(|start| *start < self.range.end)
             .collect();
         let chunks: Vec<Option<Rows>> =
             starts.into_par_iter().map(|start| self.chunk(start, goes_on)).collect();
@@ -288,7 +355,7 @@ impl Sweep {
     fn chunk(&self, start: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Option<Rows> {
         let columns = &self.plan.columns;
         let mut rows = Rows::new(columns.contacts, columns.varied, columns.width());
-        let numbers = start..(start + self.plan.chunk()).min(self.points);
+        let numbers = start..(start + self.plan.chunk()).min(self.range.end);
         let mut points = Points::new(self.axes.len());
         for number in numbers {
             points.push(number, |values| self.values(number, values));
@@ -309,13 +376,11 @@ impl Sweep {
             return (Breakpoint::No, false);
         }
         if let [axis] = &self.axes[..] {
-            let before = self.inserted.partition_point(|breakpoint| breakpoint.number < number);
-            let exact = self.inserted.get(before).filter(|breakpoint| breakpoint.number == number);
+            let (exact, own) = self.breakpoints.at(number);
             if let Some(exact) = exact {
                 values[0] = exact.at;
                 return (exact.breakpoint, exact.own);
             }
-            let own = self.inserted[..before].iter().filter(|breakpoint| breakpoint.own).count() as u64;
             values[0] = axis.values.at(number - own);
             return (Breakpoint::No, false);
         }
@@ -329,7 +394,7 @@ impl Sweep {
 
     /// Numbers the branches of neighbouring rows.
     fn number(&self, rows: &mut Rows, branches: &mut Branches) {
-        if !self.has_branches() {
+        if !self.numbers_branches() {
             return;
         }
         if self.axes.len() == 1 {

@@ -1,13 +1,15 @@
 //! What to sweep over: the axes of a grid, or quantities with their distributions.
 
 use super::Sampling;
+use crate::expression::{TO, ends_of_range};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::model::Value;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// What to sweep over.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SweepOptions {
     /// The points.
@@ -60,7 +62,8 @@ impl SweepOptions {
 }
 
 /// The points of a sweep.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum SweepPoints {
     /// Every combination of the values on these axes.
@@ -87,7 +90,7 @@ impl SweepPoints {
 /// assert_eq!("mu=0..0.8:801".parse(), Ok(GridAxis::linear("mu", "0", "0.8", 801)));
 /// assert_eq!(GridAxis::listed("l", ["25 mm", "35 mm"]).to_string(), "l=25 mm,35 mm");
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct GridAxis {
     /// The name of a parameter or coordinate, `COORDINATE.rate`, `friction` for the common factor of all
@@ -98,7 +101,8 @@ pub struct GridAxis {
 }
 
 /// The values of a quantity on a grid.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "each variant says what its values mean")]
 pub enum GridValues {
@@ -183,7 +187,7 @@ fn grid_values(text: &str) -> Result<GridValues, AxisProblem> {
 ///
 /// assert_eq!("mu=normal(0.3, 0.05)".parse(), Ok(SampledAxis::normal("mu", "0.3", "0.05")));
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SampledAxis {
     /// The name of a quantity, as on a grid.
@@ -193,7 +197,8 @@ pub struct SampledAxis {
 }
 
 /// The distribution of a quantity.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "each variant says what its values mean")]
 pub enum SampledValues {
@@ -299,15 +304,13 @@ pub(super) fn fault(text: &str, problem: AxisProblem) -> Faults {
 fn name_and_values(text: &str) -> Result<(&str, &str), AxisProblem> {
     let (name, values) = text.split_once('=').ok_or(AxisProblem::Malformed)?;
     let (name, values) = (name.trim(), values.trim());
-    if values.contains("...") {
-        return Err(AxisProblem::ThreeDots);
-    }
+    ends_of_range(values).map_err(|_| AxisProblem::ThreeDots)?;
     if name.is_empty() || values.is_empty() { Err(AxisProblem::Malformed) } else { Ok((name, values)) }
 }
 
 /// Both ends of `FROM..TO`.
 fn range(text: &str) -> Option<(Value, Value)> {
-    let (from, to) = text.split_once("..")?;
+    let (from, to) = text.split_once(TO)?;
     Some((from.trim().into(), to.trim().into()))
 }
 

@@ -49,6 +49,11 @@ impl PointStatus {
         }
     }
 
+    /// The one of this word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|status| status.word() == word)
+    }
+
     /// Whether there is an answer at the point.
     pub fn is_solved(self) -> bool {
         !matches!(self, Self::NoPosition | Self::Refused)
@@ -75,6 +80,10 @@ pub enum RowKind {
 }
 
 impl RowKind {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Nothing, Self::Solution, Self::Boundary, Self::PreloadGap, Self::Continuum, Self::Undecided];
+
     /// Its word in tables; nothing for [`Self::Nothing`].
     pub fn word(self) -> &'static str {
         match self {
@@ -86,10 +95,16 @@ impl RowKind {
             Self::Undecided => "undecided",
         }
     }
+
+    /// The one of this word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.word() == word)
+    }
 }
 
 /// What is exact about a point that was inserted: where a mode begins or ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Breakpoint {
     /// An ordinary point.
     #[default]
@@ -107,6 +122,10 @@ pub enum Breakpoint {
 }
 
 impl Breakpoint {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::No, Self::Locking, Self::SideChange, Self::GapCloses, Self::Tipping, Self::NotSolved];
+
     /// Its word in tables; nothing for an ordinary point.
     pub fn word(self) -> &'static str {
         match self {
@@ -117,6 +136,11 @@ impl Breakpoint {
             Self::Tipping => "tipping",
             Self::NotSolved => "not_solved",
         }
+    }
+
+    /// The one of this word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|breakpoint| breakpoint.word() == word)
     }
 }
 
@@ -137,6 +161,10 @@ pub enum RowVerdict {
 }
 
 impl RowVerdict {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::NotComputed, Self::Attainable, Self::Flutter, Self::Unattainable, Self::Undecided];
+
     /// Its word in tables; nothing where it was not computed.
     pub fn word(self) -> &'static str {
         match self {
@@ -146,6 +174,11 @@ impl RowVerdict {
             Self::Unattainable => "unattainable",
             Self::Undecided => "undecided",
         }
+    }
+
+    /// The one of this word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|verdict| verdict.word() == word)
     }
 }
 
@@ -173,7 +206,7 @@ pub struct RowHead {
     /// Whether the state is attainable.
     pub verdict: RowVerdict,
     /// Whether the determinant of the mode is negative; nothing if it is not known.
-    pub(super) negative_determinant: Option<bool>,
+    pub negative_determinant: Option<bool>,
 }
 
 /// A point that is not solved.

@@ -28,12 +28,20 @@ impl Page<'_, SweepState> {
             1 => " and 1 exact end of a mode between them".to_owned(),
             count => format!(" and {count} exact ends of modes between them"),
         };
-        let branches = if sweep.has_branches() {
+        let branches = if sweep.numbers_branches() {
             format!(", {}", counted(u64::from(self.report.branches()), "branch"))
         } else {
             String::new()
         };
         let rows = counted(tally.rows, "row");
+        if let Some(shard) = sweep.of_shard() {
+            let range = sweep.range();
+            let which = match range.end.checked_sub(1).filter(|last| *last >= range.start) {
+                Some(last) => format!("points {} to {last}", range.start),
+                None => "no points".to_owned(),
+            };
+            self.headline(&format!("Shard {shard}, {which}:"));
+        }
         self.headline(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
     }
 

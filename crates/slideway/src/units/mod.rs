@@ -4,7 +4,9 @@
 //! Everything is computed, and every report, JSON and table holds its numbers, in SI units. [`Units`] is made
 //! once from what a model file says, travels with the mechanism and its reports, and gives the [`Unit`] in
 //! which a quantity is shown: that in which most quantities of its kind were typed (of as many, the first);
-//! of a parameter the one in which itself was typed; that of the SI where none was.
+//! of a parameter the one in which itself was typed; that of the SI where none was. Forces, moments and powers
+//! that a report has computed may be of another size than what was typed: it shows them in another unit of
+//! their kind that was typed, or in the SI unit, where they read better in it.
 //!
 //! ```
 //! use slideway::{Model, gallery, units::UnitSystem};
@@ -48,7 +50,15 @@ pub enum UnitSystem {
 pub struct Units {
     system: UnitSystem,
     typed: Arc<TypedUnits>,
+    /// Instead of the unit in which most were typed, those that suit the values of a report.
+    suited: Vec<Unit>,
 }
+
+/// Numbers from here on ...
+const LEAST: f64 = 0.1;
+/// ... to here read well: the range in which ISO 80000-1, clause 7.2 (and NIST SP 811, section 7.9) recommends to
+/// choose prefixes.
+const GREATEST: f64 = 1000.0;
 
 /// The units that the quantities of a model were typed in.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -79,17 +89,40 @@ impl TypedUnits {
         // Of as many the first: `max_by_key` would give the last.
         of_kind.rev().max_by_key(|(_, count)| *count).map(|(unit, _)| unit)
     }
+
+    /// The unit in place of that in which most were typed, if the greatest value does not read well in that one
+    /// but does in this: another that was typed, or the SI unit if it is a smaller one.
+    fn suiting(&self, si: &str, greatest: f64) -> Option<Unit> {
+        let reads_well = |unit: &Unit| (LEAST..=GREATEST).contains(&unit.number_of(greatest));
+        let most = self.most(si).filter(|most| !reads_well(most))?;
+        let typed = self.counts.iter().map(|(unit, _)| unit.clone()).filter(|unit| unit.si() == si);
+        let smaller = (most.scale() > 1.0).then(|| Unit::si_unit(si));
+        typed.chain(smaller).find(reads_well)
+    }
 }
 
 impl Units {
     pub(crate) fn new(system: UnitSystem, typed: TypedUnits) -> Self {
-        Self { system, typed: Arc::new(typed) }
+        Self { system, typed: Arc::new(typed), suited: Vec::new() }
+    }
+
+    /// The same for a report in which these values stand, each with its SI unit: of each kind the greatest
+    /// decides whether they read well in the unit that was typed.
+    #[must_use]
+    pub(crate) fn suited_to(mut self, values: impl IntoIterator<Item = (&'static str, f64)>) -> Self {
+        let mut greatest: BTreeMap<&str, f64> = BTreeMap::new();
+        for (si, value) in values {
+            let known = greatest.entry(si).or_default();
+            *known = known.max(value.abs());
+        }
+        self.suited = greatest.into_iter().filter_map(|(si, value)| self.typed.suiting(si, value)).collect();
+        self
     }
 
     /// The same in another system.
     #[must_use]
     pub fn in_system(&self, system: UnitSystem) -> Self {
-        Self { system, typed: Arc::clone(&self.typed) }
+        Self { system, ..self.clone() }
     }
 
     /// The same, with a parameter typed anew.
@@ -102,7 +135,10 @@ impl Units {
     /// The unit in which quantities are shown whose SI unit has this name: "m", "rad", "N", "N m", "m/s", ...
     pub fn of(&self, si: &str) -> Unit {
         match self.system {
-            UnitSystem::AsTyped => self.typed.most(si).cloned().unwrap_or_else(|| Unit::si_unit(si)),
+            UnitSystem::AsTyped => {
+                let suited = self.suited.iter().find(|unit| unit.si() == si);
+                suited.or_else(|| self.typed.most(si)).cloned().unwrap_or_else(|| Unit::si_unit(si))
+            }
             UnitSystem::Si => Unit::si_unit(si),
             UnitSystem::Millimetres => millimetres(si),
         }
@@ -183,6 +219,26 @@ mod tests {
         assert_eq!(units(&["cm", "m", "mm"]).of("m").name(), "cm");
         assert_eq!(units(&["cm", "mm", "mm", "cm"]).of("m").name(), "cm");
         assert_eq!(units(&[]).of("m").name(), "m");
+    }
+
+    #[test]
+    fn computed_values_are_shown_where_they_read_well() {
+        let shown = |typed: &[&str], value: f64| units(typed).suited_to([("N", value)]).of("N").show(value);
+        // Within 0.1 and 1000 as most were typed.
+        assert_eq!(shown(&["kN"], 100.0), "0.1 kN");
+        assert_eq!(shown(&["kN"], -1e6), "-1000 kN");
+        // Too small in it: the SI unit. Too great: a greater one only if it was typed.
+        assert_eq!(shown(&["kN"], 5.9), "5.9 N");
+        assert_eq!(shown(&["N"], 5900.0), "5900 N");
+        assert_eq!(shown(&["N", "N", "kN"], -5900.0), "-5.9 kN");
+        assert_eq!(shown(&["kN", "mN"], 0.0059), "5.9 mN");
+        // Nowhere well, zero, and another system.
+        assert_eq!(shown(&["kN"], 0.05), "5.0000e-5 kN");
+        assert_eq!(shown(&["kN"], 0.0), "0 kN");
+        let si = units(&["kN"]).in_system(UnitSystem::Si).suited_to([("N", 5e3)]);
+        assert_eq!(si.of("N").show(5e3), "5000 N");
+        // Other kinds and parameters stay as they were typed.
+        assert_eq!(units(&["kN", "mm"]).suited_to([("N", 5.9)]).of("m").name(), "mm");
     }
 
     #[test]

@@ -15,12 +15,12 @@
 //! ```
 
 use crate::configuration::{Configuration, widest_gap_of_drawing};
-use crate::expression::{Dimension, Symbol};
+use crate::expression::Dimension;
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::FormulaId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Mechanism};
+use crate::mechanism::{Contact, Coordinate, CoordinateKind, Mechanism};
 use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
 use crate::report::number::number;
 use serde::Serialize;
@@ -94,10 +94,10 @@ pub fn warnings(model: &Model) -> Faults {
     found.extend(lengths_far_apart(model));
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
-        found.extend(gap_closed(&mechanism));
+        found.extend(gap_closed(model, &mechanism));
         // Assembled once, and only if one of them asks.
         let state: State<'_> = LazyCell::new(Box::new(|| Configuration::new(&mechanism).ok()));
-        found.extend(far_from_drawing(&mechanism, &state));
+        found.extend(far_from_drawing(model, &mechanism, &state));
         found.extend(nothing_presses(&mechanism, &state));
     }
     found
@@ -120,6 +120,16 @@ fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
 
 fn warning(doubt: Doubt, place: Place) -> Fault {
     Fault::new(FaultKind::Doubt(doubt), place)
+}
+
+/// The place of the setting (`--set`, `--at`) on which these formulas depend, of several the last one; nothing if
+/// they depend on the file alone.
+fn setting_of(model: &Model, formulas: &[FormulaId]) -> Option<Place> {
+    let parameters = model.parameters.iter().enumerate();
+    let used = parameters.filter(|(index, _)| formulas.iter().any(|&id| model.uses(id, *index)));
+    let ids = used.map(|(_, parameter)| parameter.value).chain(formulas.iter().copied());
+    let places = ids.map(|id| model.formula(id).origin.place());
+    places.filter(|place| place.source != Source::Model).max_by_key(|place| place.source)
 }
 
 /// The formulas that are angles.
@@ -145,11 +155,7 @@ fn angles(model: &Model) -> Vec<FormulaId> {
 
 /// A bare number beyond a full turn as an angle, or as the parameter that it is.
 fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
-    let formula = model.formula(angle);
-    let formula = match formula.expression.only_symbol() {
-        Some(Symbol::Parameter(index)) => model.formula(model.parameters[index].value),
-        _ => formula,
-    };
+    let formula = model.formula(model.source_of(angle));
     let value = formula.expression.bare_number().filter(|value| value.abs() > FULL_TURN)?;
     let what = formula.what.to_string();
     Some(warning(Doubt::BareAngle { what, value }, formula.origin.place()))
@@ -186,37 +192,43 @@ fn great_friction(model: &Model) -> Vec<Fault> {
     let coefficients = model.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
     let great = coefficients.filter(|id| values[id.index()] > GREAT_FRICTION);
     let one = |id: FormulaId| {
-        let formula = model.formula(id);
-        let value = values[id.index()];
-        // Of a parameter the place where its number stands.
-        let (what, place) = match formula.expression.only_symbol() {
-            Some(Symbol::Parameter(index)) => {
-                let parameter = model.formula(model.parameters[index].value);
-                (parameter.what.to_string(), parameter.origin.place())
-            }
-            _ => (formula.what.to_string(), formula.origin.place()),
-        };
-        warning(Doubt::GreatFriction { what, value: number(value) }, place)
+        let formula = model.formula(model.source_of(id));
+        let what = formula.what.to_string();
+        let place = setting_of(model, &[id]).unwrap_or_else(|| formula.origin.place());
+        warning(Doubt::GreatFriction { what, value: number(values[id.index()]) }, place)
     };
     great.map(one).collect()
 }
 
 /// The joint that the drawing leaves most open, if that is no rounding.
-fn gap_closed(mechanism: &Mechanism) -> Option<Fault> {
+fn gap_closed(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
     let gap = widest_gap_of_drawing(mechanism)?;
     if gap.relative <= OPEN {
         return None;
     }
     let joint = &mechanism.joints[gap.joint.index()];
     let doubt = Doubt::GapClosed { joint: joint.name.to_string(), gap: gap.in_words(mechanism) };
-    Some(warning(doubt, joint.place.clone()))
+    let points: Vec<FormulaId> = match &model.joints[gap.joint.index()].kind {
+        JointKind::Hinge(points) => points.iter().flat_map(|point| point.position).collect(),
+        JointKind::Slider(_) => Vec::new(),
+    };
+    Some(warning(doubt, setting_of(model, &points).unwrap_or_else(|| joint.place.clone())))
 }
 
-/// The body that is farthest from its place in the drawing, if that is far.
-fn far_from_drawing(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
-    if mechanism.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at) {
-        return None;
-    }
+/// The body that is farthest from its place in the drawing, if that is far; the place is that of the coordinate
+/// which has moved it. Within a travel that the model declares no place is too far.
+fn far_from_drawing(model: &Model, mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
+    let moved = mechanism.coordinates.iter().enumerate().filter(|(_, coordinate)| {
+        let declared = match coordinate.kind {
+            CoordinateKind::Slide(joint) => {
+                mechanism.slider(joint).is_some_and(|slider| slider.travel.is_some())
+            }
+            _ => false,
+        };
+        coordinate.value != coordinate.drawn_at && !declared
+    });
+    let way = |coordinate: &Coordinate| (coordinate.value - coordinate.drawn_at).abs();
+    let (farthest, _) = moved.max_by(|(_, one), (_, other)| way(one).total_cmp(&way(other)))?;
     let state = state.as_ref()?;
     let distance =
         |index: usize| (state.poses[index].position - mechanism.bodies[index].centre_of_mass).norm();
@@ -225,5 +237,11 @@ fn far_from_drawing(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
     let body = mechanism.bodies[index].name.to_string();
     let distance = mechanism.units.of("m").show(distance(index));
     let doubt = Doubt::FarFromDrawing { body, distance, sizes: number(sizes) };
-    (sizes > FAR).then(|| Fault::general(FaultKind::Doubt(doubt)))
+    let value = model.coordinates[farthest].value;
+    let place = value.map(|id| setting_of(model, &[id]).unwrap_or_else(|| model.formula(id).origin.place()));
+    let fault = |place: Option<Place>| match place {
+        Some(place) => warning(doubt, place),
+        None => Fault::general(FaultKind::Doubt(doubt)),
+    };
+    (sizes > FAR).then(|| fault(place))
 }

@@ -219,3 +219,31 @@ proptest! {
         }
     }
 }
+
+/// A carriage of mass m, J = m (L^2 + c^2) / 12, is pulled at the height a above its rail, its centre of mass at c.
+/// While the bearings give way and it tilts by theta, moments about the pulled point, in which the pull has no
+/// part, are `(J + m (c - a)^2) theta''` if the drive holds that point, and `(J + m c (c - a)) theta''` if it holds
+/// the displacement in the bearings, at the height 0: with c = 10 mm, a = 100 mm and L = 60 mm an inertia of
+/// `m (308 - 900) mm^2`, below zero, so that any tilt grows.
+#[test]
+fn the_coordinate_that_a_drive_holds_decides_and_is_told() {
+    let template = slideway::template::find("carriage").unwrap();
+    let at_the_belt = template.text.replace("c = \"150 mm\"", "c = \"10 mm\"");
+    let in_the_bearings = at_the_belt.replace("x = \"carriage.belt\"", "slide = \"bearings\"");
+    assert!(at_the_belt != template.text && in_the_bearings != at_the_belt);
+    let attainability = |text: &str| {
+        let report = report_on(text);
+        let [solution] = &report.solutions[..] else { panic!("{}", report.solutions.len()) };
+        solution.attainability.clone()
+    };
+    assert_eq!(attainability(&at_the_belt).verdict, Verdict::Attainable);
+    let undecided = attainability(&in_the_bearings);
+    assert_eq!(undecided.verdict, Verdict::Undecided);
+    let words = undecided.in_words();
+    assert!(words.contains("(pull holds x)") && words.contains("`x = \"BODY.POINT\"`"), "{words}");
+    // (c - a) c > -J / m: the carriage as the template has it does not mind.
+    assert_eq!(
+        attainability(&template.text.replace("x = \"carriage.belt\"", "slide = \"bearings\"")).verdict,
+        Verdict::Attainable
+    );
+}

@@ -209,7 +209,7 @@ fn wedge_push_limit_and_angle() {
         assert_close(found, 90_f64.to_radians() - 2.0 * (margin * mu).atan(), 0.0, 1e-12);
     }
     // At 22.928 deg the iteration for eigenvalues fails at first.
-    let report = against_locking(&model("wedge"), "alpha", 2.0);
+    let report = against_locking(&model("wedge"), "alpha=2 deg..50 deg", 2.0);
     assert_eq!(
         (report.met.len(), report.met[0].from_is, report.met[0].to_is),
         (1, MetEnd::Range, MetEnd::Range)
@@ -494,4 +494,46 @@ fn limits_of_what_is_not_there_are_refused() {
     let efficiency = SizeOptions::new(Vary::usual("x"), 0.5).against(Against::Efficiency);
     let faults = size(&model("bracket-on-pole"), &efficiency).unwrap_err();
     assert!(matches!(faults.sorted()[0].kind, FaultKind::NoDrives { .. }), "{faults}");
+}
+
+/// Kinetic friction must not exceed static friction: the answers end there, which is no question of the margin.
+#[test]
+fn where_the_answers_end_before_the_range_the_sentence_says_so() {
+    let text = slideway::gallery::find("drawer").unwrap().text;
+    let text = text.replace("mu = \"mu\"", "mu = \"mu\"\nmu_static = 0.4");
+    let drawer = Model::parse(&text).unwrap();
+    let report = against_locking(&drawer, "mu=0..1", 1.5);
+    // The margin L / (2 a mu) is 1.5 at mu = 4/9, and static friction ends the answers at 0.4 before.
+    let [met] = &report.met[..] else { panic!("{:?}", report.met) };
+    assert_eq!((met.from_is, met.to_is), (MetEnd::Range, MetEnd::NoPosition));
+    assert!((met.to - 0.4).abs() < 1e-14);
+    let told = &report.conclusion[0];
+    assert!(told.contains("mu at most 0.4, above which there is no answer (examined down to 0)"), "{told}");
+    let gap = &report.without_position[0];
+    assert!(gap.reason.contains("static friction coefficient 0.4 of guide.front is below"), "{}", gap.reason);
+    // Where the margin ends it first, nothing is said of it.
+    let told = &against_locking(&drawer, "mu=0..0.4", 2.0).conclusion[0];
+    assert!(!told.contains("no answer"), "{told}");
+}
+
+/// A factor of 5 around 45 deg would be 9 to 225 deg; in its quarter turn sine and cosine keep their signs.
+#[test]
+fn an_angle_is_sized_in_its_quarter_turn() {
+    let range = |angle: &str| {
+        let report = against_locking(&with("cam-follower", &[("phi", angle)]), "phi", 2.0);
+        [report.vary.from, report.vary.to].map(|end| (end.to_degrees() * 1e9).round() / 1e9)
+    };
+    assert_eq!(range("30 deg"), [0.0, 90.0]);
+    assert_eq!(range("-30 deg"), [-90.0, 0.0]);
+    // Between two quarters both count.
+    assert_eq!(range("0 deg"), [-90.0, 90.0]);
+    assert_eq!(range("90 deg"), [0.0, 180.0]);
+    // A flat wedge lifts nothing, so its wall does not slide: the answers begin at 0, and that is told.
+    let wedge = against_locking(&model("wedge"), "alpha", 2.0);
+    assert_eq!((wedge.met[0].from, wedge.met[0].from_is), (0.0, MetEnd::NoPosition));
+    assert_eq!([wedge.without_position[0].from, wedge.without_position[0].to], [0.0, 0.0]);
+    assert!(wedge.conclusion[0].contains("alpha from 0, below which there is no answer, to 56.6"));
+    // A length keeps the factor.
+    let report = against_locking(&model("cam-follower"), "d", 2.0);
+    assert!((report.vary.to / report.vary.from - 25.0).abs() < 1e-12);
 }

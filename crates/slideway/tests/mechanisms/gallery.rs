@@ -151,7 +151,7 @@ fn bracket_on_pole_says_which_motion_lacks_inertia() {
     let faults = solve(&model("bracket-on-pole")).unwrap_err();
     let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
     let FaultKind::MotionWithoutInertia { motion } = &fault.kind else { panic!("{faults}") };
-    assert!(motion == "bracket moves along (0, 1)", "{motion}");
+    assert!(motion == "bracket moves along (0, -1)", "{motion}");
 }
 
 /// The modes of a joint over a full turn of a coordinate.

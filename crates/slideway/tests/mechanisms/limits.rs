@@ -5,12 +5,14 @@ use crate::random_mechanisms::mechanisms;
 use proptest::prelude::*;
 use serde::Deserialize;
 use slideway::drive::{DriveOptions, drive};
-use slideway::fault::{FaultKind, Faults};
+use slideway::fault::{AxisProblem, FaultKind, Faults};
 use slideway::gallery;
-use slideway::limits::{LimitsMethod, LimitsOptions, LimitsReport, ModeLimits, Vary, limits};
+use slideway::limits::{LimitsMethod, LimitsOptions, LimitsReport, ModeLimits, Vary, limits, rest_limits};
 use slideway::model::{Model, Settings};
 use slideway::report::ModeEndCause;
+use slideway::size::{SizeOptions, size};
 use slideway::solve::solve;
+use slideway::standstill::HoldOptions;
 
 #[derive(Deserialize)]
 struct Reference {
@@ -81,6 +83,49 @@ fn the_paper_s_intervals_to_1e_8() {
             assert!(wanted.to_is.as_deref().is_none_or(|is| word(mode.to_is) == is));
         }
     }
+}
+
+/// Pushed in its middle line (`a = 0`) the drawer presses on no contact; pushed beside it, it tips to that side.
+/// Rounding misses that place by 1e-15 m, where every pattern of contacts is there for the width of it.
+#[test]
+fn an_end_that_rounding_misses_is_told_where_it_is() {
+    let report = of("drawer", &[], "a=-0.6..0.6");
+    let modes: Vec<(&str, Option<f64>, Option<f64>)> =
+        report.modes.iter().map(|mode| (&*mode.pattern, mode.from, mode.to)).collect();
+    assert_eq!(modes.len(), 2, "{modes:?}");
+    assert!(modes.iter().any(|(pattern, from, _)| *pattern == "+-" && *from == Some(0.0)), "{modes:?}");
+    assert!(modes.iter().any(|(pattern, _, to)| *pattern == "-+" && *to == Some(0.0)), "{modes:?}");
+    let ends: Vec<f64> = report.counts.iter().flat_map(|count| [count.from, count.to]).collect();
+    assert!(ends.iter().all(|end| *end == 0.0 || end.abs() > 0.1), "{ends:?}");
+}
+
+/// A mass has to be greater than zero, a sliding velocity different from it: from there on there are answers,
+/// although halving the way to zero never gets there.
+#[test]
+fn where_no_answer_is_at_zero_alone_zero_is_told() {
+    for (range, without) in
+        [("m=0..10", [0.0, 0.0]), ("m=-10..10", [-10.0, 0.0]), ("v=-0.2..0.2", [0.0, 0.0])]
+    {
+        let report = of("drawer", &[], range);
+        let [gap] = &report.without_mode_problem[..] else { panic!("{:?}", report.without_mode_problem) };
+        assert_eq!([gap.from, gap.to], without, "{range}");
+        let touching = report.modes.iter().filter(|mode| mode.from == Some(0.0) || mode.to == Some(0.0));
+        assert_eq!(touching.count(), report.modes.len(), "{:?}", report.modes);
+    }
+}
+
+/// Every coefficient of the wedge is a parameter that is nothing but `mu`.
+#[test]
+fn negative_friction_is_refused_through_other_parameters() {
+    let wedge = model("wedge");
+    let vary = || Vary::between("mu", -0.1, 0.5);
+    let refused = |faults: Faults| {
+        let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
+        matches!(&fault.kind, FaultKind::Axis { problem: AxisProblem::NegativeCoefficients { .. }, .. })
+    };
+    assert!(refused(limits(&wedge, &LimitsOptions::new(vary())).unwrap_err()));
+    assert!(refused(rest_limits(&wedge, &vary(), &HoldOptions::default()).unwrap_err()));
+    assert!(refused(size(&wedge, &SizeOptions::new(vary(), 2.0)).unwrap_err()));
 }
 
 #[test]

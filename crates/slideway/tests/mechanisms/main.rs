@@ -27,6 +27,7 @@ mod limits_known;
 mod limits_properties;
 mod loads;
 mod margins;
+mod no_sliding;
 mod positions;
 mod preload_gap;
 mod properties;

@@ -1,8 +1,8 @@
 //! Points and bodies.
 
 use super::super::file::{BodyTable, Entry, ShapeTable};
-use super::super::quantity::{Components, Name, Span};
-use super::super::{Attachment, Body, Inertia, Moment, NamedPoint};
+use super::super::quantity::{Components, Name, OutlinePlace, Span, Through};
+use super::super::{Attachment, Body, Inertia, Moment, NamedPoint, OutlineCorner};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
@@ -37,7 +37,7 @@ impl Reader<'_> {
             if let Some(table) = &entry.contents {
                 points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
                 inertia = self.inertia(table, &entry.name, &entry.span);
-                outline = self.outline(table, &entry.name);
+                outline = self.outline(table, &entry.name, &entry.span);
             } else {
                 self.unread_bodies.push(BodyId(index));
             }
@@ -47,11 +47,32 @@ impl Reader<'_> {
         bodies
     }
 
-    fn outline(&mut self, table: &BodyTable, name: &str) -> Vec<[FormulaId; 2]> {
-        let corners = table.outline.iter().flatten();
+    /// The corners; what an arc in front of the first one goes through belongs to the last one.
+    fn outline(&mut self, table: &BodyTable, name: &str, span: &Span) -> Vec<OutlineCorner<[FormulaId; 2]>> {
         let what = format!("a corner of the outline of {name}");
         let before = self.formulas.len();
-        let outline = corners.map(|corner| self.place(corner, &what)).collect();
+        let mut outline: Vec<OutlineCorner<[FormulaId; 2]>> = Vec::new();
+        let mut in_front = None;
+        let mut is_in_doubt = false;
+        for place in table.outline.iter().flatten() {
+            match place {
+                OutlinePlace::Corner(place) => {
+                    let at = self.place(place, &what);
+                    outline.push(OutlineCorner { at, arc_through: None });
+                }
+                OutlinePlace::Through(Through { through }) => {
+                    let arc = outline.last_mut().map_or(&mut in_front, |corner| &mut corner.arc_through);
+                    is_in_doubt |= arc.replace(self.place(through, &what)).is_some();
+                }
+            }
+        }
+        if in_front.is_some() {
+            let last = outline.last_mut().map(|corner| &mut corner.arc_through);
+            is_in_doubt |= last.is_none_or(|arc| std::mem::replace(arc, in_front).is_some());
+        }
+        if is_in_doubt {
+            self.fault(FaultKind::OutlineArcs { body: name.to_owned() }, span);
+        }
         self.looks.extend((before..self.formulas.len()).map(FormulaId));
         outline
     }

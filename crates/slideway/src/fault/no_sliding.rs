@@ -1,0 +1,43 @@
+//! Why a joint does not slide, so that friction in motion has no direction there.
+
+/// Why a joint does not slide in a state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoSliding {
+    /// All of the model's coordinates, these, have the rate zero.
+    AtRest(Vec<String>),
+    /// It slides with these coordinates alone, whose rates are zero.
+    WithoutRate(Vec<String>),
+    /// Sliding stops or reverses: in this position, or because motions of several coordinates cancel.
+    Here,
+    /// No coordinate moves it, here or nearby.
+    Never,
+}
+
+impl NoSliding {
+    /// What to do about it.
+    pub(super) fn hint(&self) -> String {
+        let rates = |coordinates: &[String]| {
+            let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
+            rates.collect::<Vec<_>>().join(" ")
+        };
+        let hold = "`slideway hold` says whether it can stay at rest";
+        match self {
+            Self::AtRest(coordinates) => {
+                format!("{hold}; for friction in motion give it a velocity, for instance with `{}`", rates(coordinates))
+            }
+            Self::WithoutRate(coordinates) => format!(
+                "it slides with {} alone, which has no rate: give one, for instance with `{}`; {hold}",
+                super::listed(coordinates),
+                rates(coordinates)
+            ),
+            Self::Here => {
+                "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates"
+                    .to_owned()
+            }
+            Self::Never => format!(
+                "no motion of the mechanism makes it slide, so friction there only holds: {hold}; to leave that friction out write `mu = 0` there"
+            ),
+        }
+    }
+}

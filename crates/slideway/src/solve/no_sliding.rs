@@ -1,0 +1,56 @@
+//! Why a contact with friction does not slide.
+
+use super::mode_problem::sliding_signs;
+use crate::configuration::{Configuration, Follower, PROBE};
+use crate::fault::NoSliding;
+use crate::mechanism::Mechanism;
+
+/// Why a contact does not slide in a configuration: the mechanism rests, or it moves without this contact, as it
+/// always does or in this position alone.
+///
+/// Each coordinate is given a rate of its own, here and a probe's length on either side of here.
+pub(super) fn why(mechanism: &Mechanism, configuration: &Configuration, contact: usize) -> NoSliding {
+    let names = |indices: &[usize]| -> Vec<String> {
+        indices.iter().map(|&index| mechanism.coordinates[index].name.to_string()).collect()
+    };
+    let all: Vec<usize> = (0..mechanism.coordinates.len()).collect();
+    if configuration.rates.iter().all(|rate| *rate == 0.0) {
+        return NoSliding::AtRest(names(&all));
+    }
+    let mut probe = Probe { mechanism: mechanism.clone(), follower: Follower::default() };
+    let slides_with: Vec<usize> =
+        all.iter().copied().filter(|&coordinate| probe.slides(coordinate, contact)).collect();
+    if slides_with.iter().any(|&coordinate| configuration.rates[coordinate] != 0.0) {
+        return NoSliding::Here;
+    }
+    if !slides_with.is_empty() {
+        return NoSliding::WithoutRate(names(&slides_with));
+    }
+    let slides_nearby = all.iter().any(|&moved| {
+        let length = if mechanism.coordinates[moved].kind.is_angle() { 1.0 } else { mechanism.size };
+        [PROBE, -PROBE].into_iter().any(|step| {
+            probe.mechanism.coordinates[moved].value = mechanism.coordinates[moved].value + step * length;
+            let slides = all.iter().any(|&coordinate| probe.slides(coordinate, contact));
+            probe.mechanism.coordinates[moved].value = mechanism.coordinates[moved].value;
+            slides
+        })
+    });
+    if slides_nearby { NoSliding::Here } else { NoSliding::Never }
+}
+
+/// A mechanism that is moved to see what slides.
+struct Probe {
+    mechanism: Mechanism,
+    follower: Follower,
+}
+
+impl Probe {
+    /// Whether a contact slides if this coordinate alone has a rate; not where there is no such state.
+    fn slides(&mut self, coordinate: usize, contact: usize) -> bool {
+        for (index, other) in self.mechanism.coordinates.iter_mut().enumerate() {
+            other.rate = if index == coordinate { 1.0 } else { 0.0 };
+        }
+        let state = self.follower.configuration(&self.mechanism);
+        state.is_ok_and(|state| sliding_signs(&self.mechanism, &state)[contact] != 0.0)
+    }
+}
