@@ -181,7 +181,7 @@ impl Model {
     /// `units` are those in which texts show numbers: "as-typed", "SI" or "mm".
     ///
     /// Raises `ModelError` for names that do not exist and values that make no sense.
-    #[pyo3(signature = (*, at = None, rate = None, time = None, units = None, **values))]
+    #[pyo3(signature = (*, at: "Mapping[str, Value] | None" = None, rate: "Mapping[str, Value] | None" = None, time: "Value | None" = None, units = None, **values: "Value"))]
     fn with_(
         &self,
         py: Python<'_>,
@@ -200,7 +200,7 @@ impl Model {
     }
 
     /// What the model consists of, what would keep it from being solved, and what is perhaps not meant in it.
-    #[pyo3(signature = () -> "slideway.reports.CheckReport")]
+    #[pyo3(signature = () -> "reports.CheckReport")]
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let report = py.detach(|| slideway::check(&self.asked.model));
         let report = report.map_err(|faults| self.refused(py, &faults))?;
@@ -214,7 +214,7 @@ impl Model {
     /// seconds; the answer is then partial.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, margins = true, max_solutions = 100, max_nodes = None, max_found = None,
-        time_limit = None, progress = None) -> "slideway.reports.SolveReport")]
+        time_limit = None, progress: "Progress | None" = None) -> "reports.SolveReport")]
     fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -240,9 +240,9 @@ impl Model {
     /// Without `start` and `stop`, coefficients of friction and `"friction"` have a usual range. `quantity` is
     /// what the plot of the answer shows: "normal-force", "friction", "acceleration" or "effort".
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start = None, stop = None, *, max_reaction = None, both_directions = false,
-        effort = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
-        progress = None) -> "slideway.reports.LimitsReport")]
+    #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, max_reaction = None, both_directions = false,
+        effort: "int" = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
+        progress: "Progress | None" = None) -> "reports.LimitsReport")]
     fn limits<'py>(
         &self,
         py: Python<'py>,
@@ -283,7 +283,7 @@ impl Model {
     /// which value of that static friction on it is held however great it is. `drives` are "release" (absent) or
     /// "hold".
     #[pyo3(signature = (load = None, *, vary = None, drives = "release", time_limit = None,
-        progress = None) -> "slideway.reports.HoldReport")]
+        progress: "Progress | None" = None) -> "reports.HoldReport")]
     fn hold<'py>(
         &self,
         py: Python<'py>,
@@ -301,8 +301,8 @@ impl Model {
 
     /// For which values of a parameter, a coordinate or `"friction"` the mechanism can stay at rest.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start, stop, *, load = None, drives = "release", time_limit = None,
-        progress = None) -> "slideway.reports.RestLimitsReport")]
+    #[pyo3(signature = (vary_name, start: "Value", stop: "Value", *, load = None, drives = "release", time_limit = None,
+        progress: "Progress | None" = None) -> "reports.RestLimitsReport")]
     fn rest_limits<'py>(
         &self,
         py: Python<'py>,
@@ -329,9 +329,9 @@ impl Model {
     /// A margin is `against` "locking" in motion, "self-locking" at rest under `load`, or "hold", that the load
     /// is held. `load` is also the drive of an effort, or the contact of a normal force or pressure.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start = None, stop = None, *, margin = None, max_effort = None,
-        max_normal_force = None, max_pressure = None, min_efficiency = None, against = "locking", load = None,
-        both_directions = false, time_limit = None, progress = None) -> "slideway.reports.SizeReport")]
+    #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, margin: "Value | None" = None, max_effort: "Value | None" = None,
+        max_normal_force: "Value | None" = None, max_pressure: "Value | None" = None, min_efficiency: "Value | None" = None, against = "locking", load = None,
+        both_directions = false, time_limit = None, progress: "Progress | None" = None) -> "reports.SizeReport")]
     fn size<'py>(
         &self,
         py: Python<'py>,
@@ -385,8 +385,8 @@ impl Model {
 
     /// Which efforts the drives need against friction, and how efficient that is; with `vary`, a coordinate or
     /// parameter, over its range `between=(start, stop)` in so many `rows`.
-    #[pyo3(signature = (vary = None, between = None, *, rows = 41, time_limit = None,
-        progress = None) -> "slideway.reports.DriveReport")]
+    #[pyo3(signature = (vary = None, between: "Range | None" = None, *, rows = 41, time_limit = None,
+        progress: "Progress | None" = None) -> "reports.DriveReport")]
     fn drive<'py>(
         &self,
         py: Python<'py>,
@@ -410,7 +410,7 @@ impl Model {
     /// number of pixels in each direction; `probe` the distance of pixels that are looked at first.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, colour_by = "solutions", size = None, probe = None, time_limit = None,
-        progress = None, **axes) -> "slideway.reports.MapReport")]
+        progress: "Progress | None" = None, **axes: "Range | None") -> "reports.MapReport")]
     fn map<'py>(
         &self,
         py: Python<'py>,
@@ -457,8 +457,8 @@ impl Model {
     /// bodies and hinge forces.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
-        attainability = false, all_columns = false, time_limit = None, progress = None,
-        **values) -> "slideway.Sweep")]
+        attainability = false, all_columns = false, time_limit = None, progress: "Progress | None" = None,
+        **values: "str | ArrayLike | Sequence[Value]") -> "_sweep.Sweep")]
     fn sweep<'py>(
         &self,
         py: Python<'py>,
@@ -489,9 +489,9 @@ impl Model {
     /// decision (from 1), `prefer` the "rule" of the book or "sliding", `tolerance` the relative error of a step.
     /// With `all_branches` all motions are followed, at most so many: then the answer is a `TreeReport`.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (until, *, mode = None, branches = None, prefer = "rule", all_branches = None,
-        tolerance = 1e-8, longest_step = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
-        time_limit = None, progress = None) -> "slideway.Motion")]
+    #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer = "rule", all_branches = None,
+        tolerance = 1e-8, longest_step: "Value | None" = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
+        time_limit = None, progress: "Progress | None" = None) -> "_motion.Motion")]
     fn simulate<'py>(
         &self,
         py: Python<'py>,
@@ -584,7 +584,7 @@ impl Model {
         self.clone()
     }
 
-    #[pyo3(signature = (_memo) -> "Model")]
+    #[pyo3(signature = (_memo: "object") -> "Model")]
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
         self.clone()
     }
@@ -603,7 +603,7 @@ impl Model {
 
     /// The model that was pickled.
     #[staticmethod]
-    #[pyo3(signature = (text, kept_settings, units_name))]
+    #[pyo3(signature = (text, kept_settings: "Sequence[tuple[str, str, Value]]", units_name))]
     fn _restore(
         py: Python<'_>,
         text: &str,

@@ -206,7 +206,7 @@ impl Table {
     }
 
     /// How many points came to what.
-    #[pyo3(signature = () -> "slideway.reports.Tally")]
+    #[pyo3(signature = () -> "reports.Tally")]
     fn tally<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.state.tally)
     }

@@ -113,7 +113,7 @@ class Report(Record):
         return next((line for line in lines if line), "")
 
     def __getstate__(self) -> dict[str, Any]:
-        schema = self.schema  # noqa: F841  (makes all attributes)
+        getattr(self, "schema")  # noqa: B009  (makes all attributes)
         attributes = {name: value for name, value in self.__dict__.items() if name != "_answer"}
         if self._is_part:
             return attributes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TypedDict
 
 import numpy as np
@@ -13,6 +13,12 @@ Value = float | str
 
 Pair = Sequence[Value] | NDArray[np.floating]
 """Two values, such as a place of the drawing (m)."""
+
+Range = Sequence[Value]
+"""The two ends of a range."""
+
+Progress = Callable[[float | None, int, str], object]
+"""What is told of the progress of work: the fraction that is done, if it is known, and how many of what were done."""
 
 End = tuple[str, Pair]
 """An end of a spring or damper: a body, and a place of the drawing that moves with it."""

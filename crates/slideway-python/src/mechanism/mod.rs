@@ -110,8 +110,8 @@ impl Mechanism {
 #[pymethods]
 impl Mechanism {
     #[new]
-    #[pyo3(signature = (title: "str | None" = None, *, gravity: "slideway._values.Value | slideway._values.Pair | None" = None,
-        time: "slideway._values.Value | None" = None))]
+    #[pyo3(signature = (title: "str | None" = None, *, gravity: "Value | Pair | None" = None,
+        time: "Value | None" = None))]
     fn new(
         title: Option<&str>,
         gravity: Option<&Bound<'_, PyAny>>,
@@ -151,7 +151,7 @@ impl Mechanism {
     /// >>> m = slideway.Mechanism()
     /// >>> m.parameter("L", "400 mm")
     /// 'L'
-    #[pyo3(signature = (name: "str", value: "slideway._values.Value") -> "str")]
+    #[pyo3(signature = (name: "str", value: "Value") -> "str")]
     fn parameter(&self, py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
         let value = quantity("value", value)?;
         self.add(py, ("parameter", name), |state| {
@@ -195,10 +195,10 @@ impl Mechanism {
     /// >>> m.body("rod", mass="0.5 kg", bar=((0, 0), (0, "200 mm")))
     /// 'rod'
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", *, mass: "slideway._values.Value | None" = None, inertia: "slideway._values.Value | None" = None,
-        centre: "slideway._values.Pair | None" = None, rectangle: "slideway._values.Pair | None" = None, disc: "slideway._values.Value | None" = None,
-        bar: "collections.abc.Sequence[slideway._values.Pair] | numpy.typing.NDArray[numpy.floating] | None" = None,
-        outline: "collections.abc.Sequence[slideway._values.Pair] | numpy.typing.NDArray[numpy.floating] | None" = None,
+    #[pyo3(signature = (name: "str", *, mass: "Value | None" = None, inertia: "Value | None" = None,
+        centre: "Pair | None" = None, rectangle: "Pair | None" = None, disc: "Value | None" = None,
+        bar: "Sequence[Pair] | NDArray[np.floating] | None" = None,
+        outline: "Sequence[Pair] | NDArray[np.floating] | None" = None,
         massless: "bool" = false) -> "str")]
     fn body(
         &self,
@@ -249,7 +249,7 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", first: "str", second: "str", at: "slideway._values.Pair") -> "str")]
+    #[pyo3(signature = (name: "str", first: "str", second: "str", at: "Pair") -> "str")]
     fn hinge(
         &self,
         py: Python<'_>,
@@ -328,13 +328,13 @@ impl Mechanism {
     /// slideway._errors.ModelError: argument block: there is no body named `drawr`
     ///     hint: did you mean `drawer`?
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", block: "str", guide: "str", *, at: "slideway._values.Pair", length: "slideway._values.Value",
-        along: "slideway._values.Value | None" = None, height: "slideway._values.Value | None" = None, around: "bool" = false,
-        travel: "slideway._values.Pair | None" = None, restitution: "slideway._values.Value | None" = None,
-        mu: "slideway._values.Value | slideway._values.BySide | None" = None, mu_static: "slideway._values.Value | None" = None,
-        preload: "slideway._values.Value | slideway._values.BySide | None" = None, centred_preload: "bool" = false,
-        stiffness: "slideway._values.Value | None" = None, pad: "slideway._values.Pair | None" = None,
-        front: "slideway._values.ContactValues | None" = None, rear: "slideway._values.ContactValues | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", block: "str", guide: "str", *, at: "Pair", length: "Value",
+        along: "Value | None" = None, height: "Value | None" = None, around: "bool" = false,
+        travel: "Pair | None" = None, restitution: "Value | None" = None,
+        mu: "Value | BySide | None" = None, mu_static: "Value | None" = None,
+        preload: "Value | BySide | None" = None, centred_preload: "bool" = false,
+        stiffness: "Value | None" = None, pad: "Pair | None" = None,
+        front: "ContactValues | None" = None, rear: "ContactValues | None" = None) -> "str")]
     fn block_slider(
         &self,
         py: Python<'_>,
@@ -389,12 +389,12 @@ impl Mechanism {
     /// str
     ///     The name.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", block: "str", guide: "str", *, at: "slideway._values.Pair", length: "slideway._values.Value",
-        mu: "slideway._values.Value | slideway._values.BySide", along: "slideway._values.Value | None" = None, height: "slideway._values.Value | None" = None,
-        around: "bool" = false, travel: "slideway._values.Pair | None" = None, restitution: "slideway._values.Value | None" = None,
-        mu_static: "slideway._values.Value | None" = None, preload: "slideway._values.Value | slideway._values.BySide | None" = None,
-        centred_preload: "bool" = false, stiffness: "slideway._values.Value | None" = None,
-        pad: "slideway._values.Pair | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", block: "str", guide: "str", *, at: "Pair", length: "Value",
+        mu: "Value | BySide", along: "Value | None" = None, height: "Value | None" = None,
+        around: "bool" = false, travel: "Pair | None" = None, restitution: "Value | None" = None,
+        mu_static: "Value | None" = None, preload: "Value | BySide | None" = None,
+        centred_preload: "bool" = false, stiffness: "Value | None" = None,
+        pad: "Pair | None" = None) -> "str")]
     fn guided_slider(
         &self,
         py: Python<'_>,
@@ -445,10 +445,10 @@ impl Mechanism {
     /// str
     ///     The name.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", pin: "str", slot: "str", *, at: "slideway._values.Pair", mu: "slideway._values.Value | slideway._values.BySide",
-        along: "slideway._values.Value | None" = None, travel: "slideway._values.Pair | None" = None, restitution: "slideway._values.Value | None" = None,
-        mu_static: "slideway._values.Value | None" = None, preload: "slideway._values.Value | slideway._values.BySide | None" = None,
-        stiffness: "slideway._values.Value | None" = None, pad: "slideway._values.Pair | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", pin: "str", slot: "str", *, at: "Pair", mu: "Value | BySide",
+        along: "Value | None" = None, travel: "Pair | None" = None, restitution: "Value | None" = None,
+        mu_static: "Value | None" = None, preload: "Value | BySide | None" = None,
+        stiffness: "Value | None" = None, pad: "Pair | None" = None) -> "str")]
     fn pin_in_slot(
         &self,
         py: Python<'_>,
@@ -493,8 +493,8 @@ impl Mechanism {
     /// str
     ///     The name.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", body: "str", *, at: "slideway._values.Pair", components: "slideway._values.Pair | None" = None,
-        magnitude: "slideway._values.Value | None" = None, direction: "slideway._values.Value | None" = None, turning: "bool" = false,
+    #[pyo3(signature = (name: "str", body: "str", *, at: "Pair", components: "Pair | None" = None,
+        magnitude: "Value | None" = None, direction: "Value | None" = None, turning: "bool" = false,
         reaction: "str | None" = None) -> "str")]
     fn force(
         &self,
@@ -535,7 +535,7 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", body: "str", moment: "slideway._values.Value", *, reaction: "str | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", body: "str", moment: "Value", *, reaction: "str | None" = None) -> "str")]
     fn torque(
         &self,
         py: Python<'_>,
@@ -568,8 +568,8 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", first: "slideway._values.End", second: "slideway._values.End", *, stiffness: "slideway._values.Value",
-        free_length: "slideway._values.Value | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", first: "End", second: "End", *, stiffness: "Value",
+        free_length: "Value | None" = None) -> "str")]
     fn spring(
         &self,
         py: Python<'_>,
@@ -603,7 +603,7 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", first: "slideway._values.End", second: "slideway._values.End", *, damping: "slideway._values.Value") -> "str")]
+    #[pyo3(signature = (name: "str", first: "End", second: "End", *, damping: "Value") -> "str")]
     fn damper(
         &self,
         py: Python<'_>,
@@ -636,8 +636,8 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", first: "str", second: "str", *, stiffness: "slideway._values.Value",
-        free_angle: "slideway._values.Value | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", first: "str", second: "str", *, stiffness: "Value",
+        free_angle: "Value | None" = None) -> "str")]
     fn torsional_spring(
         &self,
         py: Python<'_>,
@@ -669,7 +669,7 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", first: "str", second: "str", *, damping: "slideway._values.Value") -> "str")]
+    #[pyo3(signature = (name: "str", first: "str", second: "str", *, damping: "Value") -> "str")]
     fn torsional_damper(
         &self,
         py: Python<'_>,
@@ -703,8 +703,8 @@ impl Mechanism {
     /// str
     ///     The name.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", slider: "str", *, drawn_at: "slideway._values.Value | None" = None,
-        value: "slideway._values.Value | None" = None, rate: "slideway._values.Value | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", slider: "str", *, drawn_at: "Value | None" = None,
+        value: "Value | None" = None, rate: "Value | None" = None) -> "str")]
     fn slide(
         &self,
         py: Python<'_>,
@@ -741,7 +741,7 @@ impl Mechanism {
     ///     The name.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", body: "str", *, relative_to: "str | None" = None,
-        drawn_at: "slideway._values.Value | None" = None, value: "slideway._values.Value | None" = None, rate: "slideway._values.Value | None" = None) -> "str")]
+        drawn_at: "Value | None" = None, value: "Value | None" = None, rate: "Value | None" = None) -> "str")]
     fn rotation(
         &self,
         py: Python<'_>,
@@ -784,8 +784,8 @@ impl Mechanism {
     /// str
     ///     The name.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (name: "str", coordinate: "str", body: "str", *, at: "slideway._values.Pair", direction: "slideway._values.Value",
-        acceleration: "slideway._values.Value | None" = None, turning: "bool" = false, reaction: "str | None" = None) -> "str")]
+    #[pyo3(signature = (name: "str", coordinate: "str", body: "str", *, at: "Pair", direction: "Value",
+        acceleration: "Value | None" = None, turning: "bool" = false, reaction: "str | None" = None) -> "str")]
     fn drive_by_force(
         &self,
         py: Python<'_>,
@@ -824,7 +824,7 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[pyo3(signature = (name: "str", coordinate: "str", body: "str", *, acceleration: "slideway._values.Value | None" = None,
+    #[pyo3(signature = (name: "str", coordinate: "str", body: "str", *, acceleration: "Value | None" = None,
         reaction: "str | None" = None) -> "str")]
     fn drive_by_torque(
         &self,
