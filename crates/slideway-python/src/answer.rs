@@ -198,7 +198,7 @@ impl Answer {
     }
 
     /// The plot as plain data.
-    #[pyo3(signature = () -> "slideway.reports.Figure")]
+    #[pyo3(signature = () -> "reports.Figure")]
     fn figure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.plotted()?)
     }

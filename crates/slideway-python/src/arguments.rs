@@ -4,6 +4,7 @@ use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString};
+use slideway::drawing::Quantity;
 use slideway::limits::Vary;
 use slideway::model::{Setting, SettingKind, Settings, Value};
 use slideway::{Model, UnitSystem};
@@ -47,6 +48,43 @@ pub(crate) fn numbers(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(Vec<usi
     let array = numpy.call_method1("require", (array, "f8", "CA")).map_err(refused)?;
     let array = array.cast_into::<PyArrayDyn<f64>>()?;
     Ok((array.shape().to_vec(), array.to_vec()?))
+}
+
+/// The same for a drawing.
+pub(crate) fn quantity(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Quantity> {
+    Ok(match value(name, object)? {
+        Value::Number(number) => number.into(),
+        text => text.to_string().into(),
+    })
+}
+
+/// A pair of them, such as a place.
+pub(crate) fn pair(name: &str, object: &Bound<'_, PyAny>) -> PyResult<[Quantity; 2]> {
+    let [first, second] = two(name, object, "values")?;
+    Ok([quantity(name, &first)?, quantity(name, &second)?])
+}
+
+/// A pair of anything.
+pub(crate) fn two<'py>(
+    name: &str,
+    object: &Bound<'py, PyAny>,
+    what: &str,
+) -> PyResult<[Bound<'py, PyAny>; 2]> {
+    let items = sequence(name, object, what)?;
+    let count = items.len();
+    items.try_into().map_err(|_| PyValueError::new_err(format!("{name} must be two {what}, not {count}")))
+}
+
+/// A list, tuple or array as its items.
+pub(crate) fn sequence<'py>(
+    name: &str,
+    object: &Bound<'py, PyAny>,
+    what: &str,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let kind = object.get_type().name()?;
+    let refused =
+        |_| PyTypeError::new_err(format!("{name} must be a sequence of {what}, not of type {kind}"));
+    object.extract().map_err(refused)
 }
 
 /// What `with_` changes: parameters and coordinates by their names, rates, the time.

@@ -5,6 +5,7 @@ use pyo3::types::{PyDict, PyTuple};
 use slideway::Faults;
 use slideway::fault::{Fault, FaultKind, Source};
 use slideway::model::{SettingKind, Settings};
+use slideway::printable;
 
 /// The texts in which faults have their places.
 #[derive(Debug, Clone, Copy)]
@@ -32,8 +33,8 @@ impl Texts<'_> {
 
     fn fault<'py>(self, class: &Bound<'py, PyAny>, fault: &Fault) -> PyResult<Bound<'py, PyAny>> {
         let values = PyDict::new(class.py());
-        values.set_item("message", fault.kind.to_string())?;
-        values.set_item("hint", fault.kind.hint())?;
+        values.set_item("message", printable::lines(&fault.kind.to_string()))?;
+        values.set_item("hint", fault.kind.hint().as_deref().map(printable::lines))?;
         values.set_item("is_warning", matches!(fault.kind, FaultKind::Doubt(_)))?;
         if let Some(place) = &fault.place {
             let (argument, text) = match place.source {

@@ -6,20 +6,24 @@
 //! # Files
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
-//! `motion.rs` a motion with its table, `pictures.rs` colours and pixels, `to_python.rs` turns values into objects,
-//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `shards.rs` those in
-//! parts, `sweep_plot.rs` their plots, `modes.rs` problems given by matrices.
+//! `mechanism` the builder `Mechanism`, `motion.rs` a motion with its table, `pictures.rs` colours and pixels,
+//! `to_python.rs` turns values into objects, `fault.rs` faults into exceptions, `sweep.rs` tables of many points,
+//! `shards.rs` those in parts, `sweep_plot.rs` their plots, `modes.rs` problems given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
 mod answer;
 mod arguments;
 mod fault;
+mod mechanism;
 mod model;
 mod modes;
 mod motion;
 mod pictures;
 #[cfg(feature = "parquet")]
+mod shards;
+#[cfg(not(feature = "parquet"))]
+#[path = "without_shards.rs"]
 mod shards;
 mod sweep;
 mod sweep_plot;
@@ -29,19 +33,23 @@ mod work;
 /// The private half of the package; see `slideway`.
 #[pyo3::pymodule(gil_used = false)]
 mod _slideway {
+    /// The fixed frame, where the name of a body is expected.
+    #[pymodule_export]
+    const GROUND: &str = crate::mechanism::GROUND;
     #[pymodule_export]
     use crate::answer::Answer;
+    #[pymodule_export]
+    use crate::mechanism::Mechanism;
     #[pymodule_export]
     use crate::model::{Model, gallery_models};
     #[pymodule_export]
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]
     use crate::motion::Motion;
-    #[cfg(feature = "parquet")]
-    #[pymodule_export]
-    use crate::shards::merge;
     #[pymodule_export]
     use crate::pictures::{png, printable, theme};
+    #[pymodule_export]
+    use crate::shards::merge;
     #[pymodule_export]
     use crate::sweep::Table;
 }

@@ -4,8 +4,8 @@ use crate::answer::{Answer, Asked, theme as named};
 use crate::arguments::{settings, units, value, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
-use crate::sweep;
 use crate::work::Watch;
+use crate::{shards, sweep};
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
@@ -20,7 +20,6 @@ use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
-use slideway::sweep::{Shard, SweepOptions};
 use slideway::units::Unit;
 use slideway::{
     DriveOptions, Faults, HoldOptions, LimitsOptions, MapOptions, SimulateOptions, SizeOptions, SolveOptions,
@@ -29,7 +28,7 @@ use slideway::{
 use slideway_pictures::drawing::Shown;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A planar mechanism with dry friction, in one state: a model file and what was changed in it. It never changes;
@@ -42,7 +41,8 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
+    /// The model of a text.
+    pub(crate) fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
         let asked = |model| Asked { model, text: Arc::from(text), settings: Settings::default() };
         match py.detach(|| slideway::Model::parse(text)) {
             Ok(model) => Ok(Self { asked: asked(model), units: None }),
@@ -198,7 +198,7 @@ impl Model {
     /// `units` are those in which texts show numbers: "as-typed", "SI" or "mm".
     ///
     /// Raises `ModelError` for names that do not exist and values that make no sense.
-    #[pyo3(signature = (*, at = None, rate = None, time = None, units = None, **values))]
+    #[pyo3(signature = (*, at: "Mapping[str, Value] | None" = None, rate: "Mapping[str, Value] | None" = None, time: "Value | None" = None, units = None, **values: "Value"))]
     fn with_(
         &self,
         py: Python<'_>,
@@ -217,7 +217,7 @@ impl Model {
     }
 
     /// What the model consists of, what would keep it from being solved, and what is perhaps not meant in it.
-    #[pyo3(signature = () -> "slideway.reports.CheckReport")]
+    #[pyo3(signature = () -> "reports.CheckReport")]
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let report = py.detach(|| slideway::check(&self.asked.model));
         let report = report.map_err(|faults| self.refused(py, &faults))?;
@@ -231,7 +231,7 @@ impl Model {
     /// seconds; the answer is then partial.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, margins = true, max_solutions = 100, max_nodes = None, max_found = None,
-        time_limit = None, progress = None) -> "slideway.reports.SolveReport")]
+        time_limit = None, progress: "Progress | None" = None) -> "reports.SolveReport")]
     fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -257,9 +257,9 @@ impl Model {
     /// Without `start` and `stop`, coefficients of friction and `"friction"` have a usual range. `quantity` is
     /// what the plot of the answer shows: "normal-force", "friction", "acceleration" or "effort".
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start = None, stop = None, *, max_reaction = None, both_directions = false,
-        effort = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
-        progress = None) -> "slideway.reports.LimitsReport")]
+    #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, max_reaction = None, both_directions = false,
+        effort: "int" = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
+        progress: "Progress | None" = None) -> "reports.LimitsReport")]
     fn limits<'py>(
         &self,
         py: Python<'py>,
@@ -291,7 +291,7 @@ impl Model {
     /// which value of that static friction on it is held however great it is. `drives` are "release" (absent) or
     /// "hold".
     #[pyo3(signature = (load = None, *, vary = None, drives = "release", time_limit = None,
-        progress = None) -> "slideway.reports.HoldReport")]
+        progress: "Progress | None" = None) -> "reports.HoldReport")]
     fn hold<'py>(
         &self,
         py: Python<'py>,
@@ -309,8 +309,8 @@ impl Model {
 
     /// For which values of a parameter, a coordinate or `"friction"` the mechanism can stay at rest.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start, stop, *, load = None, drives = "release", time_limit = None,
-        progress = None) -> "slideway.reports.RestLimitsReport")]
+    #[pyo3(signature = (vary_name, start: "Value", stop: "Value", *, load = None, drives = "release", time_limit = None,
+        progress: "Progress | None" = None) -> "reports.RestLimitsReport")]
     fn rest_limits<'py>(
         &self,
         py: Python<'py>,
@@ -337,9 +337,9 @@ impl Model {
     /// A margin is `against` "locking" in motion, "self-locking" at rest under `load`, or "hold", that the load
     /// is held. `load` is also the drive of an effort, or the contact of a normal force or pressure.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start = None, stop = None, *, margin = None, max_effort = None,
-        max_normal_force = None, max_pressure = None, min_efficiency = None, against = "locking", load = None,
-        both_directions = false, time_limit = None, progress = None) -> "slideway.reports.SizeReport")]
+    #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, margin: "Value | None" = None, max_effort: "Value | None" = None,
+        max_normal_force: "Value | None" = None, max_pressure: "Value | None" = None, min_efficiency: "Value | None" = None, against = "locking", load = None,
+        both_directions = false, time_limit = None, progress: "Progress | None" = None) -> "reports.SizeReport")]
     fn size<'py>(
         &self,
         py: Python<'py>,
@@ -393,8 +393,8 @@ impl Model {
 
     /// Which efforts the drives need against friction, and how efficient that is; with `vary`, a coordinate or
     /// parameter, over its range `between=(start, stop)` in so many `rows`.
-    #[pyo3(signature = (vary = None, between = None, *, rows = 41, time_limit = None,
-        progress = None) -> "slideway.reports.DriveReport")]
+    #[pyo3(signature = (vary = None, between: "Range | None" = None, *, rows = 41, time_limit = None,
+        progress: "Progress | None" = None) -> "reports.DriveReport")]
     fn drive<'py>(
         &self,
         py: Python<'py>,
@@ -418,7 +418,7 @@ impl Model {
     /// number of pixels in each direction; `probe` the distance of pixels that are looked at first.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, colour_by = "solutions", size = None, probe = None, time_limit = None,
-        progress = None, **axes) -> "slideway.reports.MapReport")]
+        progress: "Progress | None" = None, **axes: "Range | None") -> "reports.MapReport")]
     fn map<'py>(
         &self,
         py: Python<'py>,
@@ -464,13 +464,12 @@ impl Model {
     /// whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
     /// bodies and hinge forces.
     ///
-    /// `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches; with
-    /// `output`, the path of a folder, it is written there as a Parquet file, unless it is there, and the answer is
-    /// its path. `slideway.merge` makes one table of all parts; `slideway.dask.sweep` computes them on a cluster.
+    /// `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches;
+    /// `write_shard` writes it to a folder, and `slideway.dask.sweep` computes all of them on a cluster.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
-        attainability = false, all_columns = false, shard = None, output = None, time_limit = None,
-        progress = None, **values) -> "slideway.Sweep")]
+        attainability = false, all_columns = false, shard = None, time_limit = None, progress: "Progress | None" = None,
+        **values: "str | ArrayLike | Sequence[Value]") -> "_sweep.Sweep")]
     fn sweep<'py>(
         &self,
         py: Python<'py>,
@@ -481,27 +480,45 @@ impl Model {
         attainability: bool,
         all_columns: bool,
         shard: Option<(u32, u32)>,
-        output: Option<PathBuf>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
         values: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        if samples == Some(0) {
-            return Err(PyValueError::new_err("samples must be at least 1"));
-        }
+        let sampling = sweep::spread(sampling)?;
+        let question = sweep::Question { samples, sampling, seed, breakpoints, attainability, all_columns };
+        let options = question.options(&|faults| self.refused(py, &faults), values)?;
+        let shard = shard.map(sweep::shard).transpose()?;
+        let watch = Watch::new(time_limit, progress)?;
+        sweep::table(py, &self.asked, (&options, shard), &watch)?.object(py)
+    }
+
+    /// Computes a part of a sweep, such as `shard=(3, 64)`, the third of 64, and writes it into the folder `output`
+    /// as a Parquet file, unless it is there: the path of the file. `slideway.merge` makes one table of all parts.
+    /// Everything else is as for `sweep`.
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (output, shard, *, samples = None, sampling = "random", seed = 0, breakpoints = false,
+        attainability = false, all_columns = false, time_limit = None, progress: "Progress | None" = None,
+        **values: "str | ArrayLike | Sequence[Value]"))]
+    fn write_shard(
+        &self,
+        py: Python<'_>,
+        output: PathBuf,
+        shard: (u32, u32),
+        samples: Option<u64>,
+        sampling: &str,
+        seed: u64,
+        breakpoints: bool,
+        attainability: bool,
+        all_columns: bool,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+        values: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PathBuf> {
         let sampling = sweep::spread(sampling)?;
         let question = sweep::Question { samples, sampling, seed, breakpoints, attainability, all_columns };
         let options = question.options(&|faults| self.refused(py, &faults), values)?;
         let watch = Watch::new(time_limit, progress)?;
-        let shard = shard.map(|(number, of)| Shard::new(number, of)).transpose();
-        let shard = shard.map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))?;
-        match (shard, output) {
-            (Some(shard), Some(folder)) => self.shard(py, (options, shard), (&folder, &watch)),
-            (None, Some(_)) => {
-                Err(PyTypeError::new_err("output is for a shard: give shard=(number, of), too"))
-            }
-            (shard, None) => sweep::table(py, &self.asked, (&options, shard), &watch)?.object(py),
-        }
+        shards::write_shard(py, &self.asked, (options, sweep::shard(shard)?), (&output, &watch))
     }
 
     /// The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and
@@ -511,9 +528,9 @@ impl Model {
     /// decision (from 1), `prefer` the "rule" of the book or "sliding", `tolerance` the relative error of a step.
     /// With `all_branches` all motions are followed, at most so many: then the answer is a `TreeReport`.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (until, *, mode = None, branches = None, prefer = "rule", all_branches = None,
-        tolerance = 1e-8, longest_step = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
-        time_limit = None, progress = None) -> "slideway.Motion")]
+    #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer = "rule", all_branches = None,
+        tolerance = 1e-8, longest_step: "Value | None" = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
+        time_limit = None, progress: "Progress | None" = None) -> "_motion.Motion")]
     fn simulate<'py>(
         &self,
         py: Python<'py>,
@@ -639,7 +656,7 @@ impl Model {
         self.clone()
     }
 
-    #[pyo3(signature = (_memo) -> "Model")]
+    #[pyo3(signature = (_memo: "object") -> "Model")]
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
         self.clone()
     }
@@ -658,7 +675,7 @@ impl Model {
 
     /// The model that was pickled.
     #[staticmethod]
-    #[pyo3(signature = (text, kept_settings, units_name))]
+    #[pyo3(signature = (text, kept_settings: "Sequence[tuple[str, str, Value]]", units_name))]
     fn _restore(
         py: Python<'_>,
         text: &str,
@@ -684,29 +701,6 @@ impl Model {
 }
 
 impl Model {
-    /// Writes a shard of a sweep into a folder; its path.
-    #[cfg(feature = "parquet")]
-    fn shard<'py>(
-        &self,
-        py: Python<'py>,
-        question: (SweepOptions, Shard),
-        (folder, watch): (&Path, &Watch),
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let path = crate::shards::write_shard(py, &self.asked, question, (folder, watch))?;
-        Ok(path.into_pyobject(py)?.into_any())
-    }
-
-    #[cfg(not(feature = "parquet"))]
-    fn shard<'py>(
-        &self,
-        _py: Python<'py>,
-        _question: (SweepOptions, Shard),
-        _written: (&Path, &Watch),
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let message = format!("{}: this slideway was built without Parquet files", self.__repr__());
-        Err(pyo3::exceptions::PyNotImplementedError::new_err(message))
-    }
-
     fn against(&self, py: Python<'_>, against: &str, load: Option<String>) -> PyResult<Against> {
         let refused = |kind: FaultKind| Err(self.refused(py, &Fault::general(kind).into()));
         match (against, load) {

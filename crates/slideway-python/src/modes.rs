@@ -59,7 +59,7 @@ fn answer<'py>(
 
 /// All solutions of `A x + B |x| = b`.
 #[pyfunction]
-#[pyo3(signature = (a, b, right_hand_side, options) -> "slideway.reports.RawReport")]
+#[pyo3(signature = (a: "ArrayLike", b: "ArrayLike", right_hand_side: "ArrayLike", options: "dict[str, Any]") -> "reports.RawReport")]
 pub(crate) fn solve<'py>(
     py: Python<'py>,
     a: &Bound<'_, PyAny>,
@@ -73,7 +73,7 @@ pub(crate) fn solve<'py>(
 
 /// All solutions of `w = M z + q`.
 #[pyfunction]
-#[pyo3(signature = (m, q, options) -> "slideway.reports.RawReport")]
+#[pyo3(signature = (m: "ArrayLike", q: "ArrayLike", options: "dict[str, Any]") -> "reports.RawReport")]
 pub(crate) fn lcp<'py>(
     py: Python<'py>,
     m: &Bound<'_, PyAny>,
@@ -85,7 +85,7 @@ pub(crate) fn lcp<'py>(
 
 /// All solutions of `A w - B z = q`.
 #[pyfunction]
-#[pyo3(signature = (a, b, q, options) -> "slideway.reports.RawReport")]
+#[pyo3(signature = (a: "ArrayLike", b: "ArrayLike", q: "ArrayLike", options: "dict[str, Any]") -> "reports.RawReport")]
 pub(crate) fn hlcp<'py>(
     py: Python<'py>,
     a: &Bound<'_, PyAny>,
@@ -98,8 +98,8 @@ pub(crate) fn hlcp<'py>(
 
 /// All solutions of a mode problem.
 #[pyfunction]
-#[pyo3(signature = (columns_positive, columns_negative, right_hand_side, jumps, options)
-    -> "slideway.reports.RawReport")]
+#[pyo3(signature = (columns_positive: "ArrayLike", columns_negative: "ArrayLike", right_hand_side: "ArrayLike", jumps: "tuple[ArrayLike, ArrayLike] | None", options: "dict[str, Any]")
+    -> "reports.RawReport")]
 pub(crate) fn mode_problem<'py>(
     py: Python<'py>,
     columns_positive: &Bound<'_, PyAny>,

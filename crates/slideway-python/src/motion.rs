@@ -50,7 +50,7 @@ impl Motion {
 #[pymethods]
 impl Motion {
     /// The times of the steps of the solver, or those in even steps.
-    #[pyo3(signature = (step = None) -> "numpy.ndarray")]
+    #[pyo3(signature = (step = None) -> "NDArray[np.float64]")]
     fn times<'py>(&self, py: Python<'py>, step: Option<f64>) -> PyResult<Bound<'py, PyAny>> {
         let times = match step {
             None => self.history.times().collect(),
@@ -66,14 +66,14 @@ impl Motion {
     }
 
     /// The table at these times.
-    #[pyo3(signature = (times) -> "slideway.reports.Series")]
+    #[pyo3(signature = (times: "Sequence[float]") -> "reports.Series")]
     fn table<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyAny>> {
         let series = self.series(py, &times);
         to_python(py, &series)
     }
 
     /// Coordinates, then their rates, one row for each, at these times.
-    #[pyo3(signature = (times) -> "numpy.ndarray")]
+    #[pyo3(signature = (times: "Sequence[float]") -> "NDArray[np.float64]")]
     fn states<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let series = self.series(py, &times);
         // Behind the time, the table has three columns for each coordinate: value, rate and acceleration.
@@ -94,7 +94,7 @@ impl Motion {
     }
 
     /// The plot as plain data.
-    #[pyo3(signature = (phase_portrait) -> "slideway.reports.Figure")]
+    #[pyo3(signature = (phase_portrait) -> "reports.Figure")]
     fn plotted<'py>(&self, py: Python<'py>, phase_portrait: bool) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.figure(phase_portrait))
     }

@@ -40,7 +40,7 @@ pub(crate) fn write_shard(
 
 /// One table of all shards in a folder.
 #[pyfunction]
-#[pyo3(signature = (folder, *, time_limit = None, progress = None) -> "slideway.Sweep")]
+#[pyo3(signature = (folder, *, time_limit = None, progress: "Progress | None" = None) -> "_sweep.Sweep")]
 pub(crate) fn merge(
     py: Python<'_>,
     folder: PathBuf,

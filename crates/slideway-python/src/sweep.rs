@@ -46,6 +46,9 @@ impl Question {
                 "give what is varied, such as sweep(mu=numpy.linspace(0, 1, 101))",
             ));
         }
+        if self.samples == Some(0) {
+            return Err(PyValueError::new_err("samples must be at least 1"));
+        }
         let points = if let Some(count) = self.samples {
             let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
             let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
@@ -96,6 +99,11 @@ fn sampled(
         return Err(PyTypeError::new_err(message));
     };
     format!("{name}={text}").parse().map_err(refused)
+}
+
+/// A part of a sweep: its number, from 1, and how many there are.
+pub(crate) fn shard((number, of): (u32, u32)) -> PyResult<Shard> {
+    Shard::new(number, of).map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))
 }
 
 /// How samples are distributed.
@@ -253,7 +261,7 @@ impl Table {
     }
 
     /// How many points came to what.
-    #[pyo3(signature = () -> "slideway.reports.Tally")]
+    #[pyo3(signature = () -> "reports.Tally")]
     fn tally<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.state.tally)
     }

@@ -27,7 +27,8 @@ impl SweepFigure {
         let refused = |faults: Faults| table.asked.refused(py, &faults);
         // Strokes tell of attainability.
         let options = table.options.clone().attainability(true);
-        let sweep = watch.run_beside(py, |callback| Sweep::new_with(model, &options, callback).transpose())?;
+        let sweep =
+            watch.run_beside(py, |callback| Sweep::new_with(model, &options, callback).transpose())?;
         let sweep = sweep.whole()?.map_err(refused)?;
         if sweep.line().is_none() && sweep.has_branches() {
             let needed = "a plot needs one varied quantity with ascending values, or random samples";

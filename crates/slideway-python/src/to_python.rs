@@ -237,7 +237,11 @@ struct Sequence<'py> {
 impl<'py> Sequence<'py> {
     fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
         // What a class says of a field holds for the items of a list, but for arrays.
-        let hint = self.of.hint.clone().filter(|hint| hint != "array" && hint != "pairs");
+        let hint = match self.of.hint.as_deref() {
+            Some("array" | "pairs") => None,
+            Some("arrays") => Some("array".to_owned()),
+            other => other.map(str::to_owned),
+        };
         self.items.push(value.serialize(Serializer { py: self.of.py, hint })?);
         Ok(())
     }
@@ -289,6 +293,7 @@ sequences! {
 fn attribute(field: &str) -> &str {
     match field {
         "from" => "from_",
+        "is" => "is_",
         "lambda" => "lambda_",
         other => other,
     }

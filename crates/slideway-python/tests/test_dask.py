@@ -58,7 +58,7 @@ def test_files_are_merged_to_one_run(client: Client, tmp_path: Path) -> None:
 
 
 def test_parts_that_are_there_are_kept(client: Client, tmp_path: Path) -> None:
-    first = MODEL.sweep(**VALUES, shard=(2, 5), output=tmp_path)
+    first = MODEL.write_shard(tmp_path, (2, 5), **VALUES)
     before = first.stat().st_mtime_ns
     slideway.dask.sweep(MODEL, client, output=tmp_path, shards=5, **VALUES)
     assert first.stat().st_mtime_ns == before

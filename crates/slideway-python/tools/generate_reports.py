@@ -80,6 +80,8 @@ class Item:
     """Items whose fields are among its own."""
     mapping: bool = False
     """Whether it is a mapping in Python: an enum with values, but for one whose fields are another item's."""
+    or_word: bool = False
+    """Whether such a mapping can be a word in its place."""
 
 
 def snake(name: str) -> str:
@@ -166,6 +168,9 @@ def enum(match: re.Match[str], path: Path) -> Item:
     members = parts(match["body"])
     if any("(" in text or "{" in text for _, _, text in members):
         item.mapping = True
+        # A variant without values is its word.
+        tagged = re.search(r"#\[serde\([^\]]*\b(tag|untagged)\b", match["attributes"])
+        item.or_word = not tagged and any("(" not in text and "{" not in text for _, _, text in members)
         item.variants = variants(match["body"])
         return item
     for docs, attributes, text in members:
@@ -229,7 +234,8 @@ class Types:
         if text not in self.needed:
             self.needed.append(text)
         item = self.items[text]
-        return "Mapping[str, Any]" if item.mapping else text
+        mapping = "Mapping[str, Any] | str" if item.or_word else "Mapping[str, Any]"
+        return mapping if item.mapping else text
 
 
 HEAD = '''"""Answers as plain data: frozen classes whose attributes are those of the JSON output, in SI units unless said otherwise.
@@ -240,7 +246,7 @@ Written from the sources of the Rust crates by `tools/generate_reports.py`; not 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -287,6 +293,9 @@ def hints(types: Types) -> str:
         fields = {}
         for member in types.items[name].fields:
             inner = re.sub(r"Option<|Vec<|>", "", member.type)
+            if member.type.startswith("Vec<") and member.type[4:-1] in ARRAYS:
+                fields[member.name] = "arrays"
+                continue
             array = ARRAYS.get(member.type.removeprefix("Option<").removesuffix(">") if "Option<Vec" in member.type else member.type)
             if array:
                 fields[member.name] = array
@@ -320,9 +329,10 @@ def data(item: Item, types: Types, mixins: set[str]) -> str:
     lines = [f"@dataclass(frozen=True, eq=False, kw_only=True{shown})\n{head}\n", documented(item.docs, "    "), "\n"]
     flattened = [member for other in item.flattened for member in types.items[other].variants]
     members = item.fields + flattened
-    if is_report and any(member.default for member in members):
-        # Absent fields: class attributes would hide that those of a report are not made yet.
-        absent = ", ".join(f'"{member.name}": {member.default}' for member in members if member.default)
+    absent = [member for member in members if member.default and (is_report or absence(member) != member.default)]
+    if absent:
+        # Class attributes would hide that those of a report are not made yet, and cannot be arrays.
+        absent = ", ".join(f'"{member.name}": {absence(member)}' for member in absent)
         lines.append(f"    _absent = {{{absent}}}\n\n")
     for member in members:
         name = member.name + "_" if keyword.iskeyword(member.name) else member.name
@@ -330,8 +340,15 @@ def data(item: Item, types: Types, mixins: set[str]) -> str:
         if member.default == "None" and not type_.endswith("None"):
             type_ += " | None"
         default = f" = {member.default}" if member.default and not is_report else ""
+        if default and absence(member) != member.default:
+            default = f" = field(default_factory=lambda: {absence(member)})"
         lines.append(f"    {name}: {type_}{default}\n" + documented(member.docs, "    "))
     return "".join(lines)
+
+
+def absence(member: Field) -> str | None:
+    """What an attribute is whose field is absent."""
+    return "_mixins.EMPTY" if member.type in ARRAYS and member.default == "()" else member.default
 
 
 def main() -> None:

@@ -22,13 +22,15 @@ from . import modes, plotting, reports
 from ._display import Animation, Drawing
 from ._errors import Fault, ModelError
 from ._motion import Motion
-from ._slideway import Model, gallery_models, merge
+from ._slideway import GROUND, Mechanism, Model, gallery_models, merge
 from ._sweep import Sweep
 
 __all__ = [
+    "GROUND",
     "Animation",
     "Drawing",
     "Fault",
+    "Mechanism",
     "Model",
     "ModelError",
     "Motion",

@@ -35,6 +35,16 @@ def _plain(value: object) -> object:
 class Record:
     """Plain data: frozen, with equality."""
 
+    _absent: ClassVar[Mapping[str, object]] = {}
+    """Values of attributes that are absent in the JSON output."""
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            if name in self._absent:
+                return self._absent[name]
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+
     def to_dict(self) -> dict[str, Any]:
         """The same as dictionaries, lists, numbers and texts."""
         return {name.rstrip("_"): _plain(value) for name, value in vars(self).items() if not name.startswith("_")}
@@ -55,43 +65,58 @@ class Report(Record):
     """An answer: its attributes are those of the JSON output. `print(answer)` shows what the command line shows."""
 
     _answer: Answer
-    _absent: ClassVar[Mapping[str, object]] = {}
 
-    def __getattr__(self, name: str) -> Any:
-        # The attributes are made when one of them is first asked for.
-        if name.startswith("_") or name not in self.__dataclass_fields__:  # type: ignore[attr-defined]
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            # The attributes are made when one of them is first asked for.
+            if not name.startswith("_"):
+                made = {} if self._is_part else self._answer.fields()
+                self.__dict__.update({**self._absent, **self.__dict__, **made})
+                if name in self.__dict__:
+                    return self.__dict__[name]
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
-        self.__dict__.update(self._absent)
-        self.__dict__.update(self._answer.fields())
-        return self.__dict__[name]
+
+    @property
+    def _is_part(self) -> bool:
+        """Whether it is a part of another answer, whose text and JSON output have it."""
+        return "_answer" not in self.__dict__
 
     def text(self, *, color: bool = False) -> str:
         """The answer in words and tables, as the command line shows it."""
+        if self._is_part:
+            raise TypeError(f"this {type(self).__name__} is a part of another answer, which has the text")
         return self._answer.text(color)
 
     def to_json(self) -> str:
         """The JSON output of the command line."""
-        return self._answer.json()
+        return json.dumps(self.to_dict()) if self._is_part else self._answer.json()
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON output as dictionaries and lists."""
+        if self._is_part:
+            return super().to_dict()
         data: dict[str, Any] = json.loads(self.to_json())
         return data
 
     def __str__(self) -> str:
-        return self.text()
+        return repr(self) if self._is_part else self.text()
 
     def __repr__(self) -> str:
         return f"<slideway.{type(self).__name__}: {self._headline()}>"
 
     def _headline(self) -> str:
         """A line that says what the answer is."""
+        if self._is_part:
+            return "a part of another answer"
         lines = [line.strip() for line in self.text().splitlines()]
         return next((line for line in lines if line), "")
 
     def __getstate__(self) -> dict[str, Any]:
-        schema = self.schema  # noqa: F841  (makes all attributes)
+        getattr(self, "schema")  # noqa: B009  (makes all attributes)
         attributes = {name: value for name, value in self.__dict__.items() if name != "_answer"}
+        if self._is_part:
+            return attributes
         return attributes | {"_answer": Kept(self.text(), self.to_json())}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:

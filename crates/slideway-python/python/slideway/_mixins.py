@@ -24,6 +24,10 @@ def _frozen(numbers: list[float]) -> NDArray[np.float64]:
     return array
 
 
+EMPTY = _frozen([])
+"""An array that is absent in the JSON output."""
+
+
 class Solution:
     """Arrays of a solution."""
 

@@ -141,7 +141,7 @@ def _part(held: tuple[Model, Mapping[str, Any]], shard: tuple[int, int], folder:
     """A task: a shard as rows, or as the path of its file."""
     model, question = held
     if folder is not None:
-        return str(model.sweep(**question, shard=shard, output=folder))
+        return str(model.write_shard(folder, shard, **question))
     return _frame(pyarrow.table(model.sweep(**question, shard=shard)))
 
 

@@ -6,7 +6,7 @@ Written from the sources of the Rust crates by `tools/generate_reports.py`; not 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -590,7 +590,7 @@ class Attainability(Record):
     """Whether the verdict depends on the ratios of the vanishing masses."""
     flutter_damping: FlutterDamping | None = None
     """For flutter: the damping of the contacts that suppresses it."""
-    separates: tuple[Mapping[str, Any], Mapping[str, Any]] | None = None
+    separates: tuple[Mapping[str, Any] | str, Mapping[str, Any] | str] | None = None
     """For an unattainable solution: what becomes of the mechanism on either side of it."""
 
 
@@ -1096,13 +1096,15 @@ class Curve(Record):
 class Direction(Record):
     """The modes of the opposite direction of motion."""
 
+    _absent = {"between_faces_at": _mixins.EMPTY}
+
     modes: tuple[ModeLimits, ...]
     """The modes."""
     counts: tuple[CountLimits, ...]
     """Numbers of solutions."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
     """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
-    between_faces_at: NDArray[np.float64] = ()
+    between_faces_at: NDArray[np.float64] = field(default_factory=lambda: _mixins.EMPTY)
     """Single values at which a guided slider is between its faces; absent if none was found."""
 
 
@@ -1635,7 +1637,7 @@ class LegendEntry(Record):
 class LimitsReport(_mixins.LimitsReport, Report):
     """For which values each mode exists."""
 
-    _absent = {"steps_from_drawing": None, "between_faces_at": (), "reversed": None}
+    _absent = {"steps_from_drawing": None, "between_faces_at": _mixins.EMPTY, "reversed": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2687,6 +2689,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "Attainability": {"eigenvalues": "pairs"},
     "ClosestMode": {"absolute_normal_forces": "array"},
     "Column": {"values": "array"},
+    "Continuum": {"vertices": "arrays", "directions": "arrays"},
     "CountLimits": {"proven": "pairs"},
     "CourseRow": {"efforts": "array", "frictionless": "array"},
     "Curve": {"points": "pairs"},
@@ -2694,7 +2697,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "DrawnLine": {"points": "pairs", "markers": "pairs"},
     "DriveSolution": {"efforts": "array"},
     "Frictionless": {"efforts": "array"},
-    "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array"},
+    "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array", "eta_positive": "arrays", "eta_negative": "arrays"},
     "LimitsReport": {"between_faces_at": "array"},
     "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},
     "RawSolution": {"z": "array", "w": "array", "x": "array", "normal_forces": "array", "y": "array"},

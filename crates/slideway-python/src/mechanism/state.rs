@@ -1,0 +1,85 @@
+//! A mechanism that is put together, and the names in it.
+
+use super::values::End;
+use slideway::drawing::Quantity;
+use slideway::fault::{Fault, FaultKind, nearest};
+use slideway::ids::{BodyId, CoordinateId, Frame, JointId};
+use slideway::{Drawing, Faults};
+
+/// The name of the fixed frame.
+pub(crate) const GROUND: &str = "ground";
+
+/// A mechanism that is put together: its drawing, and the names of what others refer to.
+#[derive(Debug, Clone, Default)]
+pub(super) struct State {
+    pub(super) drawing: Drawing,
+    /// What everything is, and its name.
+    pub(super) names: Vec<(&'static str, String)>,
+    pub(super) bodies: Vec<(String, BodyId)>,
+    pub(super) sliders: Vec<(String, JointId)>,
+    pub(super) coordinates: Vec<(String, CoordinateId)>,
+}
+
+/// Why something cannot be added.
+pub(super) enum Refused {
+    /// The name of something that is not there.
+    Unknown(Faults),
+    /// A name that another has.
+    Taken { what: &'static str, name: String },
+}
+
+impl State {
+    /// Takes a name for a thing of its kind.
+    pub(super) fn claim(&mut self, what: &'static str, name: &str) -> Result<(), Refused> {
+        if self.names.iter().any(|(kind, taken)| *kind == what && taken == name) {
+            return Err(Refused::Taken { what, name: name.to_owned() });
+        }
+        self.names.push((what, name.to_owned()));
+        Ok(())
+    }
+
+    pub(super) fn frame(&self, argument: &str, name: &str) -> Result<Frame, Refused> {
+        if name == GROUND {
+            return Ok(Frame::Ground);
+        }
+        found(&self.bodies, ("body", argument), name).map(Frame::Body)
+    }
+
+    pub(super) fn frames(&self, arguments: [&str; 2], names: [&str; 2]) -> Result<[Frame; 2], Refused> {
+        Ok([self.frame(arguments[0], names[0])?, self.frame(arguments[1], names[1])?])
+    }
+
+    /// The ends of a spring or damper.
+    pub(super) fn ends(&self, [first, second]: [End; 2]) -> Result<[(Frame, [Quantity; 2]); 2], Refused> {
+        Ok([
+            (self.frame("first", &first.body)?, first.place),
+            (self.frame("second", &second.body)?, second.place),
+        ])
+    }
+
+    /// The body that a reaction acts on, if there is one.
+    pub(super) fn reaction(&self, name: Option<&str>) -> Result<Option<Frame>, Refused> {
+        name.map(|name| self.frame("reaction", name)).transpose()
+    }
+}
+
+/// What has this name.
+pub(super) fn found<I: Copy>(
+    all: &[(String, I)],
+    (what, argument): (&'static str, &str),
+    name: &str,
+) -> Result<I, Refused> {
+    if let Some((_, id)) = all.iter().find(|(known, _)| known == name) {
+        return Ok(*id);
+    }
+    let known = || all.iter().map(|(name, _)| name.as_str());
+    let kind = FaultKind::UnknownName {
+        what,
+        name: name.to_owned(),
+        nearest: nearest(name, known()),
+        known: known().map(str::to_owned).collect(),
+    };
+    let text = format!("{argument}={name}");
+    let place = argument.len() + 1..text.len();
+    Err(Refused::Unknown(Fault::of_argument(kind, &text, place).into()))
+}

@@ -1,0 +1,104 @@
+"""The command line and Python give the same bytes."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import DIMENSIONS, MODELS, QUESTIONS, Program
+
+import slideway
+
+
+def test_every_model_has_a_dimension() -> None:
+    assert sorted(DIMENSIONS) == MODELS
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("name", MODELS)
+def test_same_json(program: Program, name: str, question: str) -> None:
+    asked = QUESTIONS[question]
+    model = slideway.Model.gallery(name)
+    said, complaint = program.json(asked.command(name), model.text)
+    try:
+        answer = asked.ask(model, name).to_json()
+    except slideway.ModelError as error:
+        assert said == ""
+        for fault in error.faults:
+            assert fault.message in complaint
+    else:
+        assert answer == said
+
+
+@pytest.mark.parametrize(
+    ("options", "changes"),
+    [
+        (["--set", "mu=0.5", "--rate", "x=-1 m/s"], {"mu": 0.5, "rate": {"x": "-1 m/s"}}),
+        (["--set", "L=450 mm", "--at", "x=0.05"], {"L": "450 mm", "at": {"x": 0.05}}),
+        (["--set", "mu=2/3*L/a", "--units", "mm"], {"mu": "2/3*L/a", "units": "mm"}),
+        (["--time", "2 s", "--units", "SI"], {"time": "2 s", "units": "SI"}),
+    ],
+)
+def test_same_json_with_settings(program: Program, options: list[str], changes: dict[str, Any]) -> None:
+    model = slideway.Model.gallery("drawer")
+    changed = model.with_(**changes)
+    said, _ = program.json(["solve", *options], model.text)
+    assert changed.solve().to_json() == said
+    said, _ = program.json(["limits", "--vary", "mu=0..1", *options], model.text)
+    assert changed.limits("mu", 0, 1).to_json() == said
+
+
+PROBLEMS: dict[str, dict[str, Any]] = {
+    "solve": {"A": [[2.0, -1.0], [0.5, 1.0]], "B": [[0.5, 1.5], [-1.0, 2.0]], "b": [1.0, -3.0]},
+    "lcp": {"M": [[1.0, 2.0], [2.0, 1.0]], "q": [-1.0, -1.0]},
+    "hlcp": {"A": [[1.0, 0.5], [0.0, 1.0]], "B": [[2.0, 0.0], [1.0, 3.0]], "q": [1.0, -2.0]},
+    "mode_problem": {
+        "columns_positive": [[1.0, 0.2], [0.3, 1.0]],
+        "columns_negative": [[1.0, -0.2], [-0.3, 1.0]],
+        "right_hand_side": [1.0, -2.0],
+    },
+}
+
+
+@pytest.mark.parametrize("kind", PROBLEMS)
+@pytest.mark.parametrize("uniqueness", [False, True])
+def test_same_json_of_problems_given_by_matrices(program: Program, kind: str, uniqueness: bool) -> None:
+    problem = PROBLEMS[kind]
+    options = ["--uniqueness"] if uniqueness else []
+    said, complaint = program.json(["modes", *options], json.dumps(problem), "problem.json")
+    answer = getattr(slideway.modes, kind)(*problem.values(), uniqueness=uniqueness)
+    assert answer.to_json() == said, complaint
+
+
+@pytest.mark.parametrize("question", ["solve", "limits", "hold", "drive", "simulate"])
+@pytest.mark.parametrize("name", MODELS)
+def test_same_words(program: Program, name: str, question: str) -> None:
+    asked = QUESTIONS[question]
+    model = slideway.Model.gallery(name)
+    said, complaints = program.run(asked.command(name), model.text)
+    try:
+        answer = asked.ask(model, name)
+    except slideway.ModelError as error:
+        assert said == "" and all(fault.message in complaints for fault in error.faults)
+    else:
+        assert str(answer).strip() == said.strip()
+
+
+def test_colours_only_if_wanted() -> None:
+    answer = slideway.Model.gallery("drawer").solve()
+    assert "\x1b" not in answer.text()
+    assert re.sub(r"\x1b\[[0-9;]*m", "", answer.text(color=True)) == answer.text()
+    assert answer.text(color=True) != answer.text()
+
+
+def test_same_table(program: Program) -> None:
+    model = slideway.Model.gallery("drawer")
+    program.run(["sweep", "--vary", "mu=0..1:41", "--output", "sweep.npz"], model.text)
+    with np.load(program.folder / "sweep.npz") as file:
+        rows = file["rows"]
+    table = model.sweep(mu="0..1:41", breakpoints=True).to_numpy()
+    assert table.dtype == rows.dtype
+    assert table.tobytes() == rows.tobytes()

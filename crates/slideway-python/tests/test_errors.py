@@ -1,0 +1,66 @@
+"""Faults as exceptions, with every fault as an object."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+from slideway import Fault, Model, ModelError
+
+
+def faults(*arguments: object, **changes: object) -> tuple[Fault, ...]:
+    with pytest.raises(ModelError) as caught:
+        Model.gallery("drawer").with_(*arguments, **changes)  # type: ignore[arg-type]
+    return caught.value.faults
+
+
+def test_all_faults_of_a_text_with_their_places() -> None:
+    text = Model.gallery("drawer").text.replace('"5 kg"', '"5 s"').replace('mu = "mu"', 'mu = "mew"')
+    with pytest.raises(ModelError) as caught:
+        Model.parse(text)
+    found = caught.value.faults
+    assert len(found) == 2
+    lines = text.splitlines()
+    for fault in found:
+        assert fault.line is not None and fault.column is not None and fault.text
+        assert lines[fault.line - 1][fault.column - 1 :].startswith(fault.text)
+        assert fault.argument is None and not fault.is_warning
+    assert str(caught.value).splitlines()[0].startswith(f"line {found[0].line}, column {found[0].column}: ")
+
+
+def test_columns_are_counted_in_characters() -> None:
+    with pytest.raises(ModelError) as caught:
+        Model.parse('"ÄÖÜ😀" = 1')
+    assert caught.value.faults[0].line == 1
+
+
+def test_a_misspelt_name_has_a_suggestion() -> None:
+    (fault,) = faults(my=0.5)
+    assert "my" in fault.message and "mu" in (fault.hint or "")
+    assert fault.argument == "my"
+
+
+def test_the_argument_of_a_fault() -> None:
+    assert faults(mu="5 kg")[0].argument == "mu"
+    assert faults(at={"y": 0})[0].argument == 'at["y"]'
+    assert faults(rate={"x": "3 kg"})[0].argument == 'rate["x"]'
+    assert faults(time="3 kg")[0].argument == "time"
+
+
+def test_several_arguments_are_refused_at_once() -> None:
+    assert {fault.argument for fault in faults(my=0.5, L="3 s", rate={"z": 1})} == {"my", "L", 'rate["z"]'}
+
+
+def test_an_exception_can_be_pickled() -> None:
+    with pytest.raises(ModelError) as caught:
+        Model.parse("title = 1")
+    kept = pickle.loads(pickle.dumps(caught.value))
+    assert kept.faults == caught.value.faults and str(kept) == str(caught.value)
+    assert isinstance(kept, ValueError)
+
+
+def test_terminals_are_safe_from_names() -> None:
+    with pytest.raises(ModelError) as caught:
+        Model.parse('"\x1b[31m" = 1'.replace("\x1b", "\\u001b"))
+    assert "\x1b" not in str(caught.value)
