@@ -7,7 +7,8 @@
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
 //! `mechanism` the builder `Mechanism`, `motion.rs` a motion with its table, `to_python.rs` turns values into objects,
-//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `modes.rs` problems given by matrices.
+//! `fault.rs` faults into exceptions, `sweep.rs` tables of many points, `shards.rs` those in parts, `modes.rs` problems
+//! given by matrices.
 
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
@@ -18,6 +19,8 @@ mod mechanism;
 mod model;
 mod modes;
 mod motion;
+#[cfg(feature = "parquet")]
+mod shards;
 mod sweep;
 mod to_python;
 mod work;
@@ -38,6 +41,9 @@ mod _slideway {
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]
     use crate::motion::Motion;
+    #[cfg(feature = "parquet")]
+    #[pymodule_export]
+    use crate::shards::merge;
     #[pymodule_export]
     use crate::sweep::Table;
 }

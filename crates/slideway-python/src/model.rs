@@ -20,6 +20,7 @@ use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
+use slideway::sweep::{Shard, SweepOptions};
 use slideway::units::Unit;
 use slideway::{
     DriveOptions, Faults, HoldOptions, LimitsOptions, MapOptions, SimulateOptions, SizeOptions, SolveOptions,
@@ -29,7 +30,7 @@ use slideway_pictures::drawing::Shown;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A planar mechanism with dry friction, in one state: a model file and what was changed in it. It never changes;
@@ -63,8 +64,8 @@ impl Model {
         question: impl FnOnce(&slideway::Model, &mut Callback<'_>) -> Result<Option<T>, Faults> + Send,
     ) -> PyResult<T> {
         let model = &self.asked.model;
-        let ended =
-            Watch::new(time_limit, progress)?.run(py, |callback| question(model, callback).transpose())?;
+        let ended = Watch::new(time_limit, progress)?
+            .run_beside(py, |callback| question(model, callback).transpose())?;
         ended.whole()?.map_err(|faults| self.refused(py, &faults))
     }
 
@@ -459,10 +460,14 @@ impl Model {
     /// `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
     /// whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
     /// bodies and hinge forces.
+    ///
+    /// `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches; with
+    /// `output`, the path of a folder, it is written there as a Parquet file, unless it is there, and the answer is
+    /// its path. `slideway.merge` makes one table of all parts; `slideway.dask.sweep` computes them on a cluster.
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
-        attainability = false, all_columns = false, time_limit = None, progress: "Progress | None" = None,
-        **values: "str | ArrayLike | Sequence[Value]") -> "_sweep.Sweep")]
+        attainability = false, all_columns = false, shard = None, output = None, time_limit = None,
+        progress: "Progress | None" = None, **values: "str | ArrayLike | Sequence[Value]") -> "_sweep.Sweep")]
     fn sweep<'py>(
         &self,
         py: Python<'py>,
@@ -472,6 +477,8 @@ impl Model {
         breakpoints: bool,
         attainability: bool,
         all_columns: bool,
+        shard: Option<(u32, u32)>,
+        output: Option<PathBuf>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
         values: Option<&Bound<'_, PyDict>>,
@@ -482,8 +489,16 @@ impl Model {
         let sampling = sweep::spread(sampling)?;
         let question = sweep::Question { samples, sampling, seed, breakpoints, attainability, all_columns };
         let options = question.options(&|faults| self.refused(py, &faults), values)?;
-        let table = sweep::table(py, &self.asked, &options, &Watch::new(time_limit, progress)?)?;
-        py.import("slideway._sweep")?.getattr("Sweep")?.call1((table,))
+        let watch = Watch::new(time_limit, progress)?;
+        let shard = shard.map(|(number, of)| Shard::new(number, of)).transpose();
+        let shard = shard.map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))?;
+        match (shard, output) {
+            (Some(shard), Some(folder)) => self.shard(py, (options, shard), (&folder, &watch)),
+            (None, Some(_)) => {
+                Err(PyTypeError::new_err("output is for a shard: give shard=(number, of), too"))
+            }
+            (shard, None) => sweep::table(py, &self.asked, (&options, shard), &watch)?.object(py),
+        }
     }
 
     /// The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and
@@ -633,6 +648,29 @@ impl Model {
 }
 
 impl Model {
+    /// Writes a shard of a sweep into a folder; its path.
+    #[cfg(feature = "parquet")]
+    fn shard<'py>(
+        &self,
+        py: Python<'py>,
+        question: (SweepOptions, Shard),
+        (folder, watch): (&Path, &Watch),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let path = crate::shards::write_shard(py, &self.asked, question, (folder, watch))?;
+        Ok(path.into_pyobject(py)?.into_any())
+    }
+
+    #[cfg(not(feature = "parquet"))]
+    fn shard<'py>(
+        &self,
+        _py: Python<'py>,
+        _question: (SweepOptions, Shard),
+        _written: (&Path, &Watch),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let message = format!("{}: this slideway was built without Parquet files", self.__repr__());
+        Err(pyo3::exceptions::PyNotImplementedError::new_err(message))
+    }
+
     fn against(&self, py: Python<'_>, against: &str, load: Option<String>) -> PyResult<Against> {
         let refused = |kind: FaultKind| Err(self.refused(py, &Fault::general(kind).into()));
         match (against, load) {

@@ -1,9 +1,9 @@
 //! Problems given by matrices: private half of `slideway.modes`.
 
 use crate::answer::Answer;
+use crate::arguments::numbers;
 use crate::work::Watch;
-use numpy::{AllowTypeChange, PyArrayLikeDyn};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use slideway::raw_problem::{Listing, RawFaults, RawKind, RawProblem, solve_with};
 use slideway_modes::{Limits, SearchOptions};
@@ -11,25 +11,10 @@ use slideway_modes::{Limits, SearchOptions};
 /// An array of Python as its name, sizes and entries.
 type Array<'n> = (&'n str, Vec<usize>, Vec<f64>);
 
-/// An array, or what can become one.
+/// An array with its name.
 fn array<'n>(name: &'n str, given: &Bound<'_, PyAny>) -> PyResult<Array<'n>> {
-    let refused = |error: PyErr| {
-        let message = format!("{name} must be an array of real numbers: {error}");
-        if error.is_instance_of::<PyTypeError>(given.py()) {
-            PyTypeError::new_err(message)
-        } else {
-            PyValueError::new_err(message)
-        }
-    };
-    let numpy = given.py().import("numpy")?;
-    let array = numpy.call_method1("asarray", (given,)).map_err(refused)?;
-    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
-    if !"fiu".contains(&kind) {
-        return Err(refused(PyTypeError::new_err(format!("its dtype is {}", array.getattr("dtype")?))));
-    }
-    let array: PyArrayLikeDyn<'_, f64, AllowTypeChange> = array.extract().map_err(refused)?;
-    let view = array.as_array();
-    Ok((name, view.shape().to_vec(), view.iter().copied().collect()))
+    let (sizes, entries) = numbers(name, given)?;
+    Ok((name, sizes, entries))
 }
 
 /// What a search may cost, and what is listed.

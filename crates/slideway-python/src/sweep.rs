@@ -1,11 +1,11 @@
 //! Sweeps: all solutions at many points as one table, shared with NumPy and data frames without a copy.
 
 use crate::answer::Asked;
-use crate::arguments::value;
+use crate::arguments::{numbers, value};
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use pyo3::exceptions::{PyTimeoutError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyTimeoutError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyString, PyTuple};
 use slideway::Faults;
@@ -13,10 +13,11 @@ use slideway::model::Value;
 use slideway::progress::Progress;
 use slideway::report::Style;
 use slideway::sweep::{
-    GridAxis, SampledAxis, Sampling, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
+    GridAxis, Rows, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
 };
 use slideway_tables::arrow::Batches;
-use slideway_tables::{Encoder, Layout};
+use slideway_tables::{Encoder, Layout, RowSource, TableError};
+use std::error::Error;
 use std::sync::Arc;
 
 /// What is asked of a sweep beside its axes.
@@ -45,16 +46,13 @@ impl Question {
                 "give what is varied, such as sweep(mu=numpy.linspace(0, 1, 101))",
             ));
         }
-        let points = match self.samples {
-            Some(count) => {
-                let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
-                let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
-                SweepPoints::Samples(sampling, axes.collect::<PyResult<_>>()?)
-            }
-            None => {
-                let axes = named.iter().map(|(name, values)| grid(refused, name, values));
-                SweepPoints::Grid(axes.collect::<PyResult<_>>()?)
-            }
+        let points = if let Some(count) = self.samples {
+            let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
+            let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
+            SweepPoints::Samples(sampling, axes.collect::<PyResult<_>>()?)
+        } else {
+            let axes = named.iter().map(|(name, values)| grid(refused, name, values));
+            SweepPoints::Grid(axes.collect::<PyResult<_>>()?)
         };
         Ok(SweepOptions::over(points)
             .breakpoints(self.breakpoints)
@@ -71,12 +69,13 @@ fn grid(refused: &dyn Fn(Faults) -> PyErr, name: &str, values: &Bound<'_, PyAny>
     if let Ok(number) = value(name, values) {
         return Ok(GridAxis::listed(name, [number]));
     }
-    if let Ok(numbers) = values.extract::<numpy::PyArrayLike1<'_, f64, numpy::AllowTypeChange>>() {
-        let numbers = numbers.as_array();
+    if let Ok((sizes, numbers)) = numbers(name, values)
+        && sizes.len() == 1
+    {
         if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
             return Err(PyValueError::new_err(format!("the values of {name} must be finite, not {number}")));
         }
-        return Ok(GridAxis::listed(name, numbers.iter().copied()));
+        return Ok(GridAxis::listed(name, numbers));
     }
     let wanted =
         || format!("{name} must be an array or list of numbers or texts, or a text such as \"0..1:101\"");
@@ -117,30 +116,80 @@ pub(crate) struct Table {
     records: Arc<Vec<u8>>,
 }
 
-/// Computes a sweep.
-pub(crate) fn table(py: Python<'_>, asked: &Asked, options: &SweepOptions, watch: &Watch) -> PyResult<Table> {
-    let refused = |faults: Faults| asked.refused(py, &faults);
-    let prepared = watch.run(py, |callback| Sweep::new_with(&asked.model, options, callback).transpose())?;
-    let sweep = prepared.whole()?.map_err(refused)?;
-    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
-    let mut state = sweep.start();
-    let points = sweep.points();
-    let ended = watch.run(py, |callback| {
-        let mut records = Vec::new();
-        sweep.run(&mut state, &|rows| Encoder::records(&layout, rows), &mut |parts, state| {
-            parts.iter().for_each(|part| records.extend_from_slice(part));
-            callback(&Progress::of("points", state.done, points))
-        });
-        records
-    })?;
-    match ended {
-        Ended::Done(records) => Ok(Table { sweep, state, layout, records: Arc::new(records) }),
-        Ended::TimeUp(_) => {
-            let done = state.done;
-            let message = format!("the sweep was not done within time_limit: {done} of {points} points");
-            Err(PyTimeoutError::new_err(message))
+impl Table {
+    /// As an object of `slideway.Sweep`.
+    pub(crate) fn object(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        py.import("slideway._sweep")?.getattr("Sweep")?.call1((self,))
+    }
+
+    /// The rows of a source, as long as nothing ends the work.
+    pub(crate) fn of(
+        py: Python<'_>,
+        (source, layout): (RowSource<'_>, Layout),
+        watch: &Watch,
+    ) -> PyResult<Self> {
+        let mut state = source.sweep().start();
+        let points = source.sweep().points();
+        let ended = watch.run_beside(py, |callback| {
+            let mut records = Vec::new();
+            let encode = |rows: &Rows| Encoder::records(&layout, rows);
+            let read = source.run_while(&|| true, &mut state, &encode, &mut |parts, state| {
+                parts.iter().for_each(|part| records.extend_from_slice(part));
+                callback(&Progress::of("points", state.done, points))
+            });
+            read.map(|()| records)
+        })?;
+        let is_done = state.done == points;
+        match ended {
+            Ended::Done(records) | Ended::TimeUp(records) if is_done => {
+                let sweep = source.sweep().clone();
+                Ok(Self {
+                    sweep,
+                    state,
+                    layout,
+                    records: Arc::new(records.map_err(|error| os_error(&error))?),
+                })
+            }
+            _ => Err(unfinished(&state, points)),
         }
     }
+}
+
+/// That there was no time for all points.
+pub(crate) fn unfinished(state: &SweepState, points: u64) -> PyErr {
+    let done = state.done;
+    PyTimeoutError::new_err(format!("the sweep was not done within time_limit: {done} of {points} points"))
+}
+
+/// What is wrong with files.
+pub(crate) fn os_error(error: &TableError) -> PyErr {
+    let hint = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+    PyOSError::new_err(format!("{error}{hint}"))
+}
+
+/// A sweep of a model that is ready to be computed, with its exact ends of modes.
+pub(crate) fn prepared(
+    py: Python<'_>,
+    asked: &Asked,
+    options: &SweepOptions,
+    watch: &Watch,
+) -> PyResult<Sweep> {
+    let model = &asked.model;
+    let sweep = watch.run_beside(py, |callback| Sweep::new_with(model, options, callback).transpose())?;
+    sweep.whole()?.map_err(|faults| asked.refused(py, &faults))
+}
+
+/// Computes a sweep, or one shard of it.
+pub(crate) fn table(
+    py: Python<'_>,
+    asked: &Asked,
+    (options, shard): (&SweepOptions, Option<Shard>),
+    watch: &Watch,
+) -> PyResult<Table> {
+    let whole = prepared(py, asked, options, watch)?;
+    let sweep = shard.map_or_else(|| whole.clone(), |shard| whole.shard(shard));
+    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
+    Table::of(py, (RowSource::Sweep(&sweep), layout), watch)
 }
 
 #[pymethods]

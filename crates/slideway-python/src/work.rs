@@ -1,9 +1,14 @@
 //! Work without the interpreter: it ends when its time is up, on Ctrl-C, and when a callback raises.
 
-use pyo3::exceptions::{PyTimeoutError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 use slideway::progress::{Callback, Progress};
 use std::ops::ControlFlow;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Time between two looks at signals, and between two calls of a callback.
@@ -66,7 +71,7 @@ impl Watch {
         Ok(Self { limit, progress })
     }
 
-    /// Runs work without the interpreter.
+    /// Runs work without the interpreter, on this thread.
     ///
     /// # Errors
     /// What Ctrl-C or the callback raised.
@@ -79,31 +84,92 @@ impl Watch {
         let mut looked = begun;
         let mut halt = None;
         let mut look = |progress: &Progress| {
-            if halt.is_some() {
-                return ControlFlow::Break(());
-            }
-            let now = Instant::now();
-            if self.limit.is_some_and(|limit| now - begun >= limit) {
+            if halt.is_none() && looked.elapsed() >= BETWEEN {
+                looked = Instant::now();
+                halt = self.look(begun, Some(*progress));
+            } else if halt.is_none() && self.is_up(begun) {
                 halt = Some(Halt::TimeUp);
-            } else if now - looked >= BETWEEN {
-                looked = now;
-                halt = Python::attach(|py| self.tell(py, progress)).err().map(Halt::Raised);
             }
             if halt.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let value = py.detach(|| work(&mut look));
-        match halt {
-            None => Ok(Ended::Done(value)),
-            Some(Halt::TimeUp) => Ok(Ended::TimeUp(value)),
-            Some(Halt::Raised(error)) => Err(error),
-        }
+        let value = py.detach(|| panic::catch_unwind(AssertUnwindSafe(|| work(&mut look))));
+        ended(value, halt)
     }
 
-    fn tell(&self, py: Python<'_>, progress: &Progress) -> PyResult<()> {
+    /// The same on a thread of its own: for work that is done, and told of, by many threads. Python hears of
+    /// Ctrl-C only on the one that called.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub(crate) fn run_beside<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut Callback<'_>) -> T + Send,
+    ) -> PyResult<Ended<T>> {
+        let begun = Instant::now();
+        let stop = AtomicBool::new(false);
+        let latest = Mutex::new(None);
+        let (value, halt) = py.detach(|| {
+            thread::scope(|scope| {
+                let (done, is_done) = mpsc::channel::<()>();
+                let (stop, latest) = (&stop, &latest);
+                let worker = scope.spawn(move || {
+                    // Dropped at the end, which wakes the thread that waits.
+                    let _done = done;
+                    work(&mut |progress| {
+                        *latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(*progress);
+                        if stop.load(Ordering::Relaxed) {
+                            ControlFlow::Break(())
+                        } else {
+                            ControlFlow::Continue(())
+                        }
+                    })
+                });
+                let mut halt = None;
+                while is_done.recv_timeout(BETWEEN) == Err(RecvTimeoutError::Timeout) {
+                    if halt.is_none() {
+                        let progress = *latest.lock().unwrap_or_else(PoisonError::into_inner);
+                        halt = self.look(begun, progress);
+                        stop.store(halt.is_some(), Ordering::Relaxed);
+                    }
+                }
+                (worker.join(), halt)
+            })
+        });
+        ended(value, halt)
+    }
+
+    fn is_up(&self, begun: Instant) -> bool {
+        self.limit.is_some_and(|limit| begun.elapsed() >= limit)
+    }
+
+    /// What ends work now, if anything does.
+    fn look(&self, begun: Instant, progress: Option<Progress>) -> Option<Halt> {
+        if self.is_up(begun) {
+            return Some(Halt::TimeUp);
+        }
+        Python::attach(|py| self.tell(py, progress)).err().map(Halt::Raised)
+    }
+
+    fn tell(&self, py: Python<'_>, progress: Option<Progress>) -> PyResult<()> {
         py.check_signals()?;
-        if let Some(callback) = &self.progress {
+        if let (Some(callback), Some(progress)) = (&self.progress, progress) {
             callback.call1(py, (progress.fraction, progress.done, progress.counted))?;
         }
         Ok(())
+    }
+}
+
+/// What came of work, as far as it panicked or was ended.
+fn ended<T>(value: thread::Result<T>, halt: Option<Halt>) -> PyResult<Ended<T>> {
+    let value = value.map_err(|panic| {
+        let words = panic.downcast_ref::<String>().map(String::as_str);
+        let words = words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("unknown");
+        PyRuntimeError::new_err(format!("slideway has a fault, please report it: {words}"))
+    })?;
+    match halt {
+        None => Ok(Ended::Done(value)),
+        Some(Halt::TimeUp) => Ok(Ended::TimeUp(value)),
+        Some(Halt::Raised(error)) => Err(error),
     }
 }

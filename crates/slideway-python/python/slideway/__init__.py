@@ -21,7 +21,7 @@ model.
 from . import modes, reports
 from ._errors import Fault, ModelError
 from ._motion import Motion
-from ._slideway import GROUND, Mechanism, Model, gallery_models
+from ._slideway import GROUND, Mechanism, Model, gallery_models, merge
 from ._sweep import Sweep
 
 __all__ = [
@@ -33,6 +33,7 @@ __all__ = [
     "Motion",
     "Sweep",
     "gallery_models",
+    "merge",
     "modes",
     "reports",
 ]

@@ -85,10 +85,10 @@ class Sweep:
         return polars.DataFrame(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table as a data frame of pandas."""
-        import pandas
+        """The table as a data frame of pandas, by way of pyarrow: as pandas reads it from a Parquet file."""
+        import pyarrow
 
-        return pandas.DataFrame(dict(self))
+        return pyarrow.table(self).to_pandas()
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)

@@ -702,7 +702,6 @@ impl Mechanism {
     /// -------
     /// str
     ///     The name.
-    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", slider: "str", *, drawn_at: "Value | None" = None,
         value: "Value | None" = None, rate: "Value | None" = None) -> "str")]
     fn slide(

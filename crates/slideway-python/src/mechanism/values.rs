@@ -114,7 +114,7 @@ impl BlockEnd {
                 .extract()
                 .map_err(|_| PyTypeError::new_err(format!("the keys of {name} must be texts")))?;
             if !OF_AN_END.contains(&key.as_str()) {
-                let meant = nearest(&key, OF_AN_END.into_iter());
+                let meant = nearest(&key, OF_AN_END);
                 let meant = meant.map_or_else(
                     || format!("it has {}", OF_AN_END.join(", ")),
                     |near| format!("did you mean {near:?}?"),

@@ -120,8 +120,11 @@ impl Quantity {
     }
 }
 
-/// A parameter may be of any dimension, but what uses it may not.
+/// A parameter may be of any dimension, but what uses it may not; a number is in SI units whatever it is.
 fn dimension(model: &Model, name: &str, value: &Value) -> Result<(), AxisProblem> {
+    if matches!(value, Value::Number(_)) {
+        return Ok(());
+    }
     let Err(faults) = model.with(&Settings::default().parameter(name, value.clone())) else { return Ok(()) };
     let wrong = |kind: &FaultKind| matches!(kind, FaultKind::WrongDimension { .. });
     if faults.sorted().iter().any(|fault| wrong(&fault.kind)) {

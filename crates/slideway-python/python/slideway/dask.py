@@ -1,0 +1,158 @@
+"""Sweeps over a cluster, with Dask: `pip install slideway[dask]`.
+
+A sweep is cut into shards, as `slideway sweep --shard` cuts it: chunks that take seconds, so that Dask's share of the
+time is small. Each is a task of its own; one whose worker dies is computed again by another.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import dask.dataframe as dd
+import pandas
+import pyarrow
+import pyarrow.parquet
+
+from . import __version__
+from ._slideway import Model
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+__all__ = ["sweep"]
+
+# The longest that is spent here on finding out how long a point takes (s).
+_TRIAL = 1.0
+_RETRIES = 3
+
+
+def sweep(
+    model: Model,
+    client: Client,
+    *,
+    output: str | Path | None = None,
+    shards: int | None = None,
+    chunk_seconds: float = 5.0,
+    options: Mapping[str, Any] | None = None,
+    **values: Any,
+) -> dd.DataFrame:
+    """All solutions at every point of a sweep, computed by the workers of a cluster.
+
+    Parameters
+    ----------
+    model
+        The model.
+    client
+        A client of `dask.distributed`.
+    output
+        A folder that all workers reach: each shard becomes a Parquet file there, with the rows and the name that
+        `slideway sweep --shard` gives it. Shards that are there already are left as they are, so that an interrupted
+        sweep goes on. Without it the rows stay in the memory of the workers.
+    shards
+        How many shards. By default as many as let each take about `chunk_seconds` on one core of this machine, as a
+        short trial tells.
+    chunk_seconds
+        See `shards` (s).
+    options
+        Options of `Model.sweep`: `samples`, `seed`, `attainability` ...
+    **values
+        What is varied, as for `Model.sweep`.
+
+    Returns
+    -------
+    dask.dataframe.DataFrame
+        The rows, a partition for each shard. They have no numbers of branches, which only the whole sweep can give:
+        `slideway.merge(output)` does.
+
+    Raises
+    ------
+    ModelError
+        The model or the axes make no sense: once, before anything is sent.
+    RuntimeError
+        The workers have another version of slideway.
+
+    Examples
+    --------
+    >>> from distributed import Client                                          # doctest: +SKIP
+    >>> with Client() as client:                                                # doctest: +SKIP
+    ...     frame = slideway.dask.sweep(model, client, mu=np.linspace(0, 1, 10**7))
+    ...     frame.groupby("status").size().compute()
+    """
+    _compare_versions(client)
+    question = dict(options or {}) | values
+    meta = _frame(pyarrow.table(model.sweep(**question, shard=(1, 1 << 31))))
+    if shards is None:
+        shards = _shards(model, question, chunk_seconds)
+    parts = list(range(1, shards + 1))
+    folder = None if output is None else str(Path(output).absolute())
+    # Arrays are sent once, not with each task; as a task, so that they are there again if their worker dies.
+    held = client.submit(_held, model, question)
+    name = f"slideway-sweep-{str(held.key)[-16:]}-{shards}" + ("" if folder is None else "-files")
+    futures = [
+        client.submit(_part, held, (part, shards), folder, key=f"{name}-{part}", retries=_RETRIES, pure=True)
+        for part in parts
+    ]
+    if folder is None:
+        frame: dd.DataFrame = dd.from_delayed(futures, meta=meta, verify_meta=False)
+        return frame
+    paths = client.gather(futures)
+    written: dd.DataFrame = dd.from_map(_read, paths, meta=meta)
+    return written
+
+
+def _compare_versions(client: Client) -> None:
+    """Workers of another version might give other rows."""
+    others = {worker: found for worker, found in client.run(_version).items() if found != __version__}
+    if others:
+        told = ", ".join(f"{worker} has {found}" for worker, found in sorted(others.items()))
+        raise RuntimeError(f"this is slideway {__version__}, but {told}")
+
+
+def _version() -> str:
+    import slideway
+
+    return slideway.__version__
+
+
+def _shards(model: Model, question: Mapping[str, Any], chunk_seconds: float) -> int:
+    """How many shards let each take so many seconds, as ever larger parts of the sweep tell."""
+    if not (chunk_seconds > 0.0 and math.isfinite(chunk_seconds)):
+        raise ValueError(f"chunk_seconds must be a positive number, not {chunk_seconds}")
+    of, begun = 1 << 24, time.perf_counter()
+    while True:
+        start = time.perf_counter()
+        model.sweep(**question, shard=(of // 2 or 1, of))
+        end = time.perf_counter()
+        # A trial that takes a tenth of its time tells enough; it uses all cores here, a worker one.
+        if of == 1 or end - start > 0.1 * _TRIAL or end - begun > _TRIAL:
+            break
+        of = max(1, of // 8)
+    return max(1, min(of, round((end - start) * of / chunk_seconds)))
+
+
+def _held(model: Model, question: Mapping[str, Any]) -> tuple[Model, Mapping[str, Any]]:
+    """A task: what all others need."""
+    return model, question
+
+
+def _part(held: tuple[Model, Mapping[str, Any]], shard: tuple[int, int], folder: str | None) -> pandas.DataFrame | str:
+    """A task: a shard as rows, or as the path of its file."""
+    model, question = held
+    if folder is not None:
+        return str(model.sweep(**question, shard=shard, output=folder))
+    return _frame(pyarrow.table(model.sweep(**question, shard=shard)))
+
+
+def _read(path: str) -> pandas.DataFrame:
+    return _frame(pyarrow.parquet.read_table(path))
+
+
+def _frame(table: pyarrow.Table) -> pandas.DataFrame:
+    """Words as Dask has them, whether the rows come from memory or from a file."""
+    words = {pyarrow.string(): pandas.StringDtype("pyarrow")}
+    return table.to_pandas(types_mapper=words.get)
+
