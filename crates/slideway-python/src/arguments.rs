@@ -28,28 +28,6 @@ pub(crate) fn value(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     }
 }
 
-/// The sizes of an array, or of what can become one, and its entries row by row.
-pub(crate) fn numbers(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<f64>)> {
-    let refused = |error: PyErr| {
-        let message = format!("{name} must be an array of real numbers: {}", error.value(given.py()));
-        if error.is_instance_of::<PyTypeError>(given.py()) {
-            PyTypeError::new_err(message)
-        } else {
-            PyValueError::new_err(message)
-        }
-    };
-    let numpy = given.py().import("numpy")?;
-    let array = numpy.call_method1("asarray", (given,)).map_err(refused)?;
-    let dtype = array.getattr("dtype")?;
-    if !"fiu".contains(&dtype.getattr("kind")?.extract::<String>()?) {
-        return Err(refused(PyTypeError::new_err(format!("its dtype is {dtype}"))));
-    }
-    // Where Dask or a file has put it, an array may be neither contiguous nor aligned.
-    let array = numpy.call_method1("require", (array, "f8", "CA")).map_err(refused)?;
-    let array = array.cast_into::<PyArrayDyn<f64>>()?;
-    Ok((array.shape().to_vec(), array.to_vec()?))
-}
-
 /// The same for a drawing.
 pub(crate) fn quantity(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Quantity> {
     Ok(match value(name, object)? {
@@ -85,6 +63,28 @@ pub(crate) fn sequence<'py>(
     let refused =
         |_| PyTypeError::new_err(format!("{name} must be a sequence of {what}, not of type {kind}"));
     object.extract().map_err(refused)
+}
+
+/// The sizes of an array, or of what can become one, and its entries row by row.
+pub(crate) fn numbers(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<f64>)> {
+    let refused = |error: PyErr| {
+        let message = format!("{name} must be an array of real numbers: {}", error.value(given.py()));
+        if error.is_instance_of::<PyTypeError>(given.py()) {
+            PyTypeError::new_err(message)
+        } else {
+            PyValueError::new_err(message)
+        }
+    };
+    let numpy = given.py().import("numpy")?;
+    let array = numpy.call_method1("asarray", (given,)).map_err(refused)?;
+    let dtype = array.getattr("dtype")?;
+    if !"fiu".contains(&dtype.getattr("kind")?.extract::<String>()?) {
+        return Err(refused(PyTypeError::new_err(format!("its dtype is {dtype}"))));
+    }
+    // Where Dask or a file has put it, an array may be neither contiguous nor aligned.
+    let array = numpy.call_method1("require", (array, "f8", "CA")).map_err(refused)?;
+    let array = array.cast_into::<PyArrayDyn<f64>>()?;
+    Ok((array.shape().to_vec(), array.to_vec()?))
 }
 
 /// What `with_` changes: parameters and coordinates by their names, rates, the time.

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use slideway::fault::{Fault, FaultKind, nearest};
 use slideway::limits::{curves_with, rest_limits_with};
-use slideway::map::{ColourBy, map_with};
+use slideway::map::{ColourBy, GREATEST_SIZE, map_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Setting, SettingKind, Settings};
 use slideway::modes::{Limits, SearchOptions};
@@ -28,6 +28,7 @@ use slideway::{
 use slideway_pictures::drawing::Shown;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -404,6 +405,7 @@ impl Model {
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        within("rows", rows, 2..=slideway::drive::GREATEST_ROWS)?;
         let vary = vary.map(|name| vary_between(name, between)).transpose()?;
         let options = DriveOptions::default().vary(vary).rows(rows);
         let report = self.ask(py, (time_limit, progress), |model, callback| {
@@ -441,6 +443,8 @@ impl Model {
         };
         let mut options = MapOptions::new(x, y).colour_by(colours(colour_by)?);
         if let Some((width, height)) = size {
+            within("width and height in size", width, 1..=GREATEST_SIZE)?;
+            within("width and height in size", height, 1..=GREATEST_SIZE)?;
             options = options.size(width, height);
         }
         if let Some(pixels) = probe {
@@ -765,6 +769,15 @@ fn limit(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(f64, Option<Unit>)> 
     } else {
         Err(PyValueError::new_err(format!("{name} must be {wanted}")))
     }
+}
+
+/// Refuses a count outside of its range.
+fn within(name: &str, count: usize, range: RangeInclusive<usize>) -> PyResult<()> {
+    if range.contains(&count) {
+        return Ok(());
+    }
+    let (least, most) = range.into_inner();
+    Err(PyValueError::new_err(format!("{name} must be from {least} to {most}, not {count}")))
 }
 
 /// The limits of a search.

@@ -19,6 +19,7 @@ OUTPUT = HERE / "python" / "slideway" / "_slideway.pyi"
 # What annotations of the sources name, which maturin does not know of.
 IMPORTS = """from collections.abc import Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, final, overload
 
 import numpy as np
@@ -35,6 +36,11 @@ SIMPLER = {
     "-> dict:": "-> dict[str, Any]:",
     "-> tuple:": "-> tuple[str, ...]:",
 }
+# Arguments with which an answer is of another type.
+OTHER_ANSWERS = {
+    "all_branches": ("int", "reports.TreeReport"),
+    "output": ("str | PathLike[str]", "Path"),
+}
 
 
 def made() -> str:
@@ -50,13 +56,13 @@ def signature(line: str) -> str:
     line = re.sub(r'(?<=: )"([^"]*)"(?=[,) =])|(?<=-> )"([^"]*)"(?=:)', lambda found: found[1] or found[2], line)
     for long, short in SIMPLER.items():
         line = line.replace(long, short)
-    if "all_branches: int | None = None" not in line:
-        return line
-    # With this argument the answer is of another type.
-    one = line.replace("all_branches: int | None = None", "all_branches: None = None")
-    tree = line.replace("all_branches: int | None = None", "all_branches: int")
-    tree = tree.replace("-> _motion.Motion:", "-> reports.TreeReport: ...")
-    return f"    @overload\n{tree}\n    @overload\n{one}"
+    for name, (type_, answer) in OTHER_ANSWERS.items():
+        if f"{name}: {type_} | None = None" in line:
+            other = line.replace(f"{name}: {type_} | None = None", f"{name}: {type_}")
+            other = re.sub(r"-> .*:", f"-> {answer}: ...", other)
+            line = line.replace(f"{name}: {type_} | None = None", f"{name}: None = None")
+            return f"    @overload\n{other}\n    @overload\n{line}"
+    return line
 
 
 def written() -> str:

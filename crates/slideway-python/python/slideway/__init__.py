@@ -9,7 +9,7 @@ several. This package finds all of them, with their contact modes.
 >>> answer.status
 'one'
 >>> answer.solutions[0].normal_forces
-array([ 5.58..., -9.23...])
+array([ 27.27..., -27.27...])
 >>> model.with_(mu=1.2).solve().status
 'none'
 

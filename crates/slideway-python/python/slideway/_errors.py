@@ -42,7 +42,7 @@ class ModelError(ValueError):
     ...     slideway.Model.gallery("drawer").with_(my=0.5)
     ... except slideway.ModelError as error:
     ...     print(error.faults[0].message)
-    there is no parameter `my`...
+    there is no parameter named `my`
     """
 
     faults: tuple[Fault, ...]

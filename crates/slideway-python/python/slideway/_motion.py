@@ -38,6 +38,8 @@ class Motion:
     def sol(self, t: ArrayLike) -> NDArray[np.float64]:
         """The same at other times, between which is interpolated as the solver does it. Times outside of the motion
         are NaN."""
+        if np.ndim(t) > 1:
+            raise ValueError("t must be a time or a list of times")
         times = np.atleast_1d(np.asarray(t, dtype=np.float64))
         inside = (times >= self.t[0]) & (times <= self.t[-1])
         states = np.full((len(self.coordinates) * 2, len(times)), np.nan)

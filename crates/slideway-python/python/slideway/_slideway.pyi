@@ -6,6 +6,7 @@ Written by `tools/generate_stubs.py`; not to be edited.
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, final, overload
 
 import numpy as np
@@ -15,7 +16,7 @@ from . import _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "lcp", "mode_problem", "solve"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "lcp", "merge", "mode_problem", "solve"]
 
 GROUND: Final[str]
 """
@@ -611,7 +612,10 @@ class Model:
         `max_solutions` are listed; all are counted. The search ends after `max_nodes` nodes or `time_limit`
         seconds; the answer is then partial.
         """
-    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
+    @overload
+    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, output: str | PathLike[str], time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> Path: ...
+    @overload
+    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, output: None = None, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
         """
         All solutions at every point of a grid, or of random samples: a table, a `Sweep`.
 
@@ -625,6 +629,10 @@ class Model:
         `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
         whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
         bodies and hinge forces.
+
+        `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches; with
+        `output`, the path of a folder, it is written there as a Parquet file, unless it is there, and the answer is
+        its path. `slideway.merge` makes one table of all parts; `slideway.dask.sweep` computes them on a cluster.
         """
     @property
     def text(self, /) -> str:
@@ -742,6 +750,11 @@ def hlcp(a: ArrayLike, b: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> r
 def lcp(m: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
     """
     All solutions of `w = M z + q`.
+    """
+
+def merge(folder: str | PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None) -> _sweep.Sweep:
+    """
+    One table of all shards in a folder.
     """
 
 def mode_problem(columns_positive: ArrayLike, columns_negative: ArrayLike, right_hand_side: ArrayLike, jumps: tuple[ArrayLike, ArrayLike] | None, options: dict[str, Any]) -> reports.RawReport:

@@ -91,15 +91,17 @@ def sweep(
     folder = None if output is None else str(Path(output).absolute())
     # Arrays are sent once, not with each task; as a task, so that they are there again if their worker dies.
     held = client.submit(_held, model, question)
-    name = f"slideway-sweep-{held.key[-16:]}-{shards}" + ("" if folder is None else "-files")
+    name = f"slideway-sweep-{str(held.key)[-16:]}-{shards}" + ("" if folder is None else "-files")
     futures = [
         client.submit(_part, held, (part, shards), folder, key=f"{name}-{part}", retries=_RETRIES, pure=True)
         for part in parts
     ]
     if folder is None:
-        return dd.from_delayed(futures, meta=meta, verify_meta=False)
+        frame: dd.DataFrame = dd.from_delayed(futures, meta=meta, verify_meta=False)
+        return frame
     paths = client.gather(futures)
-    return dd.from_map(_read, paths, meta=meta)
+    written: dd.DataFrame = dd.from_map(_read, paths, meta=meta)
+    return written
 
 
 def _compare_versions(client: Client) -> None:

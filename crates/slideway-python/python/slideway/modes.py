@@ -4,8 +4,8 @@
 >>> answer = slideway.modes.lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, -1.0])
 >>> answer.complete
 'proven'
->>> sorted(tuple(solution.z.round(4)) for solution in answer)
-[(0.0, 1.0), (0.3333, 0.3333), (1.0, 0.0)]
+>>> sorted(solution.z.round(4).tolist() for solution in answer)
+[[0.0, 1.0], [0.3333, 0.3333], [1.0, 0.0]]
 """
 
 from __future__ import annotations
