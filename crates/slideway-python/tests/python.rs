@@ -36,6 +36,13 @@ fn environment(target: &Path, requirements: &Path) -> PathBuf {
     python
 }
 
+/// What PATH is with this folder before all others.
+fn path_with(folder: &Path) -> std::ffi::OsString {
+    let others = env::var_os("PATH").unwrap_or_default();
+    let folders = std::iter::once(folder.to_owned()).chain(env::split_paths(&others));
+    env::join_paths(folders).expect("folders without separators")
+}
+
 #[test]
 fn the_package_passes_its_tests() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -54,5 +61,12 @@ fn the_package_passes_its_tests() {
     let install =
         ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--force-reinstall", "--no-deps"];
     run(Command::new(&python).args(install).arg(wheel));
-    run(Command::new(&python).args(["-m", "pytest", "-q"]).current_dir(package));
+    let program = target.join("debug").join("slideway");
+    let tests = ["-m", "pytest", "-q", "--nbmake", "--nbmake-timeout=900", "tests", "notebooks"];
+    run(Command::new(&python)
+        .args(tests)
+        .current_dir(package)
+        .env("CARGO_TARGET_DIR", target)
+        .env("SLIDEWAY", program)
+        .env("PATH", path_with(python.parent().expect("a folder of programs"))));
 }
