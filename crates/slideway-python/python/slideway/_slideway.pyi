@@ -16,7 +16,7 @@ from . import _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "lcp", "merge", "mode_problem", "solve"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "lcp", "merge", "mode_problem", "png", "printable", "solve", "theme"]
 
 GROUND: Final[str]
 """
@@ -28,9 +28,18 @@ class Answer:
     """
     A report, and what its pictures are made of.
     """
-    def drawing(self, /, theme_name: str, solution: int | None = None) -> str:
+    def drawing(self, /, theme_name: str, solution: int | None = None, gap_state: int | None = None) -> str:
         """
-        A drawing of the mechanism and its solutions, or of one of them, counted from 1, as SVG.
+        A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
+        1, as SVG.
+        """
+    def drawn(self, /, width: float, height: float) -> list[slideway.reports.DrawnPanel]:
+        """
+        What the panels of the plot show in frames of this width and height (px, of which small text has 13).
+        """
+    def drawn_map(self, /, theme_name: str) -> slideway.reports.DrawnMap:
+        """
+        A map in words and colours.
         """
     def fields(self, /) -> dict[str, object]:
         """
@@ -43,6 +52,10 @@ class Answer:
     def json(self, /) -> str:
         """
         The JSON output.
+        """
+    def parts(self, /) -> list[str]:
+        """
+        The answer in HTML: for solutions what they have in common, then a part for each; for limits one part.
         """
     def pixels(self, /) -> list[int]:
         """
@@ -503,9 +516,17 @@ class Model:
     def __hash__(self, /) -> int: ...
     def __reduce__(self, /) -> tuple[object, ...]: ...
     def __repr__(self, /) -> str: ...
-    def _drawing(self, /, theme_name: str = "light") -> str:
+    def _coordinate_texts(self, /) -> list[tuple[str, str, str]]:
         """
-        The mechanism alone as SVG.
+        The coordinates as texts: name, value and rate.
+        """
+    def _parameter_texts(self, /) -> list[tuple[str, str, str]]:
+        """
+        The parameters as texts: name, value, and the range between whose ends it is known, if it has one.
+        """
+    def _repr_html_(self, /) -> str:
+        """
+        What a notebook shows: the drawing, parameters, coordinates and warnings.
         """
     @staticmethod
     def _restore(text: str, kept_settings: Sequence[tuple[str, str, Value]], units_name: str | None) -> Model:
@@ -520,6 +541,13 @@ class Model:
     def coordinates(self, /) -> list[str]:
         """
         The names of its coordinates.
+        """
+    def draw(self, /, solution: int | None = None, *, theme: str = "light") -> slideway.Drawing:
+        """
+        A drawing of the mechanism in this state, and of one of its solutions, counted from 1, if one is asked for.
+
+        `theme` is "light" or "dark". The drawing shows itself in a notebook; `drawing.svg` is its text, and
+        `drawing.save("mechanism.svg")` or `"mechanism.png"` writes a file.
         """
     def drive(self, /, vary: str | None = None, between: Range | None = None, *, rows: int = 41, time_limit: float | None = None, progress: Progress | None = None) -> reports.DriveReport:
         """
@@ -612,10 +640,7 @@ class Model:
         `max_solutions` are listed; all are counted. The search ends after `max_nodes` nodes or `time_limit`
         seconds; the answer is then partial.
         """
-    @overload
-    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, output: str | PathLike[str], time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> Path: ...
-    @overload
-    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, output: None = None, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
+    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
         """
         All solutions at every point of a grid, or of random samples: a table, a `Sweep`.
 
@@ -630,9 +655,8 @@ class Model:
         whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
         bodies and hinge forces.
 
-        `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches; with
-        `output`, the path of a folder, it is written there as a Parquet file, unless it is there, and the answer is
-        its path. `slideway.merge` makes one table of all parts; `slideway.dask.sweep` computes them on a cluster.
+        `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches;
+        `write_shard` writes it to a folder, and `slideway.dask.sweep` computes all of them on a cluster.
         """
     @property
     def text(self, /) -> str:
@@ -654,6 +678,12 @@ class Model:
 
         Raises `ModelError` for names that do not exist and values that make no sense.
         """
+    def write_shard(self, /, output: str | PathLike[str], shard: tuple[int, int], *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> Path:
+        """
+        Computes a part of a sweep, such as `shard=(3, 64)`, the third of 64, and writes it into the folder `output`
+        as a Parquet file, unless it is there: the path of the file. `slideway.merge` makes one table of all parts.
+        Everything else is as for `sweep`.
+        """
 
 @final
 class Motion:
@@ -663,6 +693,10 @@ class Motion:
     def animation(self, /, theme_name: str, slow_motion: float | None = None) -> str:
         """
         A moving picture as a page.
+        """
+    def drawn(self, /, phase_portrait: bool, width: float, height: float) -> list[slideway.reports.DrawnPanel]:
+        """
+        What the panels of the plot show in frames of this width and height (px, of which small text has 13).
         """
     def plot_svg(self, /, theme_name: str, phase_portrait: bool) -> str:
         """
@@ -707,6 +741,11 @@ class Table:
     def contacts(self, /) -> tuple[str, ...]:
         """
         The names of the contacts, in the order of the signs of patterns.
+        """
+    def plot(self, /, quantity: str, time_limit: float | None = None, progress: Any | None = None) -> Any:
+        """
+        The plot of a quantity along every branch, or of its distribution over samples. All points are computed
+        again: the table does not hold what a plot needs.
         """
     @property
     def points(self, /) -> int:
@@ -762,7 +801,22 @@ def mode_problem(columns_positive: ArrayLike, columns_negative: ArrayLike, right
     All solutions of a mode problem.
     """
 
+def png(svg: str, scale: float) -> bytes:
+    """
+    A drawing as PNG, with so many pixels for each unit of the SVG.
+    """
+
+def printable(text: str) -> str:
+    """
+    A text with its characters that are not seen as their numbers, so that it cannot affect the page that shows it.
+    """
+
 def solve(a: ArrayLike, b: ArrayLike, right_hand_side: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
     """
     All solutions of `A x + B |x| = b`.
+    """
+
+def theme(name: str) -> slideway.reports.Theme:
+    """
+    The colours of the theme "light" or "dark".
     """
