@@ -5,7 +5,7 @@ use crate::arguments::{numbers, value};
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use pyo3::exceptions::{PyOSError, PyTimeoutError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyOSError, PyTimeoutError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyString, PyTuple};
 use slideway::Faults;
@@ -141,8 +141,8 @@ impl Table {
         let layout = Layout::of(source.sweep(), options.points.dimensions(), options.attainability);
         let mut state = source.sweep().start();
         let points = source.sweep().points();
+        let mut records = room(points, &layout)?;
         let ended = watch.run_beside(py, |callback| {
-            let mut records = Vec::new();
             let encode = |rows: &Rows| Encoder::records(&layout, rows);
             let read = source.run_while(&|| true, &mut state, &encode, &mut |parts, state| {
                 parts.iter().for_each(|part| records.extend_from_slice(part));
@@ -158,6 +158,24 @@ impl Table {
                 Ok(Self { asked, options, sweep, state, layout, records })
             }
             _ => Err(unfinished(&state, points)),
+        }
+    }
+}
+
+/// Room for a record of each point.
+///
+/// # Errors
+/// If the machine has none: rows are not computed until it breaks down.
+fn room(points: u64, layout: &Layout) -> PyResult<Vec<u8>> {
+    let mut records = Vec::new();
+    let bytes = usize::try_from(points).ok().and_then(|points| points.checked_mul(layout.record()));
+    match bytes.map(|bytes| records.try_reserve(bytes)) {
+        Some(Ok(())) => Ok(records),
+        _ => {
+            let size = points as f64 * layout.record() as f64;
+            let message =
+                format!("a table of {points} points needs {size:.1e} bytes; write it in shards instead");
+            Err(PyMemoryError::new_err(message))
         }
     }
 }

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import slideway
 from slideway import Mechanism, Model, modes
 
-ALLOWED = (ValueError, TypeError, KeyError, OverflowError, TimeoutError)
+ALLOWED = (ValueError, TypeError, KeyError, OverflowError, TimeoutError, MemoryError)
 assert issubclass(slideway.ModelError, ValueError)
 
 DRAWER = Model.gallery("drawer")

@@ -106,11 +106,11 @@ class Report(Record):
         return f"<slideway.{type(self).__name__}: {self._headline()}>"
 
     def _headline(self) -> str:
-        """A line that says what the answer is."""
+        """What the answer is about, and the first line of what it says."""
         if self._is_part:
             return "a part of another answer"
-        lines = [line.strip() for line in self.text().splitlines()]
-        return next((line for line in lines if line), "")
+        parts = [part.strip().splitlines() for part in self.text().split("\n\n")]
+        return ": ".join(part[0].strip().rstrip(".") for part in parts[:2] if part)
 
     def __getstate__(self) -> dict[str, Any]:
         getattr(self, "schema")  # noqa: B009  (makes all attributes)
