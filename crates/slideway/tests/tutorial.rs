@@ -1,6 +1,7 @@
 //! The numbers of the book's tutorial: each problem by hand, and the printed answers of textbooks, beside the program's.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+use slideway::limits::rest_limits;
 use slideway::report::{Proof, Status};
 use slideway::size::SizeReport;
 use slideway::template;
@@ -134,6 +135,32 @@ fn latch_of_beer_and_johnston() {
     let steep = example("latch.toml", &[("beta", "60 deg"), ("mu", "0.25")]);
     let expected = 0.6 * 4.448_221_615_260_5 * (f64::to_radians(30.0) + 0.25_f64.atan()).tan();
     assert_close(effort(&steep, 0), expected);
+}
+
+/// J. L. Meriam, L. G. Kraige, Engineering Mechanics: Statics, problem 6/7: F = 126.6 N at both ends for x = 75 mm, and
+/// x = 86.2 mm at most.
+#[test]
+fn light_bar_of_meriam() {
+    let bar = example("light-bar.toml", &[]);
+    let report = hold(&bar, &HoldOptions::default()).unwrap();
+    assert!(report.holds);
+    let reactions = report.at_rest.expect("it can rest").reactions;
+    let friction = |name: &str| {
+        let contact = reactions.contacts.iter().find(|contact| contact.name == name).expect("a contact");
+        let [least, greatest] =
+            [contact.friction_force.least.unwrap(), contact.friction_force.greatest.unwrap()];
+        assert_close(greatest, least);
+        least
+    };
+    assert_prints(friction("upper"), "126.6");
+    assert_prints(-friction("lower"), "126.6");
+    let limits = rest_limits(&bar, &"x=10 mm..150 mm".parse().unwrap(), &HoldOptions::default()).unwrap();
+    let [held, slips] = &limits.spans[..] else { panic!("{:?}", limits.spans) };
+    assert_eq!((held.holds, slips.holds), (Some(true), Some(false)));
+    assert_prints(held.to * 1000.0, "86.2");
+    // Rest is told within the tolerance of its linear program, here some 1e-9 of the normal force.
+    let end = 0.3 * 0.3 / 1.09_f64.sqrt();
+    assert!((held.to / end - 1.0).abs() <= 1e-8, "{} is not {end}", held.to);
 }
 
 /// J. E. Shigley, Mechanical Engineering Design, example 8-1: 26.18 N m to raise the load, 9.77 N m to lower it,
