@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-import slideway
+import pytest
 
 HERE = Path(__file__).resolve().parent
 
@@ -19,16 +19,10 @@ def test_stubs_are_those_of_the_extension() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_annotations() -> None:
-    of_package = Path(slideway.__file__).parent
-    command = [sys.executable, "-m", "mypy", "--config-file", str(HERE.parent / "pyproject.toml")]
-    done = subprocess.run(
-        [*command, str(of_package), str(HERE / "typed_examples.py")],
-        cwd=of_package.parent,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+@pytest.mark.parametrize("checked", [["-p", "slideway"], [str(HERE / "typed_examples.py")]])
+def test_annotations(checked: list[str]) -> None:
+    command = [sys.executable, "-m", "mypy", "--config-file", str(HERE.parent / "pyproject.toml"), *checked]
+    done = subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

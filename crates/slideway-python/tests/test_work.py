@@ -77,7 +77,9 @@ def test_a_callback_that_cannot_be_called() -> None:
 
 
 def test_ctrl_c() -> None:
-    program = LONG + "print('begun', flush=True)\nslideway.modes.lcp(M, q, **options)\n"
+    # Where tests run in the background, SIGINT is ignored unless a program asks for it.
+    heeded = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    program = heeded + LONG + "print('begun', flush=True)\nslideway.modes.lcp(M, q, **options)\n"
     process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert process.stdout is not None and process.stdout.readline() == b"begun\n"
     time.sleep(0.3)

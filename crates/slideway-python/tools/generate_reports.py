@@ -49,7 +49,7 @@ PLAIN = ("Tally", "Warning", "Figure", "DrawnPanel", "DrawnMap", "Theme")
 
 ITEM = re.compile(
     r"(?P<docs>(?:^///.*\n)*)(?P<attributes>(?:^#\[[^\n]*\]\n|^#\[expect\([\s\S]*?\)\]\n)*)"
-    r"^pub (?P<kind>struct|enum) (?P<name>\w+) \{\n(?P<body>[\s\S]*?)^\}",
+    r"^pub (?P<kind>struct|enum) (?P<name>\w+)(?:<[^>]*>)? \{\n(?P<body>[\s\S]*?)^\}",
     re.MULTILINE,
 )
 SIMPLE = {"f64": "float", "bool": "bool", "String": "str", "str": "str", "Arc<str>": "str"}

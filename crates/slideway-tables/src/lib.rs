@@ -6,12 +6,12 @@
 //!
 //! [`write_table`] computes a sweep and writes its table. A table is written bit by bit to `FILE.partial` and
 //! gets its name when it is whole ([`PartialFile`]); an interrupted one can be continued. What else is made of
-//! numbers and texts takes [`npz`] and [`parquet`].
+//! numbers and texts takes [`npz`] and `parquet`.
 //!
 //! # Shards
-//! A sweep may be computed in shards, each by a process or machine of its own: [`write_shard`] writes one into
-//! a folder, [`written_shard`] says whether it is there, [`Shards::find`] finds all of them, and
-//! [`write_table`] merges them from [`RowSource::Shards`]. The merged table is that of the whole sweep, byte for
+//! A sweep may be computed in shards, each by a process or machine of its own: `write_shard` writes one into
+//! a folder, `written_shard` says whether it is there, `Shards::find` finds all of them, and
+//! [`write_table`] merges them from `RowSource::Shards`. The merged table is that of the whole sweep, byte for
 //! byte, if it tells the same command of itself.
 //!
 //! # Files

@@ -32,6 +32,7 @@ Examples:
   slideway sweep klepp-2002.toml --vary mu_1=0..0.8:81 --vary mu_2=0..0.4:41 --output klepp.npz
   slideway sweep slider-crank.toml --vary phi=\"-80 deg..80 deg:801\" --output crank.csv
   slideway sweep drawer.toml --vary mu=\"normal(0.6, 0.05)\" --samples 100000 --output drawer.npz
+
 On many machines, each command by any of them, in any order (built with the feature parquet):
   slideway sweep drawer.toml --vary mu=0..1:100001 --shard 1/2 --output results/
   slideway sweep drawer.toml --vary mu=0..1:100001 --shard 2/2 --output results/

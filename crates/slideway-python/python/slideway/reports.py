@@ -156,7 +156,7 @@ __all__ = [
     "SpeedLimits",
     "StatisticsReport",
     "Status",
-    "Stop",
+    "Stopping",
     "Stroke",
     "Tally",
     "Theme",
@@ -929,7 +929,7 @@ class CoordinateAcceleration(Record):
     """Proven bounds of its acceleration; absent where there are none."""
     speed: SpeedChange | None = None
     """What becomes of its speed; absent if a drive prescribes its motion."""
-    stop: Stop | None = None
+    stop: Stopping | None = None
     """If it slows down: when and where it stops if its acceleration stays as it is."""
 
 
@@ -1619,7 +1619,7 @@ class JointSummary(Record):
     """Displacement of a sliding joint (m)."""
     overlap: float | None
     """Supported length of a block slider (m)."""
-    stops: tuple[Stop | None, Stop | None] | None = None
+    stops: tuple[Mapping[str, Any] | None, Mapping[str, Any] | None] | None = None
     """The stops at the least and at the greatest displacement, if there are any."""
 
 
@@ -2472,7 +2472,7 @@ class StatisticsReport(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Stop(Record):
+class Stopping(Record):
     """When and where a coordinate stops if its acceleration stays as it is."""
 
     time: float

@@ -19,7 +19,7 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
-pub use speed::{FromRest, SpeedChange, Stop};
+pub use speed::{FromRest, SpeedChange, Stopping};
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
 
@@ -541,7 +541,7 @@ pub struct CoordinateAcceleration {
     pub speed: Option<SpeedChange>,
     /// If it slows down: when and where it stops if its acceleration stays as it is.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stop: Option<Stop>,
+    pub stop: Option<Stopping>,
 }
 
 /// The effort of a drive.

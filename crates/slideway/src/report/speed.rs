@@ -62,14 +62,14 @@ impl SpeedChange {
 /// When and where a coordinate stops if its acceleration stays as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Stop {
+pub struct Stopping {
     /// The time until then: t = |v|/|a| (s).
     pub time: f64,
     /// The way until then: v^2 / (2 |a|) (m or rad).
     pub distance: f64,
 }
 
-impl Stop {
+impl Stopping {
     /// Of a rate and an acceleration against it; none where a number is beyond the range of floating point.
     pub(crate) fn of(rate: f64, acceleration: f64) -> Option<Self> {
         let time = (rate / acceleration).abs();
@@ -116,7 +116,7 @@ mod tests {
     use super::SpeedChange::{
         KeepsItsSpeed, SlowsDown, SpeedsUp, StartsBackwards, StartsForwards, StaysAtRest, Undecided,
     };
-    use super::{SpeedChange, Stop};
+    use super::{SpeedChange, Stopping};
 
     #[test]
     fn signs_of_rate_and_acceleration_decide() {
@@ -140,8 +140,8 @@ mod tests {
     /// t = v/a = 0.5/4 s, v^2/(2a) = 0.25/8 m: numbers without rounding.
     #[test]
     fn a_stop_is_that_of_uniform_deceleration() {
-        let stop = Stop::of(-0.5, 4.0);
-        assert_eq!(stop, Some(Stop { time: 0.125, distance: 0.03125 }));
-        assert_eq!(Stop::of(1.0, -1e-320), None);
+        let stop = Stopping::of(-0.5, 4.0);
+        assert_eq!(stop, Some(Stopping { time: 0.125, distance: 0.03125 }));
+        assert_eq!(Stopping::of(1.0, -1e-320), None);
     }
 }

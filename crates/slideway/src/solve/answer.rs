@@ -21,7 +21,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Proof, SolveReport, SpeedChange, Status, Stop};
+use crate::report::{self, Proof, SolveReport, SpeedChange, Status, Stopping};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -378,7 +378,7 @@ impl<'a> Answer<'a> {
                 acceleration,
                 acceleration_bounds: bounds,
                 speed,
-                stop: if slows { Stop::of(coordinate.rate, acceleration) } else { None },
+                stop: if slows { Stopping::of(coordinate.rate, acceleration) } else { None },
             }
         };
         accelerations.into_iter().enumerate().map(one).collect()
