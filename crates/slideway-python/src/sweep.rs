@@ -169,15 +169,12 @@ impl Table {
 fn room(points: u64, layout: &Layout) -> PyResult<Vec<u8>> {
     let mut records = Vec::new();
     let bytes = usize::try_from(points).ok().and_then(|points| points.checked_mul(layout.record()));
-    match bytes.map(|bytes| records.try_reserve(bytes)) {
-        Some(Ok(())) => Ok(records),
-        _ => {
-            let size = points as f64 * layout.record() as f64;
-            let message =
-                format!("a table of {points} points needs {size:.1e} bytes; write it in shards instead");
-            Err(PyMemoryError::new_err(message))
-        }
+    if let Some(Ok(())) = bytes.map(|bytes| records.try_reserve(bytes)) {
+        return Ok(records);
     }
+    let size = points as f64 * layout.record() as f64;
+    let message = format!("a table of {points} points needs {size:.1e} bytes; write it in shards instead");
+    Err(PyMemoryError::new_err(message))
 }
 
 /// That there was no time for all points.
