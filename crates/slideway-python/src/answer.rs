@@ -204,13 +204,13 @@ impl Answer {
     }
 
     /// What the panels of the plot show in frames of this width and height (px, of which small text has 13).
-    #[pyo3(signature = (width, height) -> "list[slideway.reports.DrawnPanel]")]
+    #[pyo3(signature = (width, height) -> "list[reports.DrawnPanel]")]
     fn drawn<'py>(&self, py: Python<'py>, width: f64, height: f64) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &slideway_pictures::plot::drawn(&self.plotted()?, [width, height]))
     }
 
     /// A map in words and colours.
-    #[pyo3(signature = (theme_name) -> "slideway.reports.DrawnMap")]
+    #[pyo3(signature = (theme_name) -> "reports.DrawnMap")]
     fn drawn_map<'py>(&self, py: Python<'py>, theme_name: &str) -> PyResult<Bound<'py, PyAny>> {
         let drawn = slideway_pictures::map::drawn(self.map()?, &self.asked()?.settings, theme(theme_name)?);
         to_python(py, &drawn)

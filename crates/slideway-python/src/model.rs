@@ -600,7 +600,7 @@ impl Model {
     ///
     /// `theme` is "light" or "dark". The drawing shows itself in a notebook; `drawing.svg` is its text, and
     /// `drawing.save("mechanism.svg")` or `"mechanism.png"` writes a file.
-    #[pyo3(signature = (solution = None, *, theme = "light") -> "slideway.Drawing")]
+    #[pyo3(signature = (solution = None, *, theme = "light") -> "_display.Drawing")]
     fn draw<'py>(
         slf: &Bound<'py, Self>,
         solution: Option<usize>,

@@ -100,7 +100,7 @@ impl Motion {
     }
 
     /// What the panels of the plot show in frames of this width and height (px, of which small text has 13).
-    #[pyo3(signature = (phase_portrait, width, height) -> "list[slideway.reports.DrawnPanel]")]
+    #[pyo3(signature = (phase_portrait, width, height) -> "list[reports.DrawnPanel]")]
     fn drawn<'py>(
         &self,
         py: Python<'py>,

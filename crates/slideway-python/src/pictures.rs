@@ -8,7 +8,7 @@ use pyo3::types::PyBytes;
 
 /// The colours of the theme "light" or "dark".
 #[pyfunction]
-#[pyo3(signature = (name) -> "slideway.reports.Theme")]
+#[pyo3(signature = (name) -> "reports.Theme")]
 pub(crate) fn theme<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     to_python(py, named(name)?)
 }

@@ -76,13 +76,13 @@ fn run<T: Send>(
 #[pymethods]
 impl SweepFigure {
     /// The plot as plain data.
-    #[pyo3(signature = () -> "slideway.reports.Figure")]
+    #[pyo3(signature = () -> "reports.Figure")]
     fn figure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.figure)
     }
 
     /// What its panels show in frames of this width and height (px, of which small text has 13).
-    #[pyo3(signature = (width, height) -> "list[slideway.reports.DrawnPanel]")]
+    #[pyo3(signature = (width, height) -> "list[reports.DrawnPanel]")]
     fn drawn<'py>(&self, py: Python<'py>, width: f64, height: f64) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &drawn(&self.figure, [width, height]))
     }

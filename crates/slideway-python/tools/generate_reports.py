@@ -38,14 +38,14 @@ ROOTS = [
     "TreeReport",
     "RawReport",
     "Tally",
-    "Warning",
+    "WarningReport",
     "Figure",
     "DrawnPanel",
     "DrawnMap",
     "Theme",
 ]
 # Of these, those that no question has for its answer.
-PLAIN = ("Tally", "Warning", "Figure", "DrawnPanel", "DrawnMap", "Theme")
+PLAIN = ("Tally", "WarningReport", "Figure", "DrawnPanel", "DrawnMap", "Theme")
 
 ITEM = re.compile(
     r"(?P<docs>(?:^///.*\n)*)(?P<attributes>(?:^#\[[^\n]*\]\n|^#\[expect\([\s\S]*?\)\]\n)*)"

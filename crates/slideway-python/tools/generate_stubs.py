@@ -25,7 +25,7 @@ from typing import Any, Final, final, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _motion, _sweep, reports
+from . import _display, _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
 """
 # Simpler types for the same, and what containers hold, which maturin does not tell.

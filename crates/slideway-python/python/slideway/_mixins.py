@@ -24,7 +24,7 @@ def _frozen(numbers: list[float]) -> NDArray[np.float64]:
     return array
 
 
-EMPTY = _frozen([])
+EMPTY: NDArray[np.float64] = _frozen([])
 """An array that is absent in the JSON output."""
 
 

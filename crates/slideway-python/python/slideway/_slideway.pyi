@@ -12,7 +12,7 @@ from typing import Any, Final, final, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _motion, _sweep, reports
+from . import _display, _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
 
 
@@ -33,11 +33,11 @@ class Answer:
         A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
         1, as SVG.
         """
-    def drawn(self, /, width: float, height: float) -> list[slideway.reports.DrawnPanel]:
+    def drawn(self, /, width: float, height: float) -> list[reports.DrawnPanel]:
         """
         What the panels of the plot show in frames of this width and height (px, of which small text has 13).
         """
-    def drawn_map(self, /, theme_name: str) -> slideway.reports.DrawnMap:
+    def drawn_map(self, /, theme_name: str) -> reports.DrawnMap:
         """
         A map in words and colours.
         """
@@ -542,7 +542,7 @@ class Model:
         """
         The names of its coordinates.
         """
-    def draw(self, /, solution: int | None = None, *, theme: str = "light") -> slideway.Drawing:
+    def draw(self, /, solution: int | None = None, *, theme: str = "light") -> _display.Drawing:
         """
         A drawing of the mechanism in this state, and of one of its solutions, counted from 1, if one is asked for.
 
@@ -694,7 +694,7 @@ class Motion:
         """
         A moving picture as a page.
         """
-    def drawn(self, /, phase_portrait: bool, width: float, height: float) -> list[slideway.reports.DrawnPanel]:
+    def drawn(self, /, phase_portrait: bool, width: float, height: float) -> list[reports.DrawnPanel]:
         """
         What the panels of the plot show in frames of this width and height (px, of which small text has 13).
         """
@@ -816,7 +816,7 @@ def solve(a: ArrayLike, b: ArrayLike, right_hand_side: ArrayLike, options: dict[
     All solutions of `A x + B |x| = b`.
     """
 
-def theme(name: str) -> slideway.reports.Theme:
+def theme(name: str) -> reports.Theme:
     """
     The colours of the theme "light" or "dark".
     """

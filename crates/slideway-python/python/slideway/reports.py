@@ -168,8 +168,8 @@ __all__ = [
     "UndecidedMode",
     "VariedQuantity",
     "Verdict",
-    "Warning",
     "WarningPlace",
+    "WarningReport",
     "WithinRounding",
     "WithinRoundingAnswer",
     "Zone",
@@ -761,7 +761,7 @@ class CheckReport(Report):
     enumeration of the modes can tell, such as too many preload gaps, is not tried.)"""
     findings: tuple[Finding, ...]
     """Everything for which it would be refused."""
-    warnings: tuple[Warning, ...]
+    warnings: tuple[WarningReport, ...]
     """What is perhaps not meant, though it does not stand in the way."""
     mobility: MobilitySummary
     """Degrees of freedom and determinacy."""
@@ -2625,7 +2625,19 @@ class VariedQuantity(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Warning(Record):
+class WarningPlace(Record):
+    """Where a warning lies."""
+
+    source: str
+    """"model" for the model file, "setting" for a setting such as `--set`."""
+    from_: int
+    """Its first byte in that text."""
+    to: int
+    """The byte behind it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WarningReport(Record):
     """A warning as a report tells it."""
 
     kind: str
@@ -2637,18 +2649,6 @@ class Warning(Record):
     """What is perhaps not meant."""
     hint: str
     """What to do about it."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class WarningPlace(Record):
-    """Where a warning lies."""
-
-    source: str
-    """"model" for the model file, "setting" for a setting such as `--set`."""
-    from_: int
-    """Its first byte in that text."""
-    to: int
-    """The byte behind it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -26,7 +26,7 @@ use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::report::finite;
 use crate::solve::{mode_problem, velocity_signs};
 use crate::units::Units;
-use crate::warning::{Warning, warnings};
+use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;
 use serde::Serialize;
 use std::fmt;
@@ -55,7 +55,7 @@ pub struct CheckReport {
     /// Everything for which it would be refused.
     pub findings: Vec<Finding>,
     /// What is perhaps not meant, though it does not stand in the way.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<WarningReport>,
     /// Degrees of freedom and determinacy.
     pub mobility: MobilitySummary,
     /// Inertia of the motions that the joints leave.
@@ -302,7 +302,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         units: model.units.clone(),
         sound: faults.is_empty(),
         findings: faults.sorted().iter().map(|fault| finding(&fault.kind)).collect(),
-        warnings: Warning::list(&warnings(model)),
+        warnings: WarningReport::list(&warnings(model)),
         mobility: mobility_summary(&mechanism, &mobility),
         inertia,
         condition,

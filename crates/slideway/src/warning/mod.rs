@@ -41,7 +41,7 @@ const GREAT_FRICTION: f64 = 2.0;
 /// A warning as a report tells it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Warning {
+pub struct WarningReport {
     /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
     /// "great_friction" or "nothing_presses".
     pub kind: &'static str,
@@ -65,7 +65,7 @@ pub struct WarningPlace {
     pub to: usize,
 }
 
-impl Warning {
+impl WarningReport {
     /// The warnings among these faults, as reports tell them.
     pub(crate) fn list(faults: &Faults) -> Vec<Self> {
         let one = |fault: &&Fault| {
