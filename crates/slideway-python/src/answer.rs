@@ -92,6 +92,11 @@ pub(crate) fn not_finite(error: NotFinite) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
+/// The style of a text, with colours for a terminal if wanted.
+pub(crate) fn style(color: bool) -> Style {
+    if color { Style::Colour } else { Style::Plain }
+}
+
 /// The theme of this name.
 pub(crate) fn theme(name: &str) -> PyResult<&'static Theme> {
     match name {
@@ -161,8 +166,7 @@ impl Answer {
 
     /// The text output, with colours for a terminal if wanted.
     fn text(&self, py: Python<'_>, color: bool) -> String {
-        let style = if color { Style::Colour } else { Style::Plain };
-        py.detach(|| self.report.text(style))
+        py.detach(|| self.report.text(style(color)))
     }
 
     /// A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from

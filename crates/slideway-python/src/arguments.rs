@@ -7,6 +7,7 @@ use pyo3::types::{PyBool, PyDict, PyString};
 use slideway::drawing::Quantity;
 use slideway::limits::Vary;
 use slideway::model::{Setting, SettingKind, Settings, Value};
+use slideway::modes::{Limits, SearchOptions};
 use slideway::{Model, UnitSystem};
 
 /// A number in SI units, or a text with a unit or an expression, such as `"75 deg"`.
@@ -131,6 +132,13 @@ pub(crate) fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyRe
         [from, to] => vary(name, [Some(from), Some(to)]),
         _ => Err(PyTypeError::new_err(wanted())),
     }
+}
+
+/// The limits of a search.
+pub(crate) fn search(max_nodes: Option<u64>, max_found: Option<usize>) -> SearchOptions {
+    let defaults = SearchOptions::default();
+    let limits = Limits { solutions: max_found.unwrap_or(defaults.limits.solutions), ..defaults.limits };
+    SearchOptions { nodes: max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
 }
 
 /// The system of units of this name.

@@ -1,7 +1,7 @@
 //! The class `slideway.Model`: a model with its settings, and a method for each question.
 
 use crate::answer::{Answer, Asked, theme as named};
-use crate::arguments::{settings, units, value, vary, vary_between};
+use crate::arguments::{search, settings, units, value, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
 use crate::work::Watch;
@@ -14,7 +14,6 @@ use slideway::limits::{curves_with, rest_limits_with};
 use slideway::map::{ColourBy, GREATEST_SIZE, map_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Setting, SettingKind, Settings};
-use slideway::modes::{Limits, SearchOptions};
 use slideway::motion::{Thorough, simulate_all, simulate_with};
 use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
@@ -44,10 +43,19 @@ pub(crate) struct Model {
 impl Model {
     /// The model of a text.
     pub(crate) fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
-        let asked = |model| Asked { model, text: Arc::from(text), settings: Settings::default() };
-        match py.detach(|| slideway::Model::parse(text)) {
-            Ok(model) => Ok(Self { asked: asked(model), units: None }),
-            Err(faults) => Err(Texts { model: text, settings: &Settings::default() }.error(py, &faults)),
+        Self::read(py, text, || slideway::Model::parse(text))
+    }
+
+    /// The model that is read from a text.
+    fn read(
+        py: Python<'_>,
+        text: &str,
+        read: impl FnOnce() -> Result<slideway::Model, Faults> + Send,
+    ) -> PyResult<Self> {
+        let settings = Settings::default();
+        match py.detach(read) {
+            Ok(model) => Ok(Self { asked: Asked { model, text: Arc::from(text), settings }, units: None }),
+            Err(faults) => Err(Texts { model: text, settings: &settings }.error(py, &faults)),
         }
     }
 
@@ -119,13 +127,7 @@ impl Model {
             return Err(nothing.error(py, &too_large()));
         }
         let bytes = std::fs::read(&path)?;
-        match slideway::Model::parse_bytes(&bytes) {
-            Ok(_) => Self::new(py, &String::from_utf8_lossy(&bytes)),
-            Err(faults) => {
-                let text = String::from_utf8_lossy(&bytes);
-                Err(Texts { model: &text, settings: &Settings::default() }.error(py, &faults))
-            }
-        }
+        Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes))
     }
 
     /// A model of the gallery, such as `"drawer"`; `gallery_models()` has their names.
@@ -778,13 +780,6 @@ fn within(name: &str, count: usize, range: RangeInclusive<usize>) -> PyResult<()
     }
     let (least, most) = range.into_inner();
     Err(PyValueError::new_err(format!("{name} must be from {least} to {most}, not {count}")))
-}
-
-/// The limits of a search.
-fn search(max_nodes: Option<u64>, max_found: Option<usize>) -> SearchOptions {
-    let defaults = SearchOptions::default();
-    let limits = Limits { solutions: max_found.unwrap_or(defaults.limits.solutions), ..defaults.limits };
-    SearchOptions { nodes: max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
 }
 
 fn hold_options(load: Option<String>, vary: Option<String>, drives: &str) -> PyResult<HoldOptions> {

@@ -1,12 +1,11 @@
 //! Problems given by matrices: private half of `slideway.modes`.
 
 use crate::answer::Answer;
-use crate::arguments::numbers;
+use crate::arguments::{numbers, search};
 use crate::work::Watch;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use slideway::raw_problem::{Listing, RawFaults, RawKind, RawProblem, solve_with};
-use slideway_modes::{Limits, SearchOptions};
 
 /// An array of Python as its name, sizes and entries.
 type Array<'n> = (&'n str, Vec<usize>, Vec<f64>);
@@ -39,11 +38,7 @@ fn answer<'py>(
     let arrays = arrays.into_iter().collect::<PyResult<Vec<_>>>()?;
     let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());
     let problem = RawProblem::from_arrays(kind, arrays).map_err(refused)?;
-    let defaults = SearchOptions::default();
-    let limits =
-        Limits { solutions: options.max_found.unwrap_or(defaults.limits.solutions), ..defaults.limits };
-    let nodes = options.max_nodes.unwrap_or(defaults.nodes);
-    let search = SearchOptions { nodes, limits, ..defaults };
+    let search = search(options.max_nodes, options.max_found);
     let listing = Listing { most: options.max_solutions, all_faces: options.all_faces };
     let watch = Watch::new(options.time_limit, options.progress)?;
     let report = watch.run(py, |callback| {

@@ -1,12 +1,12 @@
 //! A motion as Python holds it: its report, its table, its pictures.
 
-use crate::answer::{Answer, Asked, not_finite, theme};
+use crate::answer::{Answer, Asked, not_finite, style, theme};
 use crate::to_python::{frozen_array, to_python};
 use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use slideway::motion::{self, History, Series, SimulateOptions};
-use slideway::report::{Style, finite};
+use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::{Figure, drawn, to_svg};
 use std::sync::Arc;
@@ -89,8 +89,7 @@ impl Motion {
 
     /// The report as text, with all events.
     fn text_with_all_events(&self, color: bool) -> String {
-        let style = if color { Style::Colour } else { Style::Plain };
-        motion::report(&self.history, &self.options).text_with_all_events(style)
+        motion::report(&self.history, &self.options).text_with_all_events(style(color))
     }
 
     /// The plot as plain data.

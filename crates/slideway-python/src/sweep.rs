@@ -1,6 +1,6 @@
 //! Sweeps: all solutions at many points as one table, shared with NumPy and data frames without a copy.
 
-use crate::answer::Asked;
+use crate::answer::{Asked, style};
 use crate::arguments::{numbers, value};
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
@@ -11,7 +11,6 @@ use pyo3::types::{PyCapsule, PyDict, PyString, PyTuple};
 use slideway::Faults;
 use slideway::model::Value;
 use slideway::progress::Progress;
-use slideway::report::Style;
 use slideway::sweep::{
     GridAxis, Rows, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
 };
@@ -209,7 +208,10 @@ pub(crate) fn table(
     watch: &Watch,
 ) -> PyResult<Table> {
     let whole = prepared(py, asked, options, watch)?;
-    let sweep = shard.map_or_else(|| whole.clone(), |shard| whole.shard(shard));
+    let sweep = match shard {
+        Some(shard) => whole.shard(shard),
+        None => whole,
+    };
     Table::of(py, (RowSource::Sweep(&sweep), asked.clone(), options.clone()), watch)
 }
 
@@ -297,6 +299,6 @@ impl Table {
 
     /// What the sweep comes to, in words.
     fn text(&self, color: bool) -> String {
-        self.sweep.text(&self.state, if color { Style::Colour } else { Style::Plain })
+        self.sweep.text(&self.state, style(color))
     }
 }

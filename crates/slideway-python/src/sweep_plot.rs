@@ -1,12 +1,11 @@
 //! Plots of sweeps.
 
 use crate::answer::{not_finite, theme};
-use crate::sweep::Table;
+use crate::sweep::{Table, prepared};
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use pyo3::exceptions::{PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
-use slideway::Faults;
 use slideway::limits::Quantity;
 use slideway::progress::{Callback, Progress};
 use slideway::sweep::{Rows, Sweep, SweepState};
@@ -23,18 +22,14 @@ impl SweepFigure {
         if let Some(shard) = table.sweep.of_shard() {
             return Err(PyValueError::new_err(format!("shard {shard} has no plot: merge all of them")));
         }
-        let model = &table.asked.model;
-        let refused = |faults: Faults| table.asked.refused(py, &faults);
         // Strokes tell of attainability.
         let options = table.options.clone().attainability(true);
-        let sweep =
-            watch.run_beside(py, |callback| Sweep::new_with(model, &options, callback).transpose())?;
-        let sweep = sweep.whole()?.map_err(refused)?;
+        let sweep = prepared(py, &table.asked, &options, watch)?;
         if sweep.line().is_none() && sweep.has_branches() {
             let needed = "a plot needs one varied quantity with ascending values, or random samples";
             return Err(PyValueError::new_err(format!("{needed}; map() shows two quantities")));
         }
-        let title = model.title.as_deref();
+        let title = table.asked.model.title.as_deref();
         let nothing = || PyValueError::new_err("the model has no such quantity to plot");
         let figure = if sweep.has_branches() {
             let mut plot = SweepPlot::new(&sweep, quantity).ok_or_else(nothing)?;
