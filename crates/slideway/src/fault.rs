@@ -349,6 +349,14 @@ pub enum FaultKind {
     // Degrees of freedom and coordinates.
     #[error("the structure is statically indeterminate: {} redundant", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
+    #[error("a stiffness is given for some of the contacts that share a load, but not for {}", listed(contacts))]
+    StiffnessOfSome { contacts: Vec<String> },
+    #[error("{} share a load, but with rigid faces and no play nothing says how", listed(contacts))]
+    RigidWithoutPlay { contacts: Vec<String> },
+    #[error("a press fit (negative play) is not supported yet: {}", listed(contacts))]
+    PressFit { contacts: Vec<String> },
+    #[error("the redundant guides do not fit together: {joint} is off by {gap}")]
+    GuidesDoNotFit { joint: String, gap: String },
     #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
     SingularPosition { lost: usize, joints: Vec<String> },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
@@ -488,6 +496,16 @@ impl FaultKind {
                 Some(suggestion) => format!("the redundancy lies among {}; {suggestion}", joints.join(", ")),
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
+            Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
+            Self::RigidWithoutPlay { .. } => Some(
+                "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"
+                    .to_owned(),
+            ),
+            Self::PressFit { .. } => Some("give a play of zero or more".to_owned()),
+            Self::GuidesDoNotFit { .. } => Some(
+                "draw the guides as they should be, parallel and in line, and give what they are off by as `misalignment` of their contacts"
+                    .to_owned(),
+            ),
             Self::SeveralOwners { point, owners } => {
                 Some(format!("say which one: \"{}.{point}\"", owners.first().map_or("body", String::as_str)))
             }

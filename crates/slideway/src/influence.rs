@@ -23,6 +23,9 @@ pub struct Influence {
     /// For each contact: what a unit friction force adds, at the face where the normal force is positive and
     /// at the one where it is negative.
     pub columns: Vec<[DVector<f64>; 2]>,
+    /// For each contact that is cut because redundant guides share a load: what a unit normal force of it adds to
+    /// all unknowns, a self-stress. Its own normal force is 1, every acceleration 0.
+    pub self_stresses: Vec<DVector<f64>>,
     /// Index of each contact's normal force among the unknowns.
     normal: Vec<usize>,
 }
@@ -56,13 +59,13 @@ impl Influence {
 
     /// The influence coefficients that these are.
     pub(crate) fn of(influences: Influences) -> Self {
-        let Influences { layout, frictionless, columns, .. } = influences;
+        let Influences { layout, frictionless, columns, self_stresses, .. } = influences;
         let normal = (0..columns.len())
             .map(|k| {
                 layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force")
             })
             .collect();
-        Self { layout, frictionless, columns, normal }
+        Self { layout, frictionless, columns, self_stresses, normal }
     }
 
     /// Where the unknowns stand.
@@ -88,9 +91,14 @@ impl Influence {
         DVector::from_iterator(self.normal.len(), self.normal.iter().map(|&index| unknowns[index]))
     }
 
-    /// All unknowns for given friction forces, eqs. (3)-(5).
-    pub fn unknowns(&self, friction: &[ContactFriction]) -> DVector<f64> {
-        &self.frictionless + self.of_friction(friction)
+    /// All unknowns for given friction forces, eqs. (3)-(5), and these normal forces of the contacts, of which
+    /// only those that are cut are needed.
+    pub fn unknowns(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {
+        let mut unknowns = &self.frictionless + self.of_friction(friction);
+        for (contact, self_stress) in self.layout.cut().iter().zip(&self.self_stresses) {
+            unknowns.axpy(normal_forces[contact.index()], self_stress, 1.0);
+        }
+        unknowns
     }
 
     /// What given friction forces add to all unknowns; for friction impulses the jumps of the velocities and

@@ -75,6 +75,7 @@ mod pattern;
 pub mod raw_problem;
 pub mod report;
 pub mod size;
+pub mod sharing;
 pub mod solve;
 pub mod standstill;
 pub mod sweep;

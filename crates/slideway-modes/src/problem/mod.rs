@@ -2,7 +2,7 @@
 //!
 //! `side.rs` and `pattern.rs` define the basic terms. `mode_problem.rs` contains exact numbers, and
 //! `bounds.rs` those within bounds (`radii.rs`); `bounded_influence.rs` builds a problem within bounds from
-//! influence coefficients. `scaling.rs` chooses units in which tolerances are pure numbers.
+//! influence coefficients, `shared_load.rs` one of redundant contacts. `scaling.rs` chooses units in which tolerances are pure numbers.
 
 mod bounded_influence;
 mod bounds;
@@ -10,6 +10,7 @@ mod mode_problem;
 mod pattern;
 mod radii;
 mod scaling;
+mod shared_load;
 mod side;
 
 pub use bounded_influence::IntervalInfluence;
@@ -19,4 +20,5 @@ pub use mode_problem::{InfluenceCoefficients, ModeProblem, ModeProblemError};
 pub use pattern::{ContactState, SolutionSet};
 pub(crate) use radii::Radii;
 pub(crate) use scaling::{ScaledProblem, patterns_of, power_of_two_above};
+pub use shared_load::SharedLoad;
 pub use side::{BySide, ProblemPart, Side};

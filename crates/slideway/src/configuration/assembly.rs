@@ -31,8 +31,35 @@ pub(super) fn closed_drawing(mechanism: &Mechanism) -> Result<Vec<Pose>, Faults>
     }
     let leg = Leg::closing(mechanism, equations.residual);
     match follow(mechanism, &leg, (0.0, poses), (1.0, &values)) {
-        Ok(arrival) => Ok(arrival.settled.poses),
+        Ok(arrival) => {
+            check_excess(mechanism, &arrival.settled.poses)?;
+            Ok(arrival.settled.poses)
+        }
         Err(halt) => Err(drawing_fault(mechanism, &halt.poses)),
+    }
+}
+
+/// Whether the joint equations that were left out follow from the others, here and in a neighbouring position,
+/// and whether something gives way to what they say.
+fn check_excess(mechanism: &Mechanism, poses: &[Pose]) -> Result<(), Faults> {
+    if mechanism.excess.is_empty() {
+        return Ok(());
+    }
+    let mut drawing = Configuration::drawing(mechanism);
+    drawing.poses = poses.to_vec();
+    let mobility = Mobility::of(mechanism, &drawing);
+    let equations = JointEquations::of_joints(mechanism, poses);
+    if mechanism.excess.of_hinges > 0 || mobility.redundancy.as_ref().is_some_and(|excess| excess.only_here) {
+        let kind = mobility.fault_without_sharing(mechanism);
+        return kind.map_or(Ok(()), |kind| Err(redundancy_fault(mechanism, &mobility, kind).into()));
+    }
+    match widest_gap(&equations).filter(|gap| gap.relative > AT_END) {
+        None => Ok(()),
+        Some(gap) => {
+            let joint = &mechanism.joints[gap.joint.index()];
+            let kind = FaultKind::GuidesDoNotFit { joint: joint.name.to_string(), gap: gap.in_words(mechanism) };
+            Err(Fault::new(kind, joint.place.clone()).into())
+        }
     }
 }
 
@@ -85,7 +112,8 @@ fn check_coordinate_count(
     mobility: &Mobility,
     drawing: &Configuration,
 ) -> Result<(), Faults> {
-    let degrees_of_freedom = mobility.body_coordinates - mobility.constraints.min(mobility.body_coordinates);
+    let determined = mobility.constraints - mechanism.excess.rows.len();
+    let degrees_of_freedom = mobility.body_coordinates - determined.min(mobility.body_coordinates);
     if degrees_of_freedom == 0 {
         return Err(Fault::general(FaultKind::NoFreedom).into());
     }
@@ -134,7 +162,7 @@ fn open_joint(
     if equations.residual.amax() <= CLOSED {
         return None;
     }
-    let gap = widest_gap(mechanism, &equations)?;
+    let gap = widest_gap(&equations)?;
     let joint = &mechanism.joints[gap.joint.index()];
     let kind = FaultKind::NotAssembled {
         joint: joint.name.to_string(),
@@ -165,16 +193,15 @@ impl Gap {
 /// The joint that is most open where the drawing has the bodies.
 pub(crate) fn widest_gap_of_drawing(mechanism: &Mechanism) -> Option<Gap> {
     let (poses, values) = (drawing_poses(mechanism), drawn(mechanism));
-    widest_gap(mechanism, &JointEquations::with_coordinates(mechanism, &poses, &values))
+    widest_gap(&JointEquations::with_coordinates(mechanism, &poses, &values))
 }
 
-fn widest_gap(mechanism: &Mechanism, equations: &JointEquations) -> Option<Gap> {
+fn widest_gap(equations: &JointEquations) -> Option<Gap> {
     let open = (0..equations.joints.len())
         .filter_map(|row| equations.joints[row].map(|joint| (joint, row)))
         .max_by(|a, b| equations.residual[a.1].abs().total_cmp(&equations.residual[b.1].abs()));
     let (joint, row) = open?;
-    let is_angle = row > 0 && equations.joints[row - 1] == Some(joint) && is_slider(mechanism, joint);
-    Some(Gap { joint, relative: equations.residual[row].abs(), is_angle })
+    Some(Gap { joint, relative: equations.residual[row].abs(), is_angle: equations.are_angles[row] })
 }
 
 /// The joints of a shortest loop through `joint`, that one first; none if it closes no loop.
@@ -201,10 +228,6 @@ fn loop_of(mechanism: &Mechanism, joint: JointId) -> Vec<String> {
         next += 1;
     }
     Vec::new()
-}
-
-fn is_slider(mechanism: &Mechanism, joint: JointId) -> bool {
-    matches!(mechanism.joints[joint.index()].kind, JointKind::Slider(_))
 }
 
 /// Coordinate values in words.

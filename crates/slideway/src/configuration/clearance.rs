@@ -61,7 +61,9 @@ impl Configuration {
             }
         }
         rows.extend(mechanism.coordinates.iter().map(|_| 0.0));
-        DVector::from_vec(rows)
+        let left_out = &mechanism.excess.rows;
+        let kept = rows.into_iter().enumerate().filter(|(row, _)| !left_out.contains(row));
+        DVector::from_vec(kept.map(|(_, value)| value).collect())
     }
 
     /// Displacement of the block's middle (in sizes of the mechanism) and, unless it may rotate, its

@@ -16,6 +16,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 /// One scalar equation: its residual and its derivatives with respect to the poses.
 struct Row<T> {
     joint: Option<JointId>,
+    is_angle: bool,
     residual: T,
     derivatives: Vec<(usize, T)>,
 }
@@ -24,6 +25,8 @@ struct Row<T> {
 pub(crate) struct JointEquations<T = f64> {
     /// The joint of each row; nothing for the rows of coordinates.
     pub(crate) joints: Vec<Option<JointId>>,
+    /// Whether the residual of a row is an angle.
+    pub(crate) are_angles: Vec<bool>,
     /// Residuals (lengths divided by the size of the mechanism, angles in rad).
     pub(crate) residual: DVector<T>,
     /// Derivatives with respect to (x/size, y/size, angle) of every body.
@@ -31,16 +34,16 @@ pub(crate) struct JointEquations<T = f64> {
 }
 
 impl<T: Real> JointEquations<T> {
-    /// The joint equations alone.
+    /// The joint equations alone, with those that redundant guides have in excess.
     pub(crate) fn of_joints(mechanism: &Mechanism<T>, poses: &[Pose<T>]) -> Self {
-        let mut rows = Rows { mechanism, poses, list: Vec::new(), curvature: None };
+        let mut rows = Rows { left_out: &[], ..Rows::new(mechanism, poses) };
         rows.joints();
         rows.assemble()
     }
 
-    /// The joint equations and one for each coordinate, which wants the given value.
+    /// The joint equations that say something new, and one for each coordinate, which wants the given value.
     pub(crate) fn with_coordinates(mechanism: &Mechanism<T>, poses: &[Pose<T>], values: &[T]) -> Self {
-        let mut rows = Rows { mechanism, poses, list: Vec::new(), curvature: None };
+        let mut rows = Rows::new(mechanism, poses);
         rows.joints();
         rows.coordinates(values);
         rows.assemble()
@@ -51,7 +54,7 @@ impl JointEquations {
     /// [`Self::with_coordinates`], and how these equations bend.
     pub(super) fn with_curvature(mechanism: &Mechanism, poses: &[Pose], values: &[f64]) -> (Self, Curvature) {
         let curvature = Some(Curvature::default());
-        let mut rows = Rows { mechanism, poses, list: Vec::new(), curvature };
+        let mut rows = Rows { curvature, ..Rows::new(mechanism, poses) };
         rows.joints();
         rows.coordinates(values);
         let curvature = rows.curvature.take().unwrap_or_default();
@@ -63,11 +66,26 @@ struct Rows<'m, T> {
     mechanism: &'m Mechanism<T>,
     poses: &'m [Pose<T>],
     list: Vec<Row<T>>,
+    /// The joint equations that are left out, and how many have been met.
+    left_out: &'m [usize],
+    met: usize,
     /// How the rows bend, if that is asked for.
     curvature: Option<Curvature>,
 }
 
-impl<T: Real> Rows<'_, T> {
+impl<'m, T: Real> Rows<'m, T> {
+    fn new(mechanism: &'m Mechanism<T>, poses: &'m [Pose<T>]) -> Self {
+        let left_out = &mechanism.excess.rows;
+        Self { mechanism, poses, list: Vec::new(), left_out, met: 0, curvature: None }
+    }
+
+    /// Whether the next row, of a joint or of a coordinate, is left out.
+    fn leaves_out(&mut self, joint: Option<JointId>) -> bool {
+        let row = self.met;
+        self.met += usize::from(joint.is_some());
+        joint.is_some() && self.left_out.contains(&row)
+    }
+
     fn joints(&mut self) {
         for (index, joint) in self.mechanism.joints.iter().enumerate() {
             let id = Some(JointId(index));
@@ -86,9 +104,9 @@ impl<T: Real> Rows<'_, T> {
         let normal = rot90(self.direction(slider));
         let [block, guide] = middle_points(slider);
         self.distance(joint, [&block, &guide], normal, Some(slider.guide));
-        if slider.kind != SliderKind::Pin {
+        if slider.kind != SliderKind::Pin && !self.leaves_out(joint) {
             let residual = self.angle(slider.block) - self.angle(slider.guide);
-            let mut row = Row { joint, residual, derivatives: Vec::new() };
+            let mut row = Row { joint, is_angle: true, residual, derivatives: Vec::new() };
             add_angle(&mut row, slider.block, T::one());
             add_angle(&mut row, slider.guide, -T::one());
             self.list.push(row);
@@ -108,7 +126,7 @@ impl<T: Real> Rows<'_, T> {
                 }
                 CoordinateKind::Rotation(body, against) => {
                     let residual = self.angle(Frame::Body(body)) - self.angle(against);
-                    let mut row = Row { joint: None, residual, derivatives: Vec::new() };
+                    let mut row = Row { joint: None, is_angle: true, residual, derivatives: Vec::new() };
                     add_angle(&mut row, Frame::Body(body), T::one());
                     add_angle(&mut row, against, -T::one());
                     self.list.push(row);
@@ -137,10 +155,14 @@ impl<T: Real> Rows<'_, T> {
         axis: Vector2<T>,
         axis_frame: Option<Frame>,
     ) {
+        if self.leaves_out(joint) {
+            return;
+        }
         let size = self.size();
         let places = [first, second].map(|point| moved(self.mechanism, self.poses, point));
         let between = places[0] - places[1];
-        let mut row = Row { joint, residual: axis.dot(&between) / size, derivatives: Vec::new() };
+        let residual = axis.dot(&between) / size;
+        let mut row = Row { joint, is_angle: false, residual, derivatives: Vec::new() };
         for (point, place, sign) in [(first, places[0], T::one()), (second, places[1], -T::one())] {
             if let Some(body) = point.frame.body() {
                 let arm = place - self.poses[body.index()].position;
@@ -202,7 +224,9 @@ impl<T: Real> Rows<'_, T> {
                 jacobian[(index, column)] += derivative;
             }
         }
-        JointEquations { joints: self.list.iter().map(|row| row.joint).collect(), residual, jacobian }
+        let joints = self.list.iter().map(|row| row.joint).collect();
+        let are_angles = self.list.iter().map(|row| row.is_angle).collect();
+        JointEquations { joints, are_angles, residual, jacobian }
     }
 }
 

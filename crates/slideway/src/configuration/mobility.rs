@@ -73,8 +73,15 @@ impl Mobility {
         self.constraints - self.independent
     }
 
-    /// The fault that a redundancy is, if there is one.
+    /// The fault that a redundancy is, if there is one that guides do not share.
     pub fn fault(&self, mechanism: &Mechanism) -> Option<FaultKind> {
+        let is_shared = self.excess() == mechanism.excess.contacts.len()
+            && self.redundancy.as_ref().is_some_and(|redundancy| !redundancy.only_here);
+        if is_shared { None } else { self.fault_without_sharing(mechanism) }
+    }
+
+    /// The fault that a redundancy is where nothing gives way to it.
+    pub(super) fn fault_without_sharing(&self, mechanism: &Mechanism) -> Option<FaultKind> {
         let redundancy = self.redundancy.as_ref()?;
         let joints =
             redundancy.joints.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();

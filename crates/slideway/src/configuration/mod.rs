@@ -262,13 +262,20 @@ impl<T: Real> Configuration<T> {
     }
 
     /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu
-    /// over velocity).
+    /// over velocity), and the misalignments at its coordinates.
     ///
     /// # Errors
-    /// A fault for each coefficient that is not finite or is negative there.
+    /// A fault for each coefficient that is not finite or is negative there, and for each misalignment that is
+    /// not finite.
     pub fn put_friction(&self, mechanism: &mut Mechanism<T>) -> Result<(), Faults> {
         let mut faults = Faults::default();
         for k in 0..mechanism.contacts.len() {
+            if let Some(law) = mechanism.contacts[k].misalignment_law {
+                match self.quantity(mechanism, Quantity::Varying(law)) {
+                    Ok(misalignment) => mechanism.contacts[k].misalignment = misalignment,
+                    Err(fault) => faults.push(fault),
+                }
+            }
             if !mechanism.contacts[k].depends_on_speed() {
                 continue;
             }

@@ -6,6 +6,7 @@ use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
 use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled};
 use crate::mechanism::{Contact, Mechanism, Slider};
+use crate::sharing::NO_STRESS;
 use crate::model::{self, JointKind, Model, PreloadLine, SliderKind};
 use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
@@ -34,7 +35,7 @@ impl Coefficients<'_> {
         let contacts = &self.mechanism.contacts;
         let normal_forces = self.normal_forces(unknowns).ok_or(NotEnclosed::Equations)?;
         let positive = normal_forces.columns(1, contacts.len()).into_owned();
-        let eta = [positive.clone(), self.negative_versions(positive)];
+        let eta = [positive.clone(), self.negative_versions(positive, &self.self_stresses(unknowns))];
         let preload = self.preload_columns(&eta);
         let values = |of: &dyn Fn(&Contact<Interval>) -> Interval| {
             bounded(&DMatrix::from_fn(contacts.len(), 1, |k, _| of(&contacts[k])))
@@ -50,19 +51,36 @@ impl Coefficients<'_> {
     }
 
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
-    /// face that is pressed when its normal force is positive; none if the equations are not proven to be
-    /// regular.
+    /// face that is pressed when its normal force is positive, then what a unit normal force of each cut contact
+    /// adds; none if the equations are not proven to be regular.
     pub(super) fn unknowns(&self) -> Option<DMatrix<Interval>> {
-        let Assembled { matrix, load, friction, .. } = self.equations;
+        let Assembled { layout, matrix, load, friction, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
-        let right = DMatrix::from_fn(load.len(), 1 + friction.len(), |row, column| {
-            let value = if column == 0 { load[row] } else { friction[column - 1][0][row] };
-            value * Interval::point(rows[row])
+        let units = layout.cut_units();
+        let sides: Vec<&DVector<Interval>> =
+            std::iter::once(load).chain(friction.iter().map(|faces| &faces[0])).chain(&units).collect();
+        let right = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
+            sides[column][row] * Interval::point(rows[row])
         });
         let solution = solution(&scaled(matrix, &rows, &columns), &right)?;
-        Some(DMatrix::from_fn(load.len(), 1 + friction.len(), |row, column| {
+        Some(DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             solution.entry(row, column) * Interval::point(columns[row])
         }))
+    }
+
+    /// The normal forces of the self-stresses, a row for each contact. That nothing but rounding stands where a
+    /// contact takes no part is known from the rank of the joint equations, which is decided in the drawing.
+    pub(super) fn self_stresses(&self, unknowns: &DMatrix<Interval>) -> DMatrix<Interval> {
+        let first = 1 + self.mechanism.contacts.len();
+        let layout = &self.equations.layout;
+        let entry = |contact: usize, stress: usize| {
+            let value = layout
+                .reaction(Reaction::Normal(ContactId(contact)))
+                .map_or(Interval::ZERO, |row| unknowns[(row, first + stress)]);
+            let is_rounding = value.contains(0.0) && (self.are_numbers || value.magnitude() <= NO_STRESS);
+            if is_rounding { Interval::ZERO } else { value }
+        };
+        DMatrix::from_fn(self.mechanism.contacts.len(), unknowns.ncols() - first, entry)
     }
 
     /// The rows of the normal forces among all unknowns.
@@ -93,11 +111,22 @@ impl Coefficients<'_> {
             let slider = self.mechanism.slider(joint)?;
             let row = self.equations.layout.reaction(Reaction::Couple(joint))?;
             let contact = slider.contacts.first()?.index();
-            let positive: Vec<Interval> = unknowns.row(row).iter().skip(1).copied().collect();
+            let (contacts, row_of) = (self.mechanism.contacts.len(), unknowns.row(row));
+            let positive: Vec<Interval> = row_of.iter().skip(1).take(contacts).copied().collect();
+            let cut = self.equations.layout.cut().iter().map(|cut| cut.index());
+            let self_stress: Vec<(usize, Interval)> =
+                cut.zip(row_of.iter().skip(1 + contacts).copied()).collect();
             // At the other face the slider's own friction turns by h more the one way, and its couple the
             // other way.
             let mut negative = positive.clone();
             negative[contact] -= slider.height;
+            for (k, other) in negative.iter_mut().enumerate() {
+                let taken_up = self.taken_up_between_faces(k);
+                for &(cut, stress) in &self_stress {
+                    let by_cut = taken_up.iter().filter(|(by, _)| *by == cut);
+                    by_cut.for_each(|(_, force)| *other -= *force * stress);
+                }
+            }
             let influence = BySide { positive, negative };
             Some(EnclosedCouple {
                 contact,
@@ -106,6 +135,7 @@ impl Coefficients<'_> {
                     frictionless: unknowns[(row, 0)],
                     influence_preload: self.couple_of_preload(&influence),
                     influence,
+                    self_stress,
                 },
             })
         };
@@ -120,7 +150,7 @@ impl Coefficients<'_> {
                 let terms = row.entries.iter().map(|&(index, value)| value * unknowns[(index, column)]);
                 terms.fold(Interval::ZERO, |sum, term| sum + term)
             };
-            let influence = (1..unknowns.ncols()).map(times).collect();
+            let influence = (1..=self.mechanism.contacts.len()).map(times).collect();
             EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence)
         };
         self.equations.coordinate_rows.iter().map(output).collect()
@@ -172,16 +202,35 @@ impl Coefficients<'_> {
     /// ```text
     /// eta_jk^- = eta_jk^+ - h/o (front), + h/o (rear),      eta_jk^- = eta_jk^+ else
     /// ```
-    fn negative_versions(&self, mut eta: DMatrix<Interval>) -> DMatrix<Interval> {
+    ///
+    /// A contact that is cut takes up nothing: what it would, a self-stress hands to the others.
+    fn negative_versions(
+        &self,
+        mut eta: DMatrix<Interval>,
+        self_stress: &DMatrix<Interval>,
+    ) -> DMatrix<Interval> {
+        let cut = self.equations.layout.cut();
         for k in 0..eta.ncols() {
-            let Some(slider) = self.slider(k).filter(|slider| has_two_faces(slider)) else { continue };
-            let [front, rear] = slider.contacts[..] else { continue };
-            let overlap = self.configuration.overlap(self.mechanism, slider);
-            let difference = slider.height / overlap.unwrap_or(Interval::REAL_LINE);
-            eta[(front.index(), k)] -= difference;
-            eta[(rear.index(), k)] += difference;
+            for (contact, force) in self.taken_up_between_faces(k) {
+                match cut.iter().position(|cut| cut.index() == contact) {
+                    None => eta[(contact, k)] += force,
+                    Some(stress) => (0..eta.nrows())
+                        .filter(|row| *row != contact)
+                        .for_each(|row| eta[(row, k)] -= force * self_stress[(row, stress)]),
+                }
+            }
         }
         eta
+    }
+
+    /// The normal forces by which the contacts of a block slider take up the couple between both faces of a
+    /// contact, -h/o at the front and h/o at the rear; nothing for other sliders.
+    fn taken_up_between_faces(&self, contact: usize) -> Vec<(usize, Interval)> {
+        let Some(slider) = self.slider(contact).filter(|slider| has_two_faces(slider)) else { return Vec::new() };
+        let [front, rear] = slider.contacts[..] else { return Vec::new() };
+        let overlap = self.configuration.overlap(self.mechanism, slider);
+        let force = slider.height / overlap.unwrap_or(Interval::REAL_LINE);
+        vec![(front.index(), -force), (rear.index(), force)]
     }
 
     /// The columns of the preload's friction: at the pressed face, or in the middle between both.

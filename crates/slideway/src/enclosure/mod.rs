@@ -43,6 +43,7 @@ use crate::model::Model;
 use crate::modes::certificate::{
     IntervalInfluence, IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
 };
+use crate::sharing::shared_load;
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
 
@@ -245,6 +246,10 @@ pub fn enclosure(
     let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
     let influence = coefficients.influence(&unknowns)?;
     let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
+    let problem = match shared_load(&mechanism, coefficients.self_stresses(&unknowns)).map_err(NotEnclosed::Values)? {
+        Some(shared) => problem.with_shared_load(&shared)?,
+        None => problem,
+    };
     Ok(EnclosedModeProblem {
         influence,
         problem,

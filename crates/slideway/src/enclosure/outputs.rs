@@ -14,6 +14,8 @@ pub struct EnclosedOutput {
     pub influence: BySide<Vec<Interval>>,
     /// The same for the friction of the preload.
     pub influence_preload: BySide<Vec<Interval>>,
+    /// What a unit normal force of each cut contact adds, with the contact: of redundant guides.
+    pub self_stress: Vec<(usize, Interval)>,
 }
 
 /// Bounds of the couple of a guided slider.
@@ -31,7 +33,7 @@ impl EnclosedOutput {
     /// An output to which friction at both faces of a contact adds the same.
     pub(super) fn of_either_face(frictionless: Interval, influence: Vec<Interval>) -> Self {
         let both = BySide { positive: influence.clone(), negative: influence };
-        Self { frictionless, influence_preload: both.clone(), influence: both }
+        Self { frictionless, influence_preload: both.clone(), influence: both, self_stress: Vec::new() }
     }
 }
 
@@ -72,13 +74,17 @@ impl EnclosedModeProblem {
     }
 
     /// Bounds of an output in a state with these bounds of `y_k = |N_k|`, or of the share of a contact in its
-    /// gap: `C(0) + sum_k gamma_k F_k`.
+    /// gap: `C(0) + sum_k gamma_k F_k`, and what the normal forces of cut contacts add.
     ///
     /// # Panics
     /// If `pattern` and `y` do not have one entry for each contact.
     pub fn output(&self, output: &EnclosedOutput, pattern: &[ContactState], y: &[Interval]) -> Interval {
         let terms = (0..pattern.len()).map(|k| self.of_friction(output, k, pattern[k], y[k]));
-        terms.fold(output.frictionless, |sum, term| sum + term)
+        let of_normal_force = |&(k, stress): &(usize, Interval)| {
+            pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))
+        };
+        let stresses = output.self_stress.iter().map(of_normal_force);
+        terms.chain(stresses).fold(output.frictionless, |sum, term| sum + term)
     }
 
     /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.

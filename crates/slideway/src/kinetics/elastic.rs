@@ -17,7 +17,7 @@ pub(crate) struct MasslessMotions {
 
 impl KineticEquations {
     /// Y: the normal forces that unit accelerations of the gaps of the contacts need, `N = Y gap''` (kg).
-    /// Square; with `M` symmetric and positive definite on the motions `G_r x = 0` it is the inverse of
+    /// Of the contacts that are not cut: the gaps of the others follow from theirs. Square; with `M` symmetric and positive definite on the motions `G_r x = 0` it is the inverse of
     /// `G_c M^-1 G_c^T` there.
     pub(crate) fn contact_inertia(&self) -> DMatrix<f64> {
         let rows = self.normal_rows();
@@ -62,7 +62,8 @@ impl KineticEquations {
 
     fn normal_rows(&self) -> Vec<usize> {
         let contacts = (0..self.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
-        contacts.filter_map(|normal| self.layout.reaction(normal)).collect()
+        let kept = contacts.filter(|normal| !self.layout.is_cut(*normal));
+        kept.filter_map(|normal| self.layout.reaction(normal)).collect()
     }
 }
 

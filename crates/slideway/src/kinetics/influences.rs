@@ -35,6 +35,8 @@ pub(crate) struct Influences {
     pub(crate) frictionless: DVector<f64>,
     /// For each contact: what a unit friction force adds, for both faces.
     pub(crate) columns: Vec<[DVector<f64>; 2]>,
+    /// What a unit normal force of each cut contact adds.
+    pub(crate) self_stresses: Vec<DVector<f64>>,
     /// Ratio of the greatest to the least pivot.
     pub(crate) condition: f64,
     /// The greatest applied force (N).
@@ -86,11 +88,13 @@ impl Influences {
         let solution =
             |place: usize| DVector::from_fn(size, |row, _| elimination.solution[row * width + place]);
         let columns = places.iter().map(|places| places.map(solution)).collect();
+        let self_stresses = (width - assembled.layout.cut.len()..width).map(solution).collect();
         let frictionless = if width == 0 { DVector::zeros(0) } else { solution(0) };
         Ok(Some(Self {
             greatest_unknown: as_normal_force(&assembled.layout, &frictionless, &elimination.columns),
             frictionless,
             columns,
+            self_stresses,
             condition,
             greatest_load: assembled.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
             layout: assembled.layout,
@@ -114,6 +118,8 @@ impl Elimination {
             }
             places.push([first, sides.len() - 1]);
         }
+        let units: Vec<DVector<f64>> = assembled.layout.cut_units();
+        sides.extend(&units);
         if self.rows.len() != size {
             (self.rows, self.columns) = equilibration(&assembled.matrix);
         }
@@ -260,6 +266,7 @@ impl super::KineticEquations {
             layout: self.layout.clone(),
             frictionless,
             columns,
+            self_stresses: self.self_stresses(),
             condition: self.condition(),
             greatest_load: self.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
             coordinate_rows: self.coordinate_rows.clone(),

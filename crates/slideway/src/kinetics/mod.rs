@@ -10,6 +10,10 @@
 //!
 //! Unknown are the accelerations `a` of the bodies, the reactions `lambda` (hinge forces, normal forces,
 //! couples) and the efforts `u` of the drives; the friction forces `F` are the parameters.
+//!
+//! Redundant guides leave as many reactions open as they have equations in excess. So many contacts are *cut*:
+//! their rows of `G a = gamma`, which follow from the others, say `N = 0` instead, and what a unit of such a
+//! normal force adds to all unknowns is a self-stress (force method).
 
 mod elastic;
 mod influences;
@@ -33,6 +37,9 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use system::{Factorization, Singular};
 pub(crate) use system::{equilibration, scaled};
 
+/// Accelerations that violate the row of a cut contact by more than this part of its terms do not satisfy it.
+const INCONSISTENT: f64 = 1e-9;
+
 /// What a component of the vector of reactions is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reaction {
@@ -50,6 +57,8 @@ pub struct Layout {
     bodies: usize,
     reactions: Vec<Reaction>,
     drives: usize,
+    /// The contacts that are cut: their normal forces are given, not found.
+    cut: Vec<ContactId>,
 }
 
 impl Layout {
@@ -68,7 +77,17 @@ impl Layout {
                 }
             }
         }
-        Self { bodies: mechanism.bodies.len(), reactions, drives: mechanism.drives.len() }
+        let cut = mechanism.excess.contacts.clone();
+        Self { bodies: mechanism.bodies.len(), reactions, drives: mechanism.drives.len(), cut }
+    }
+
+    /// Contacts that are cut because redundant guides share a load, one for each self-stress.
+    pub fn cut(&self) -> &[ContactId] {
+        &self.cut
+    }
+
+    fn is_cut(&self, reaction: Reaction) -> bool {
+        matches!(reaction, Reaction::Normal(contact) if self.cut.contains(&contact))
     }
 
     /// Number of unknowns.
@@ -95,6 +114,16 @@ impl Layout {
     pub fn reaction(&self, reaction: Reaction) -> Option<usize> {
         let index = self.reactions.iter().position(|other| *other == reaction)?;
         Some(3 * self.bodies + index)
+    }
+
+    /// The right-hand sides with one cut normal force of one each.
+    pub(crate) fn cut_units<T: Real>(&self) -> Vec<DVector<T>> {
+        let unit = |contact: &ContactId| {
+            let mut unit = DVector::zeros(self.len());
+            unit[self.reaction(Reaction::Normal(*contact))?] = T::one();
+            Some(unit)
+        };
+        self.cut.iter().filter_map(unit).collect()
     }
 
     /// Index of a drive's effort.
@@ -145,11 +174,39 @@ impl KineticEquations {
         factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Singular>,
     ) -> Result<Self, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
-        let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows } = assembled;
+        let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows, cut_rows } = assembled;
         let factorization = factor(matrix).map_err(|singular| {
             Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
         })?;
-        Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
+        let equations = Self { layout, contacts, applied, load, friction, factorization, coordinate_rows };
+        equations.check_cut_rows(mechanism, &cut_rows)?;
+        Ok(equations)
+    }
+
+    /// Whether the motion satisfies the rows of the contacts that are cut, too: their excess persists.
+    fn check_cut_rows(&self, mechanism: &Mechanism, cut_rows: &[ConstraintRow]) -> Result<(), Faults> {
+        if cut_rows.is_empty() {
+            return Ok(());
+        }
+        let motion = self.frictionless();
+        let violated = |row: &&ConstraintRow| {
+            let terms: f64 = row.entries.iter().map(|(index, value)| (value * motion[*index]).abs()).sum();
+            let error = (row.times(&motion) - row.right_hand_side).abs();
+            error > INCONSISTENT * (terms + row.right_hand_side.abs())
+        };
+        let joint = |contact: &ContactId| mechanism.contacts[contact.index()].joint;
+        let violated: Vec<JointId> = self.layout.cut.iter().zip(cut_rows).filter(|(_, row)| violated(row)).map(|(contact, _)| joint(contact)).collect();
+        let Some(first) = violated.first() else { return Ok(()) };
+        let joints = violated.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();
+        let kind = FaultKind::SingularPosition { lost: violated.len(), joints };
+        Err(Fault::new(kind, mechanism.joints[first.index()].place.clone()).into())
+    }
+
+    /// What a unit normal force of each cut contact adds to all unknowns: the self-stresses.
+    pub fn self_stresses(&self) -> Vec<DVector<f64>> {
+        let units: Vec<DVector<f64>> = self.layout.cut_units();
+        let solutions = self.factorization.solve(&units.iter().collect::<Vec<_>>());
+        solutions.iter().map(|solution| self.without_noise(solution)).collect()
     }
 
     /// What a load alone adds to the unknowns.
@@ -244,6 +301,8 @@ pub(crate) struct Assembled<T> {
     pub(crate) friction: Vec<[DVector<T>; 2]>,
     /// The rows that give the accelerations of the chosen coordinates: C a - right-hand side.
     pub(crate) coordinate_rows: Vec<ConstraintRow<T>>,
+    /// The rows of the contacts that are cut, which are not in the matrix.
+    pub(crate) cut_rows: Vec<ConstraintRow<T>>,
 }
 
 impl<T: Real> Assembled<T> {
@@ -258,13 +317,14 @@ impl<T: Real> Assembled<T> {
         let mut applied = Applied::new();
         applied.fill(mechanism, configuration)?;
         let applied = applied.wrenches;
-        let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
+        let mut constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
         let coordinate_rows = rows::coordinates(mechanism, configuration);
         let builder = Builder { mechanism, configuration, layout: &layout };
-        let matrix = builder.matrix(&constraints, &coordinate_rows);
+        let mut matrix = builder.matrix(&constraints, &coordinate_rows);
+        let cut_rows = builder.cut(&mut matrix, &mut constraints);
         let load = builder.load(&applied, &constraints, &coordinate_rows)?;
         let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
-        Ok(Self { layout, contacts, applied, matrix, load, friction, coordinate_rows })
+        Ok(Self { layout, contacts, applied, matrix, load, friction, coordinate_rows, cut_rows })
     }
 
     /// The rows that give the accelerations of the chosen coordinates, where every velocity is zero.
@@ -306,6 +366,21 @@ impl<T: Real> Builder<'_, T> {
             }
         }
         matrix
+    }
+
+    /// Replaces the rows of the contacts that are cut by N = 0, and gives them.
+    fn cut(&self, matrix: &mut DMatrix<T>, constraints: &mut [ConstraintRow<T>]) -> Vec<ConstraintRow<T>> {
+        let first = 3 * self.mechanism.bodies.len();
+        let cut = |contact: &ContactId| {
+            let place = self.layout.reaction(Reaction::Normal(*contact))?;
+            let row = std::mem::replace(&mut constraints[place - first], ConstraintRow::empty());
+            for &(column, _) in &row.entries {
+                matrix[(place, column)] = T::zero();
+            }
+            matrix[(place, place)] = T::one();
+            Some(row)
+        };
+        self.layout.cut.iter().filter_map(cut).collect()
     }
 
     fn load(

@@ -251,7 +251,7 @@ impl StateAt {
             states().map(|(state, share)| (*state == ContactState::Gap).then_some(*share)).collect();
         let ProblemData { mechanism, influence, velocity_signs } = self.stages.data();
         let friction = friction(mechanism, velocity_signs, pattern, &normal_force, &shares);
-        let all = || influence.unknowns(&friction);
+        let all = || influence.unknowns(&friction, &normal_force);
         Some(match quantity {
             Quantity::NormalForce => normal_force.iter().copied().collect(),
             Quantity::Friction => {

@@ -1,7 +1,7 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Joint, JointKind,
+    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess, Joint, JointKind,
     Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
@@ -44,6 +44,7 @@ impl<T: Real> Evaluation<'_, T> {
             events: model.events.iter().map(|event| self.event(event)).collect(),
             units: model.units.clone(),
             size: 1.0,
+            excess: Excess::default(),
             parameters: model.parameter_values(&self.values),
             formulas: Arc::clone(&model.formulas),
         }
@@ -168,6 +169,14 @@ impl<T: Real> Evaluation<'_, T> {
                     .map(|preload| preload.map_or(T::zero(), |preload| self.value(preload))),
                 preload_line: contact.preload_line,
                 stiffness: contact.stiffness.map(|stiffness| self.value(stiffness)),
+                play: contact.play.map_or(T::zero(), |play| self.value(play)),
+                misalignment: contact
+                    .misalignment
+                    .filter(|formula| !self.model.formula(*formula).moves())
+                    .map_or(T::zero(), |misalignment| self.value(misalignment)),
+                misalignment_law: contact
+                    .misalignment
+                    .filter(|formula| self.model.formula(*formula).moves()),
                 pad: contact.pad.map(|pad| {
                     [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
                 }),

@@ -4,6 +4,7 @@
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
 mod evaluation;
+mod excess;
 mod pad;
 mod relations;
 
@@ -17,6 +18,7 @@ use crate::model::{
 use crate::units::Units;
 use evaluation::Evaluation;
 use nalgebra::Vector2;
+pub use excess::Excess;
 pub use pad::Pad;
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
@@ -53,6 +55,8 @@ pub struct Mechanism<T = f64> {
     pub units: Units,
     /// The diagonal of the rectangle around its points (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
+    /// What redundant guides have in excess.
+    pub excess: Excess,
     parameters: Vec<T>,
     formulas: Arc<Vec<Formula>>,
 }
@@ -182,6 +186,13 @@ pub struct Contact<T = f64> {
     pub preload_line: PreloadLine,
     /// Stiffness of the guide (N/m), if the model gives it.
     pub stiffness: Option<T>,
+    /// Total play between its faces (m).
+    pub play: T,
+    /// How far the guide's line is displaced there, towards +n (m): with a law, in the state of the last call of
+    /// [`Configuration::put_friction`](crate::configuration::Configuration::put_friction).
+    pub misalignment: T,
+    /// The formula of a misalignment that depends on coordinates.
+    pub misalignment_law: Option<FormulaId>,
     /// Length and width of the area in contact (m), if the model gives it.
     pub pad: Option<[T; 2]>,
 }
@@ -403,6 +414,7 @@ impl Mechanism {
         let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
+        mechanism.excess = mechanism.found_excess();
         Ok(mechanism)
     }
 
@@ -436,6 +448,8 @@ impl Mechanism {
             let place = &self.joints[contact.joint.index()].place;
             let values = [contact.mu, contact.mu_static, contact.preload].concat();
             check(format!("the friction of {}", contact.name), Some(place), &values);
+            let elastic = [contact.play, contact.stiffness.unwrap_or_default()];
+            check(format!("the play or the stiffness of {}", contact.name), Some(place), &elastic);
         }
         for coordinate in &self.coordinates {
             let values = [coordinate.value, coordinate.drawn_at, coordinate.rate];
@@ -476,7 +490,8 @@ impl Mechanism<Interval> {
         given: &[(usize, Interval)],
     ) -> Result<Self, Faults> {
         let values = model.enclosed_constants(given)?;
-        Ok(Self { size: nominal.size, ..Evaluation { model, values }.mechanism() })
+        let (size, excess) = (nominal.size, nominal.excess.clone());
+        Ok(Self { size, excess, ..Evaluation { model, values }.mechanism() })
     }
 }
 

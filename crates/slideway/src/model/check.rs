@@ -1,7 +1,9 @@
 //! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
 //! relations between values, and how its parts are connected.
 
-use super::{Along, BODY_LIMIT, Contact, Formula, JointKind, LoadKind, Model, NamedPoint, Slider, Stop};
+use super::{
+    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, NamedPoint, Slider, SliderKind, Stop,
+};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
@@ -146,6 +148,16 @@ impl Model {
     /// Whether no drive moves a coordinate, counted from 0.
     pub(crate) fn is_free(&self, coordinate: usize) -> bool {
         self.drives.iter().all(|drive| drive.coordinate.index() != coordinate)
+    }
+
+    /// Whether the joints have more equations than the coordinates leave room for: redundant guides.
+    pub(crate) fn is_redundant(&self) -> bool {
+        let equations = |joint: &Joint| match &joint.kind {
+            JointKind::Slider(slider) if slider.kind == SliderKind::Pin => 1,
+            _ => 2,
+        };
+        let rows: usize = self.joints.iter().map(equations).sum();
+        rows + self.coordinates.len() > 3 * self.bodies.len()
     }
 
     /// The contacts of all sliding joints, in the order of the mechanism's.

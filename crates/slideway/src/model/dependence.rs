@@ -34,7 +34,8 @@ impl Model {
     /// its own.
     pub(crate) fn dependence(&self, parameter: usize) -> Dependence {
         let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
-        let affine = places.friction().max(places.loads()).max(places.weights()).max(places.accelerations());
+        let loads = places.loads().max(places.weights()).max(places.accelerations());
+        let affine = places.friction().max(places.fits()).max(loads);
         let at_rest = places.static_friction();
         let conditions = at_rest.max(places.conditions());
         let elsewhere = if places.others() == Degree::Constant { Degree::Constant } else { Degree::Other };
@@ -115,6 +116,18 @@ impl Places<'_> {
         let ids =
             contacts.flat_map(|contact| contact.mu.into_iter().chain(contact.preload.into_iter().flatten()));
         self.greatest(ids.collect::<Vec<_>>())
+    }
+
+    /// What redundant contacts are made like: their compliance is the inverse of their stiffness.
+    fn fits(&mut self) -> Degree {
+        let contacts = || self.model.contacts();
+        let fits = contacts().flat_map(|contact| contact.play.into_iter().chain(contact.misalignment));
+        let (fits, stiffness): (Vec<_>, Vec<_>) =
+            (fits.collect(), contacts().filter_map(|contact| contact.stiffness).collect());
+        match (self.greatest(fits), self.greatest(stiffness)) {
+            (_, Degree::Affine | Degree::Other) if self.model.is_redundant() => Degree::Other,
+            (fits, _) => fits,
+        }
     }
 
     fn static_friction(&mut self) -> Degree {

@@ -129,6 +129,11 @@ pub(super) struct BlockSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at each contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    pub(super) play: Option<Quantity>,
+    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
+    /// a load; may depend on coordinates. Default: 0.
+    pub(super) misalignment: Option<Quantity>,
     /// Area in contact at each contact, for the bearing pressure: { length = .., width = .. }.
     pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.
@@ -158,6 +163,11 @@ pub(super) struct EndTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at this contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    pub(super) play: Option<Quantity>,
+    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
+    /// a load; may depend on coordinates. Default: 0.
+    pub(super) misalignment: Option<Quantity>,
     /// Area in contact at this contact, for the bearing pressure: { length = .., width = .. }.
     pub(super) pad: Option<PadTable>,
 }
@@ -190,6 +200,11 @@ pub(super) struct GuidedSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    pub(super) play: Option<Quantity>,
+    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
+    /// a load; may depend on coordinates. Default: 0.
+    pub(super) misalignment: Option<Quantity>,
     /// Area in contact, for the bearing pressure: { width = .. }; its length is that of the pressed face
     /// unless given.
     pub(super) pad: Option<PadTable>,
@@ -220,6 +235,11 @@ pub(super) struct PinInSlotTable {
     pub(super) preload: Option<PerSide>,
     /// Stiffness of the slot at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
+    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    pub(super) play: Option<Quantity>,
+    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
+    /// a load; may depend on coordinates. Default: 0.
+    pub(super) misalignment: Option<Quantity>,
     /// Area in contact, for the bearing pressure: { length = .., width = .. }.
     pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.

@@ -278,6 +278,10 @@ pub struct Contact {
     pub preload_line: PreloadLine,
     /// Stiffness of the guide.
     pub stiffness: Option<FormulaId>,
+    /// Total play between its faces.
+    pub play: Option<FormulaId>,
+    /// How far the guide's line is displaced there.
+    pub misalignment: Option<FormulaId>,
     /// Its area, for the bearing pressure.
     pub pad: Option<Pad>,
 }

@@ -127,7 +127,7 @@ impl<'a> Answer<'a> {
 
     /// A state as a solution, unless a guided slider would tip in it.
     fn kept(&self, state: &State<'_>, tipping: &mut Tipped) -> Option<report::Solution> {
-        let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state)));
+        let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state), state.normal_force));
         match self.tipping(state, &unknowns) {
             None => Some(self.solution(state, &unknowns)),
             Some(rejection) => {

@@ -73,7 +73,7 @@ impl Answer<'_> {
     /// What is left of the couple of each guided slider in both directions, |N| L / 2 - C and |N| L / 2 + C.
     fn slack(&self, mode: &SingularMode, normal_force: &DVector<f64>) -> Vec<f64> {
         let state = vertex(mode, normal_force);
-        let unknowns = self.influence.unknowns(&self.friction(&state));
+        let unknowns = self.influence.unknowns(&self.friction(&state), normal_force);
         let both = |(joint, slider): (_, &crate::mechanism::Slider)| {
             let contact = slider.contacts[0].index();
             let limit = state.pattern[contact].sign() * normal_force[contact] * slider.length / 2.0;
@@ -103,7 +103,7 @@ impl Answer<'_> {
         normal_force: &DVector<f64>,
     ) -> Option<crate::report::Rejection> {
         let state = vertex(mode, normal_force);
-        let unknowns = self.influence.unknowns(&self.friction(&state));
+        let unknowns = self.influence.unknowns(&self.friction(&state), normal_force);
         self.tipping(&state, &unknowns)
     }
 }

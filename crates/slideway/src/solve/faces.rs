@@ -190,7 +190,7 @@ impl Answer<'_> {
             let mut shares = state.shares.clone();
             guided.iter().for_each(|&k| shares[k] = Some(if Some(k) == at_positive { 1.0 } else { 0.0 }));
             let state = State { pattern: &in_gap, shares, signs: Vec::new(), patterns: Vec::new(), ..*state };
-            let unknowns = self.influence.unknowns(&self.friction(&state));
+            let unknowns = self.influence.unknowns(&self.friction(&state), state.normal_force);
             DVector::from_iterator(rows.len(), rows.iter().map(|&row| unknowns[row]))
         };
         let none = couples(None);

@@ -7,6 +7,7 @@ use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::{PreloadLine, SliderKind};
+use crate::sharing::{NO_STRESS, shared_load};
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
 use nalgebra::{DMatrix, DVector};
 
@@ -51,15 +52,30 @@ pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration
 
 /// The mode problem of a mechanism, eqs. (6) and (8): its unknowns are the |N_k|.
 ///
+/// Of redundant guides, the rows of the contacts that are cut say how they share their load instead.
+///
 /// # Errors
-/// A fault if a number is beyond the range of floating point.
+/// A fault if a number is beyond the range of floating point, or if nothing says how redundant guides share
+/// their load.
 pub fn mode_problem(
     mechanism: &Mechanism,
     influence: &Influence,
     velocity_signs: &DVector<f64>,
 ) -> Result<ModeProblem, Faults> {
     let coefficients = influence_coefficients(mechanism, influence, velocity_signs);
-    ModeProblem::from_influence(&coefficients).map_err(|_| overflow())
+    let problem = ModeProblem::from_influence(&coefficients).map_err(|_| overflow())?;
+    match shared_load(mechanism, self_stresses(influence))? {
+        Some(shared) => problem.with_shared_load(&shared).map_err(|_| overflow()),
+        None => Ok(problem),
+    }
+}
+
+/// The normal forces of the self-stresses, without rounding: a row for each contact.
+pub(crate) fn self_stresses(influence: &Influence) -> DMatrix<f64> {
+    let without_rounding = |force: f64| if force.abs() <= NO_STRESS { 0.0 } else { force };
+    let columns: Vec<DVector<f64>> =
+        influence.self_stresses.iter().map(|stress| influence.normal_part(stress).map(without_rounding)).collect();
+    if columns.is_empty() { DMatrix::zeros(influence.columns.len(), 0) } else { DMatrix::from_columns(&columns) }
 }
 
 /// What the mode problem is made of.

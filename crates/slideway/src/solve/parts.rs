@@ -45,8 +45,13 @@ impl Parts {
         let side = |side: Side| {
             let face = usize::from(side == Side::Negative);
             let gamma = |row: &ConstraintRow, k: usize| row.times(&influence.columns[k][face]);
+            let cut = influence.layout().cut();
             let columns = extended(problem.columns(side), &|row, k| {
-                -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k]
+                let friction = -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k];
+                let stress = cut.iter().position(|contact| contact.index() == k);
+                stress.map_or(friction, |stress| {
+                    friction - side.sign() * row.times(&influence.self_stresses[stress])
+                })
             });
             let jumps = extended(problem.jumps(side), &|row, k| {
                 let contact = &mechanism.contacts[k];

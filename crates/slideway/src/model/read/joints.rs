@@ -21,6 +21,8 @@ struct WrittenFriction<'a> {
     preload: Option<&'a PerSide>,
     preload_line: Option<PreloadLine>,
     stiffness: Option<&'a Quantity>,
+    play: Option<&'a Quantity>,
+    misalignment: Option<&'a Quantity>,
     pad: Option<&'a PadTable>,
     /// Whether the pad may be as long as the joint.
     has_face: bool,
@@ -35,6 +37,8 @@ struct ReadFriction {
     preload: Option<[FormulaId; 2]>,
     preload_line: Option<PreloadLine>,
     stiffness: Option<FormulaId>,
+    play: Option<FormulaId>,
+    misalignment: Option<FormulaId>,
     pad: Option<Pad>,
     carried_by: Option<CarriedBy>,
 }
@@ -48,6 +52,8 @@ impl ReadFriction {
             preload: self.preload.or(joint.preload),
             preload_line: self.preload_line.or(joint.preload_line),
             stiffness: self.stiffness.or(joint.stiffness),
+            play: self.play.or(joint.play),
+            misalignment: self.misalignment.or(joint.misalignment),
             pad: self.pad.or(joint.pad),
             carried_by: self.carried_by,
         }
@@ -63,6 +69,8 @@ impl<'a> WrittenFriction<'a> {
             preload: end.preload.as_ref(),
             preload_line: end.preload_line,
             stiffness: end.stiffness.as_ref(),
+            play: end.play.as_ref(),
+            misalignment: end.misalignment.as_ref(),
             pad: end.pad.as_ref(),
             has_face: false,
             carried_by: end.carried_by,
@@ -124,6 +132,8 @@ impl<'a> From<&'a BlockSliderTable> for WrittenSlider<'a> {
                 preload: table.preload.as_ref(),
                 preload_line: table.preload_line,
                 stiffness: table.stiffness.as_ref(),
+                play: table.play.as_ref(),
+                misalignment: table.misalignment.as_ref(),
                 pad: table.pad.as_ref(),
                 has_face: false,
                 carried_by: None,
@@ -151,6 +161,8 @@ impl<'a> From<&'a GuidedSliderTable> for WrittenSlider<'a> {
                 preload: table.preload.as_ref(),
                 preload_line: table.preload_line,
                 stiffness: table.stiffness.as_ref(),
+                play: table.play.as_ref(),
+                misalignment: table.misalignment.as_ref(),
                 pad: table.pad.as_ref(),
                 has_face: true,
                 carried_by: None,
@@ -177,6 +189,8 @@ impl<'a> From<&'a PinInSlotTable> for WrittenSlider<'a> {
                 mu_static: table.mu_static.as_ref(),
                 preload: table.preload.as_ref(),
                 stiffness: table.stiffness.as_ref(),
+                play: table.play.as_ref(),
+                misalignment: table.misalignment.as_ref(),
                 pad: table.pad.as_ref(),
                 ..WrittenFriction::default()
             },
@@ -345,9 +359,15 @@ impl Reader<'_> {
             let what = format!("the stiffness of the guide at {name}");
             self.formula(stiffness, Wanted::constant(what, Dimension::STIFFNESS).positive())
         });
+        let play = written.play.map(|play| {
+            self.formula(play, Wanted::constant(of("play"), Dimension::LENGTH))
+        });
+        let misalignment = written.misalignment.map(|misalignment| {
+            self.formula(misalignment, Wanted::moving(of("misalignment"), Dimension::LENGTH))
+        });
         let WrittenFriction { preload_line, carried_by, has_face, .. } = written;
         let pad = written.pad.map(|pad| self.pad(pad, has_face, name, span));
-        ReadFriction { mu, mu_static, preload, preload_line, stiffness, pad, carried_by }
+        ReadFriction { mu, mu_static, preload, preload_line, stiffness, play, misalignment, pad, carried_by }
     }
 
     fn pad(&mut self, pad: &PadTable, has_face: bool, name: &str, span: &Span) -> Pad {
@@ -380,6 +400,8 @@ impl Reader<'_> {
             preload: friction.preload.map_or([None; 2], |preload| preload.map(Some)),
             preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
             stiffness: friction.stiffness,
+            play: friction.play,
+            misalignment: friction.misalignment,
             pad: friction.pad,
         }
     }

@@ -1,0 +1,172 @@
+//! Mode problems of redundant contacts, which share their load by play, elasticity and misalignment.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::interval::{Interval, Real};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::bounds::{Column, IntervalModeProblem, IntervalModeProblemError, ProblemView};
+use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
+use crate::problem::scaling::power_of_two_above;
+use crate::problem::side::{BySide, ProblemPart, Side};
+
+/// How `r` contacts share a load that equilibrium alone leaves open.
+///
+/// With `rho` self-stresses, `rho` contacts are *cut*: their normal forces are taken for given, and influence
+/// coefficients are those of the mechanism without them. What closes the cuts again is the law of the contacts,
+///
+/// ```text
+/// N_k > 0:  d_k = -(delta_k + f_k N_k),    N_k < 0:  d_k = delta_k - f_k N_k,    N_k = 0:  |d_k| <= delta_k
+/// ```
+///
+/// with deflections `d` that are compatible, `Z^T (d + e) = 0`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SharedLoad<T: Real = f64> {
+    /// The contacts that are cut (rho).
+    pub cut: Vec<usize>,
+    /// `Z`: normal forces of each self-stress (r x rho, dimensionless); 1 at its own cut contact, 0 at others.
+    pub self_stress: DMatrix<T>,
+    /// `f`: deflection of a pressed face per unit of normal force (r, m/N).
+    pub compliance: DVector<T>,
+    /// `delta`: half of the play between both faces (r, m).
+    pub clearance: DVector<T>,
+    /// `e`: by how much the line of the guide is displaced towards `+n` (r, m).
+    pub misalignment: DVector<T>,
+}
+
+impl<T: Real> SharedLoad<T> {
+    /// Whether a contact takes part in a self-stress.
+    pub fn shares(&self, contact: usize) -> bool {
+        self.self_stress.row(contact).iter().any(|force| !force.is_zero())
+    }
+
+    /// Whether a contact may be open: it takes part in a self-stress and has play.
+    pub fn may_be_open(&self, contact: usize) -> bool {
+        self.shares(contact) && !self.clearance[contact].is_zero()
+    }
+
+    /// The self-stress of a cut contact.
+    fn stress_of(&self, contact: usize) -> Option<usize> {
+        self.cut.iter().position(|&cut| cut == contact)
+    }
+
+    /// By which power of two the row of a self-stress is multiplied, so that its numbers are of order one.
+    fn scale(&self, stress: usize) -> T {
+        let terms = self.self_stress.column(stress).into_iter().zip(self.compliance.iter());
+        let greatest = terms.map(|(force, compliance)| (*force * *compliance).magnitude()).fold(0.0, f64::max);
+        T::exactly(if greatest > 0.0 { 1.0 / power_of_two_above(greatest) } else { 1.0 })
+    }
+
+    /// `c_k^sigma` in a row, from the number that stands there without self-stresses: `-sigma Z_jl` more for a
+    /// contact that is cut, and `sigma f_k Z_kl` in the row of a self-stress.
+    fn column(&self, side: Side, row: usize, contact: usize, given: T) -> T {
+        let sign = T::exactly(side.sign());
+        match (self.stress_of(row), self.stress_of(contact)) {
+            (Some(stress), _) => {
+                sign * self.compliance[contact] * self.self_stress[(contact, stress)] * self.scale(stress)
+            }
+            (None, Some(stress)) => given - sign * self.self_stress[(row, stress)],
+            (None, None) => given,
+        }
+    }
+
+    /// `d_k^sigma` in a row: `-sigma delta_k Z_kl` in that of a self-stress.
+    fn jump(&self, side: Side, row: usize, contact: usize, given: T) -> T {
+        let Some(stress) = self.stress_of(row) else { return given };
+        let force = self.self_stress[(contact, stress)];
+        T::exactly(-side.sign()) * self.clearance[contact] * force * self.scale(stress)
+    }
+
+    /// The right-hand side in a row: `(Z^T e)_l` in that of a self-stress.
+    fn load(&self, row: usize, given: T) -> T {
+        let Some(stress) = self.stress_of(row) else { return given };
+        let terms = self.self_stress.column(stress).into_iter().zip(self.misalignment.iter());
+        terms.map(|(force, misalignment)| *force * *misalignment).sum::<T>() * self.scale(stress)
+    }
+
+    fn check(&self, contacts: usize) -> Result<(), ModeProblemError> {
+        let lengths = [self.compliance.len(), self.clearance.len(), self.misalignment.len()];
+        let expected = (contacts, self.cut.len());
+        let fits = self.self_stress.shape() == expected
+            && lengths == [contacts; 3]
+            && self.cut.iter().all(|&cut| cut < contacts);
+        let found = self.self_stress.shape();
+        let part = ProblemPart::Columns(Side::Positive);
+        if fits { Ok(()) } else { Err(ModeProblemError::Shape { part, expected, found }) }
+    }
+}
+
+impl ModeProblem {
+    /// The same contacts where some of them share a load that equilibrium leaves open: the rows of the cut
+    /// contacts become those of compatibility. The play is a jump of the right-hand side there, and what is
+    /// called a contact in its gap is one that is open.
+    ///
+    /// # Errors
+    /// [`ModeProblemError`] for shapes and numbers that are not finite.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector, DMatrix};
+    /// use slideway_modes::{enumerate, Limits, ModeProblem, SharedLoad};
+    /// // Two parallel pads of equal stiffness without friction carry 10 N, the second one with 2 mm less room.
+    /// let none = DMatrix::zeros(2, 2);
+    /// let plus = DMatrix::identity(2, 2);
+    /// let one = ModeProblem::new(plus.clone(), -plus, none.clone(), none, dvector![10.0, 0.0])?;
+    /// let shared = one.with_shared_load(&SharedLoad {
+    ///     cut: vec![1],
+    ///     self_stress: dmatrix![-1.0; 1.0],
+    ///     compliance: dvector![1e-3, 1e-3],
+    ///     clearance: dvector![2e-3, 0.0],
+    ///     misalignment: dvector![0.0, 0.0],
+    /// })?;
+    /// let solutions = enumerate(&shared, &Limits::default())?;
+    /// assert!((solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_shared_load(&self, shared: &SharedLoad) -> Result<Self, ModeProblemError> {
+        let contacts = self.contacts();
+        shared.check(contacts)?;
+        let matrix = |entry: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(contacts, contacts, entry);
+        let columns =
+            |side: Side| matrix(&|row, k| shared.column(side, row, k, self.columns(side)[(row, k)]));
+        let jumps = |side: Side| matrix(&|row, k| shared.jump(side, row, k, self.jumps(side)[(row, k)]));
+        Self::new(
+            columns(Side::Positive),
+            columns(Side::Negative),
+            jumps(Side::Positive),
+            jumps(Side::Negative),
+            DVector::from_fn(contacts, |row, _| shared.load(row, self.right_hand_side()[row])),
+        )
+    }
+}
+
+impl IntervalModeProblem {
+    /// [`ModeProblem::with_shared_load`] within bounds.
+    ///
+    /// # Errors
+    /// [`IntervalModeProblemError`] for shapes and numbers that overflow.
+    pub fn with_shared_load(&self, shared: &SharedLoad<Interval>) -> Result<Self, IntervalModeProblemError> {
+        let view = ProblemView::from(self);
+        let contacts = view.contacts();
+        shared.check(contacts)?;
+        let bounded = |part: ProblemPart, width: usize, entry: &dyn Fn(usize, usize) -> Interval| {
+            IntervalMatrix::from_intervals(&DMatrix::from_fn(contacts, width, entry))
+                .ok_or(IntervalModeProblemError::Radius { part, value: f64::INFINITY })
+        };
+        let given = |column: Column<'_>, row: usize| column.entry(row);
+        let columns = |side: Side| {
+            bounded(ProblemPart::Columns(side), contacts, &|row, k| {
+                shared.column(side, row, k, given(view.column(k, side), row))
+            })
+        };
+        let jumps = |side: Side| {
+            bounded(ProblemPart::Jumps(side), contacts, &|row, k| {
+                shared.jump(side, row, k, given(view.jump(k, side), row))
+            })
+        };
+        let load = bounded(ProblemPart::RightHandSide, 1, &|row, _| shared.load(row, view.load().entry(row)))?;
+        Self::new(
+            &BySide { positive: columns(Side::Positive)?, negative: columns(Side::Negative)? },
+            &BySide { positive: jumps(Side::Positive)?, negative: jumps(Side::Negative)? },
+            &load,
+        )
+    }
+}

@@ -1,0 +1,186 @@
+//! Which joint equations say nothing new: sliding joints that share their load (theory of redundant guides).
+//!
+//! A mechanism with `n` coordinates has `rows + n - 3 b` equations more than determine it. In the drawing, so
+//! many are chosen that follow from the others: the positions are found without these rows of the joints, and
+//! as many contacts are *cut*, whose normal forces become unknowns of their own (force method). The choice is
+//! the same in every position, so that all numbers that are made with it change continuously.
+
+use super::{JointKind, Mechanism, Slider, rot90};
+use crate::ids::{ContactId, Frame};
+use crate::model::SliderKind;
+use nalgebra::{DVector, Vector2};
+
+/// A row that differs from combinations of others by less than this part of its length is one of them.
+const DEPENDENT: f64 = 1e-9;
+/// The first row is taken that is independent of the others by this part of the most independent one.
+const INDEPENDENT_ENOUGH: f64 = 0.3;
+
+/// The joint equations in excess, and the contacts that are cut for them.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Excess {
+    /// The contacts that are cut, as many as there are self-stresses.
+    pub contacts: Vec<ContactId>,
+    /// The rows of the joint equations that are left out of those that determine the positions.
+    pub(crate) rows: Vec<usize>,
+    /// Of these, how many belong to self-stresses of hinges and rotation locks alone.
+    pub(crate) of_hinges: usize,
+}
+
+impl Excess {
+    /// Whether every joint equation says something new.
+    pub fn is_empty(&self) -> bool {
+        self.contacts.is_empty() && self.rows.is_empty()
+    }
+}
+
+/// A row of the drawing.
+struct Row {
+    entries: DVector<f64>,
+    /// Rows of lower rank are taken first.
+    rank: u8,
+}
+
+impl Mechanism {
+    /// The excess in the drawing; nothing if the coordinates leave none, or the rows are independent.
+    pub(super) fn found_excess(&self) -> Excess {
+        let rows = self.position_rows();
+        let expected = (rows.len() + self.coordinates.len()).saturating_sub(3 * self.bodies.len());
+        if expected == 0 {
+            return Excess::default();
+        }
+        let in_excess = |rows: &[Row]| {
+            let mut dependent = dependent(rows);
+            dependent.truncate(expected);
+            dependent
+        };
+        let positions = in_excess(&rows);
+        let (reactions, contacts) = self.reaction_rows();
+        let cut: Vec<Option<ContactId>> = in_excess(&reactions).iter().map(|&row| contacts[row]).collect();
+        Excess {
+            of_hinges: cut.iter().filter(|contact| contact.is_none()).count(),
+            contacts: cut.into_iter().flatten().collect(),
+            rows: positions,
+        }
+    }
+
+    /// The rows of the joint equations, in their order. Rotations are taken first: they are the same in every
+    /// position.
+    fn position_rows(&self) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for joint in &self.joints {
+            match &joint.kind {
+                JointKind::Hinge(ends) => {
+                    for axis in [Vector2::x(), Vector2::y()] {
+                        let mut row = self.row(1);
+                        self.displace(&mut row, ends[0].frame, ends[0].position, axis);
+                        self.displace(&mut row, ends[1].frame, ends[1].position, -axis);
+                        rows.push(row);
+                    }
+                }
+                JointKind::Slider(slider) => {
+                    rows.push(self.normal_row(slider, 0.0, 2));
+                    if slider.kind != SliderKind::Pin {
+                        rows.push(self.rotation_row(slider));
+                    }
+                }
+            }
+        }
+        rows
+    }
+
+    /// The rows of hinges and rotation locks, which are taken first, and of the contacts.
+    fn reaction_rows(&self) -> (Vec<Row>, Vec<Option<ContactId>>) {
+        let (mut rows, mut contacts) = (Vec::new(), Vec::new());
+        for (joint, row) in self.joints.iter().flat_map(|joint| match &joint.kind {
+            JointKind::Hinge(_) => vec![(joint, 0), (joint, 1)],
+            JointKind::Slider(slider) => (0..slider.contacts.len())
+                .chain((slider.kind == SliderKind::Guided).then_some(1))
+                .map(|row| (joint, row))
+                .collect(),
+        }) {
+            match &joint.kind {
+                JointKind::Hinge(ends) => {
+                    let axis = if row == 0 { Vector2::x() } else { Vector2::y() };
+                    let mut row = self.row(0);
+                    self.displace(&mut row, ends[0].frame, ends[0].position, axis);
+                    self.displace(&mut row, ends[1].frame, ends[1].position, -axis);
+                    rows.push(row);
+                    contacts.push(None);
+                }
+                JointKind::Slider(slider) => match slider.contacts.get(row) {
+                    Some(&contact) => {
+                        rows.push(self.normal_row(slider, self.contacts[contact.index()].offset, 1));
+                        contacts.push(Some(contact));
+                    }
+                    None => {
+                        rows.push(self.rotation_row(slider));
+                        contacts.push(None);
+                    }
+                },
+            }
+        }
+        (rows, contacts)
+    }
+
+    fn row(&self, rank: u8) -> Row {
+        Row { entries: DVector::zeros(3 * self.bodies.len()), rank }
+    }
+
+    /// The block stays on the line of the guide, so far from its middle.
+    fn normal_row(&self, slider: &Slider, offset: f64, rank: u8) -> Row {
+        let mut row = self.row(rank);
+        let (place, normal) = (slider.at + slider.tangent * offset, rot90(slider.tangent));
+        self.displace(&mut row, slider.block, place, normal);
+        self.displace(&mut row, slider.guide, place, -normal);
+        row
+    }
+
+    /// Block and guide turn together.
+    fn rotation_row(&self, slider: &Slider) -> Row {
+        let mut row = self.row(0);
+        for (frame, sign) in [(slider.block, 1.0), (slider.guide, -1.0)] {
+            if let Some(body) = frame.body() {
+                row.entries[3 * body.index() + 2] += sign;
+            }
+        }
+        row
+    }
+
+    /// Adds the displacement of a frame's point along an axis; lengths count in sizes of the mechanism.
+    fn displace(&self, row: &mut Row, frame: Frame, place: Vector2<f64>, axis: Vector2<f64>) {
+        let Some(body) = frame.body() else { return };
+        let (first, arm) = (3 * body.index(), place - self.bodies[body.index()].centre_of_mass);
+        row.entries[first] += axis.x;
+        row.entries[first + 1] += axis.y;
+        row.entries[first + 2] += axis.dot(&rot90(arm)) / self.size;
+    }
+}
+
+/// The rows that are combinations of others: those of the lowest rank, and of these the first that are
+/// independent enough, are kept (Gram and Schmidt with pivoting).
+fn dependent(rows: &[Row]) -> Vec<usize> {
+    let mut left: Vec<usize> = (0..rows.len()).collect();
+    let mut rest: Vec<DVector<f64>> = rows.iter().map(|row| row.entries.clone()).collect();
+    for rank in 0..=2 {
+        loop {
+            let size = |row: usize| {
+                let length = rest[row].norm();
+                if length > DEPENDENT * rows[row].entries.norm() { length } else { 0.0 }
+            };
+            let of_rank: Vec<usize> = left.iter().copied().filter(|&row| rows[row].rank == rank).collect();
+            let greatest = of_rank.iter().map(|&row| size(row)).fold(0.0, f64::max);
+            let next = of_rank.iter().copied().find(|&row| size(row) >= INDEPENDENT_ENOUGH * greatest);
+            let Some(next) = next.filter(|_| greatest > 0.0) else { break };
+            let direction = rest[next].normalize();
+            left.retain(|&row| row != next);
+            // Twice is enough (Gram and Schmidt).
+            for _ in 0..2 {
+                for &row in &left {
+                    let part = rest[row].dot(&direction);
+                    rest[row].axpy(-part, &direction, 1.0);
+                }
+            }
+        }
+    }
+    left
+}

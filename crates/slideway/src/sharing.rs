@@ -1,0 +1,99 @@
+//! How redundant guides share a load: play, elasticity and misalignment of the contacts in excess.
+//!
+//! [`Mechanism`] and its self-stresses in, [`SharedLoad`] out, which closes the cuts of the kinetic equations.
+//! `2 delta` is the total play of a contact, `f = 1/k` the compliance of one of its faces, `e` the displacement
+//! of the guide's line there. Where the model gives no stiffness, faces are rigid (`f = 0`) as soon as it gives
+//! a play or a misalignment; without either only ratios of stiffnesses count, and they are taken to be equal.
+
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::interval::Real;
+use crate::mechanism::{Contact, Mechanism};
+use crate::modes::SharedLoad;
+use nalgebra::{DMatrix, DVector};
+
+/// Normal forces of a self-stress below this are rounding.
+pub(crate) const NO_STRESS: f64 = 1e-13;
+
+/// What is taken for the elasticity of contacts in excess.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Elasticity {
+    /// The stiffnesses of the model.
+    Given,
+    /// The faces are rigid: there is play or misalignment, but no stiffness.
+    Rigid,
+    /// All contacts have the same stiffness: there is neither play nor misalignment, so that only ratios count.
+    Equal,
+}
+
+/// How contacts share their load, given their self-stresses (a row for each contact, a column for each cut
+/// one); none if nothing is in excess.
+///
+/// # Errors
+/// Stiffnesses that are given for some of the contacts in excess only; rigid faces without play; press fits.
+pub fn shared_load<T: Real>(
+    mechanism: &Mechanism<T>,
+    self_stress: DMatrix<T>,
+) -> Result<Option<SharedLoad<T>>, Faults> {
+    if mechanism.excess.is_empty() {
+        return Ok(None);
+    }
+    let contacts = &mechanism.contacts;
+    let vector = |value: &dyn Fn(&Contact<T>) -> T| {
+        DVector::from_iterator(contacts.len(), contacts.iter().map(value))
+    };
+    let elasticity = elasticity(mechanism, &self_stress)?;
+    let compliance = |contact: &Contact<T>| match (elasticity, contact.stiffness) {
+        (Elasticity::Given, Some(stiffness)) => T::one() / stiffness,
+        (Elasticity::Equal, _) => T::one(),
+        _ => T::zero(),
+    };
+    Ok(Some(SharedLoad {
+        cut: mechanism.excess.contacts.iter().map(|contact| contact.index()).collect(),
+        compliance: vector(&compliance),
+        clearance: vector(&|contact| contact.play / T::exactly(2.0)),
+        misalignment: vector(&|contact| contact.misalignment),
+        self_stress,
+    }))
+}
+
+/// What is taken for the elasticity of the contacts in excess.
+///
+/// # Errors
+/// As [`shared_load`].
+pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -> Result<Elasticity, Faults> {
+    let takes_part = |k: &usize| self_stress.row(*k).iter().any(|force| !force.is_zero());
+    let sharing: Vec<&Contact<T>> =
+        (0..mechanism.contacts.len()).filter(takes_part).map(|k| &mechanism.contacts[k]).collect();
+    let named = |those: &dyn Fn(&&&Contact<T>) -> bool| -> Vec<String> {
+        sharing.iter().filter(those).map(|contact| contact.name.to_string()).collect()
+    };
+    let mut faults = Faults::default();
+    let mut refuse = |kind: FaultKind| {
+        let joint = sharing.first().map(|contact| contact.joint);
+        faults.push(match joint {
+            Some(joint) => Fault::new(kind, mechanism.joints[joint.index()].place.clone()),
+            None => Fault::general(kind),
+        });
+    };
+    let press_fits = named(&|contact| contact.play.lower() < 0.0);
+    if !press_fits.is_empty() {
+        refuse(FaultKind::PressFit { contacts: press_fits });
+    }
+    let without = named(&|contact| contact.stiffness.is_none());
+    let has_length = |contact: &&Contact<T>| !contact.play.is_zero() || !contact.misalignment.is_zero();
+    let elasticity = if without.is_empty() {
+        Elasticity::Given
+    } else if without.len() < sharing.len() {
+        refuse(FaultKind::StiffnessOfSome { contacts: without });
+        Elasticity::Given
+    } else if !sharing.iter().any(has_length) {
+        Elasticity::Equal
+    } else {
+        let tight = named(&|contact| contact.play.is_zero());
+        if !tight.is_empty() {
+            refuse(FaultKind::RigidWithoutPlay { contacts: tight });
+        }
+        Elasticity::Rigid
+    };
+    faults.or(elasticity)
+}
