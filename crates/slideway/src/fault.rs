@@ -349,7 +349,10 @@ pub enum FaultKind {
     // Degrees of freedom and coordinates.
     #[error("the structure is statically indeterminate: {} redundant", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
-    #[error("a stiffness is given for some of the contacts that share a load, but not for {}", listed(contacts))]
+    #[error(
+        "a stiffness is given for some of the contacts that share a load, but not for {}",
+        listed(contacts)
+    )]
     StiffnessOfSome { contacts: Vec<String> },
     #[error("{} share a load, but with rigid faces and no play nothing says how", listed(contacts))]
     RigidWithoutPlay { contacts: Vec<String> },

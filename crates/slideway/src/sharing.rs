@@ -38,9 +38,8 @@ pub fn shared_load<T: Real>(
         return Ok(None);
     }
     let contacts = &mechanism.contacts;
-    let vector = |value: &dyn Fn(&Contact<T>) -> T| {
-        DVector::from_iterator(contacts.len(), contacts.iter().map(value))
-    };
+    let vector =
+        |value: &dyn Fn(&Contact<T>) -> T| DVector::from_iterator(contacts.len(), contacts.iter().map(value));
     let elasticity = elasticity(mechanism, &self_stress)?;
     let compliance = |contact: &Contact<T>| match (elasticity, contact.stiffness) {
         (Elasticity::Given, Some(stiffness)) => T::one() / stiffness,

@@ -52,7 +52,8 @@ impl<T: Real> SharedLoad<T> {
     /// By which power of two the row of a self-stress is multiplied, so that its numbers are of order one.
     fn scale(&self, stress: usize) -> T {
         let terms = self.self_stress.column(stress).into_iter().zip(self.compliance.iter());
-        let greatest = terms.map(|(force, compliance)| (*force * *compliance).magnitude()).fold(0.0, f64::max);
+        let greatest =
+            terms.map(|(force, compliance)| (*force * *compliance).magnitude()).fold(0.0, f64::max);
         T::exactly(if greatest > 0.0 { 1.0 / power_of_two_above(greatest) } else { 1.0 })
     }
 
@@ -162,7 +163,8 @@ impl IntervalModeProblem {
                 shared.jump(side, row, k, given(view.jump(k, side), row))
             })
         };
-        let load = bounded(ProblemPart::RightHandSide, 1, &|row, _| shared.load(row, view.load().entry(row)))?;
+        let load =
+            bounded(ProblemPart::RightHandSide, 1, &|row, _| shared.load(row, view.load().entry(row)))?;
         Self::new(
             &BySide { positive: columns(Side::Positive)?, negative: columns(Side::Negative)? },
             &BySide { positive: jumps(Side::Positive)?, negative: jumps(Side::Negative)? },

@@ -11,7 +11,7 @@
 //! for steps that are halved until the change of side lies within the last.
 
 use super::spectrum::{eigenvalues, is_real};
-use crate::modes::{ModeProblem, Side};
+use crate::modes::{ContactState, ModeProblem, Side};
 use nalgebra::{DMatrix, DVector, LU};
 use std::collections::HashMap;
 
@@ -33,7 +33,7 @@ const START: f64 = 0.5;
 /// A state of rest of the fast motion: a solution.
 #[derive(Debug, Clone)]
 pub(super) struct Rest<'s> {
-    pub(super) sides: &'s [Side],
+    pub(super) states: &'s [ContactState],
     pub(super) normal_force: &'s DVector<f64>,
 }
 
@@ -78,7 +78,7 @@ impl<'p> FastMotion<'p> {
     /// Where the motion leads to on both sides of a solution with one unstable motion: started along that
     /// motion. None if there is no such motion or several.
     pub(super) fn ends(&mut self, from: &Rest<'_>, targets: &[Rest<'_>]) -> Option<[End; 2]> {
-        let (lambda, gaps) = self.unstable(from.sides)?;
+        let (lambda, gaps) = self.unstable(from.states)?;
         // s^2 + lambda (1 + delta s) = 0, lambda < 0
         let damped = self.damping * lambda;
         let rate = f64::midpoint(-damped, (damped * damped - 4.0 * lambda).sqrt());
@@ -100,8 +100,8 @@ impl<'p> FastMotion<'p> {
     }
 
     /// The only unstable motion of a mode: lambda < 0 and the gaps; none if there is none or several.
-    fn unstable(&self, sides: &[Side]) -> Option<(f64, DVector<f64>)> {
-        let matrix = &self.mobility * self.stiff(sides);
+    fn unstable(&self, states: &[ContactState]) -> Option<(f64, DVector<f64>)> {
+        let matrix = &self.mobility * self.stiff(states);
         let mut unstable = eigenvalues(&matrix)?.into_iter().filter(|value| value.re <= 0.0);
         let (lambda, more) = (unstable.next()?, unstable.next());
         if more.is_some() || !is_real(lambda) || lambda.re == 0.0 {
@@ -119,8 +119,8 @@ impl<'p> FastMotion<'p> {
     }
 
     /// C S K of a mode.
-    fn stiff(&self, sides: &[Side]) -> DMatrix<f64> {
-        let mut matrix = super::mode_matrix(self.problem, sides);
+    fn stiff(&self, states: &[ContactState]) -> DMatrix<f64> {
+        let mut matrix = super::mode_matrix(self.problem, states);
         for (mut column, stiffness) in matrix.column_iter_mut().zip(&self.stiffness) {
             column *= *stiffness;
         }
@@ -184,7 +184,7 @@ impl<'p> FastMotion<'p> {
             let distance = NEAR * (target.normal_force - from.normal_force).amax();
             (0..pressed.len()).all(|k| {
                 let rate = self.stiffness[k] * self.damping * state[pressed.len() + k];
-                pressed[k] == (target.sides[k] == Side::Positive)
+                pressed[k] == (target.states[k] == ContactState::Positive)
                     && (self.force(state, k) - target.normal_force[k]).abs() <= distance
                     && rate.abs() <= distance
             })
@@ -205,7 +205,8 @@ impl<'p> FastMotion<'p> {
         let contacts = pressed.len();
         let sides: Vec<Side> =
             pressed.iter().map(|positive| if *positive { Side::Positive } else { Side::Negative }).collect();
-        let stiff = &self.mobility * self.stiff(&sides);
+        let states: Vec<ContactState> = sides.iter().map(|side| ContactState::from(*side)).collect();
+        let stiff = &self.mobility * self.stiff(&states);
         let mut load = self.problem.right_hand_side().clone();
         for (k, side) in sides.iter().enumerate() {
             load += self.problem.jumps(*side).column(k);

@@ -143,7 +143,7 @@ mod tests {
             lengths: vec![1.0; 2],
         };
         let mode = DMatrix::from_row_slice(2, 2, &[1.0, -3.0, 1.0, 2.0]);
-        let pencil = Pencil::new(&inertia, mode).expect("regular");
+        let pencil = Pencil::new(&inertia, mode, None).expect("regular");
         let stability = |ratios: &[f64]| pencil.spectrum(&[1.0; 2], ratios).expect("computed").stability;
         assert!(matches!(stability(&[1.0, 1.0]), Stability::Flutter(damping) if damping.time == 0.0));
         assert_eq!(stability(&[0.1, 10.0]), Stability::Attainable);

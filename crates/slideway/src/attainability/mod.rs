@@ -19,16 +19,18 @@
 mod fate;
 mod inertia;
 mod ratios;
+mod shared;
 mod spectrum;
 
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
-use crate::modes::{ModeProblem, Side};
+use crate::modes::{ContactState, ModeProblem};
 use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 use fate::{End, FastMotion, Rest};
 use inertia::Inertia;
 use nalgebra::{DMatrix, DVector};
 use ratios::ratios;
+use shared::SharedGaps;
 use spectrum::{Pencil, Spectrum, Stability};
 
 /// The most contacts for which eigenvalues are computed, and for which the fate beside a solution is.
@@ -44,8 +46,8 @@ const ROUNDING: &str = "an eigenvalue of the fast motion is zero within rounding
 /// A solution whose attainability is asked for.
 #[derive(Debug, Clone)]
 pub struct Candidate {
-    /// The sides of the contacts.
-    pub sides: Vec<Side>,
+    /// The states of the contacts: their sides, or that one of redundant contacts is open.
+    pub states: Vec<ContactState>,
     /// The normal forces (N).
     pub normal_force: DVector<f64>,
 }
@@ -59,48 +61,89 @@ pub struct ElasticGuides<'p> {
     /// Of every contact (N/m); 1 if the model does not give all of them.
     stiffness: Vec<f64>,
     given: bool,
+    /// Of redundant guides: how their gaps hang together.
+    shared: Option<SharedGaps>,
     /// Why the fast motion is not stable, if it is not without friction either, which drives may cause.
     reversed: Option<String>,
 }
 
 impl<'p> ElasticGuides<'p> {
     /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of
-    /// the model if it gives them for every contact, else 1 N/m.
+    /// the model if it gives them for every contact, else 1 N/m; of redundant guides they count where all that
+    /// share a load have one, the others having the mean of these.
     pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
         let contacts = &mechanism.contacts;
-        let stiffness: Option<Vec<f64>> = contacts.iter().map(|contact| contact.stiffness).collect();
-        let given = stiffness.is_some() && !contacts.is_empty();
-        let stiffness = stiffness.unwrap_or_else(|| vec![1.0; contacts.len()]);
+        let shared = SharedGaps::of(mechanism, equations);
+        let known: Vec<f64> = contacts.iter().filter_map(|contact| contact.stiffness).collect();
+        let given = known.len() == contacts.len() && !contacts.is_empty();
+        let instead = if shared.is_some() && !known.is_empty() { mean(&known) } else { 1.0 };
+        let stiffness: Vec<f64> = if given || shared.is_some() {
+            contacts.iter().map(|contact| contact.stiffness.unwrap_or(instead)).collect()
+        } else {
+            vec![1.0; contacts.len()]
+        };
         let few = contacts.len() <= MOST_CONTACTS;
         let inertia = if few { Inertia::new(equations, mechanism.size) } else { None };
         let stable = inertia.as_ref().is_some_and(|inertia| {
-            let frictionless = DMatrix::identity(contacts.len(), contacts.len());
-            let spectrum = Pencil::new(inertia, frictionless)
+            let frictionless = match &shared {
+                Some(shared) => shared.gaps.transpose(),
+                None => DMatrix::identity(contacts.len(), contacts.len()),
+            };
+            let spectrum = Pencil::new(inertia, frictionless, shared.as_ref())
                 .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
             spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
         });
         let reversed = (!stable).then(|| reversed(mechanism));
-        Self { problem, inertia, stiffness, given, reversed }
+        Self { problem, inertia, stiffness, given, shared, reversed }
     }
 
     /// The attainability of each of these solutions, which are all that the mechanism has and none of them on
     /// the boundary between modes. Where one is unattainable, its two sides are followed to the others.
     pub fn attainability(&self, candidates: &[Candidate]) -> Vec<Attainability> {
-        let mut all: Vec<_> = candidates.iter().map(|candidate| self.of(&candidate.sides)).collect();
+        let mut all: Vec<_> = candidates.iter().map(|candidate| self.of(&candidate.states)).collect();
         self.fates(candidates, &mut all);
         all
     }
 
+    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose mode
+    /// problem has it.
+    pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
+        let shared = self.shared.as_ref()?;
+        Some(shared.oriented(&self.mode(states), states, &self.stiffness))
+    }
+
+    /// `C S`: of redundant guides the rows of the contacts that are not cut.
+    fn mode(&self, states: &[ContactState]) -> DMatrix<f64> {
+        let matrix = mode_matrix(self.problem, states);
+        match &self.shared {
+            Some(shared) => matrix.select_rows(&shared.kept),
+            None => matrix,
+        }
+    }
+
+    fn oriented(&self, mode: &DMatrix<f64>, states: &[ContactState]) -> f64 {
+        match &self.shared {
+            Some(shared) => shared.oriented(mode, states, &self.stiffness),
+            None => mode.determinant(),
+        }
+    }
+
+    /// Whether a verdict says something about this state: contacts of determinate guides that are between their
+    /// faces have no elastic law.
+    fn has_law(&self, states: &[ContactState]) -> bool {
+        self.shared.is_some() || !states.contains(&ContactState::Gap)
+    }
+
     /// The verdict on the mode with these sides alone: neither how it depends on stiffnesses nor what the
     /// solution separates is examined.
-    pub fn verdict_on(&self, sides: &[Side]) -> Verdict {
-        if sides.len() > MOST_CONTACTS {
+    pub fn verdict_on(&self, states: &[ContactState]) -> Verdict {
+        if states.len() > MOST_CONTACTS || !self.has_law(states) {
             return Verdict::NotComputed;
         }
         let (Some(inertia), None) = (&self.inertia, &self.reversed) else { return Verdict::Undecided };
-        let mode = mode_matrix(self.problem, sides);
-        let oriented = mode.determinant();
-        let spectrum = Pencil::new(inertia, mode)
+        let mode = self.mode(states);
+        let oriented = self.oriented(&mode, states);
+        let spectrum = Pencil::new(inertia, mode, self.shared.as_ref())
             .and_then(|pencil| pencil.spectrum(&self.stiffness, &equal_masses(inertia)));
         spectrum.map_or(Verdict::NotComputed, |spectrum| {
             let is_odd = spectrum.negative % 2 == 1;
@@ -110,8 +153,14 @@ impl<'p> ElasticGuides<'p> {
     }
 
     /// The attainability of the mode with these sides, without what an unattainable solution separates.
-    pub(crate) fn of(&self, sides: &[Side]) -> Attainability {
-        if sides.len() > MOST_CONTACTS {
+    pub(crate) fn of(&self, states: &[ContactState]) -> Attainability {
+        if !self.has_law(states) {
+            return Attainability::without_eigenvalues(
+                Verdict::NotComputed,
+                "the preload acts between the faces",
+            );
+        }
+        if states.len() > MOST_CONTACTS {
             let reason = format!("more than {MOST_CONTACTS} contacts");
             return Attainability::without_eigenvalues(Verdict::NotComputed, &reason);
         }
@@ -119,9 +168,9 @@ impl<'p> ElasticGuides<'p> {
             let reason = self.reversed.as_deref().unwrap_or_default();
             return Attainability::without_eigenvalues(Verdict::Undecided, reason);
         };
-        let mode = mode_matrix(self.problem, sides);
-        let oriented = mode.determinant();
-        let computed = Pencil::new(inertia, mode).and_then(|pencil| {
+        let mode = self.mode(states);
+        let oriented = self.oriented(&mode, states);
+        let computed = Pencil::new(inertia, mode, self.shared.as_ref()).and_then(|pencil| {
             let spectrum = pencil.spectrum(&self.stiffness, &equal_masses(inertia))?;
             Some((pencil, spectrum))
         });
@@ -135,9 +184,9 @@ impl<'p> ElasticGuides<'p> {
         let varies =
             |other: Option<Spectrum>| other.is_some_and(|other| !other.stability.agrees(&spectrum.stability));
         if consistent && spectrum.stability != Stability::Unclear {
-            // An odd number of negative eigenvalues stays odd.
+            // An odd number of negative eigenvalues stays odd, but for redundant guides.
             attainability.depends_on_stiffness = Some(
-                !is_odd
+                (!is_odd || self.shared.is_some())
                     && self.stiffness_ratios().any(|k| varies(pencil.spectrum(&k, &equal_masses(inertia)))),
             );
             let masses =
@@ -184,12 +233,12 @@ impl<'p> ElasticGuides<'p> {
     fn fates(&self, candidates: &[Candidate], all: &mut [Attainability]) {
         let few = self.stiffness.len() <= MOST_CONTACTS_OF_FATES && candidates.len() <= MOST_SOLUTIONS;
         let none = all.iter().all(|one| one.verdict != Verdict::Unattainable);
-        let (Some(inertia), true) = (&self.inertia, few && !none) else { return };
+        let (Some(inertia), true) = (&self.inertia, few && !none && self.shared.is_none()) else { return };
         let Some(mobility) = inertia.inverse(VANISHING_SHARE) else { return };
         let stays = |one: &Attainability| matches!(one.verdict, Verdict::Attainable | Verdict::Flutter);
         let numbers: Vec<usize> = (0..all.len()).filter(|&index| stays(&all[index])).collect();
         let rest = |index: usize| Rest {
-            sides: &candidates[index].sides,
+            states: &candidates[index].states,
             normal_force: &candidates[index].normal_force,
         };
         let targets: Vec<Rest<'_>> = numbers.iter().map(|&index| rest(index)).collect();
@@ -231,7 +280,13 @@ fn mass_ratios(inertia: &Inertia) -> Vec<Vec<f64>> {
     ratios(inertia.vanishing_masses())
 }
 
-/// C S = [c_k^sigma_k sigma_k]
-fn mode_matrix(problem: &ModeProblem, sides: &[Side]) -> DMatrix<f64> {
-    DMatrix::from_fn(sides.len(), sides.len(), |i, k| problem.columns(sides[k])[(i, k)] * sides[k].sign())
+/// C S = [c_k^sigma_k sigma_k]; the column of an open contact is zero.
+fn mode_matrix(problem: &ModeProblem, states: &[ContactState]) -> DMatrix<f64> {
+    DMatrix::from_fn(states.len(), states.len(), |i, k| {
+        states[k].side().map_or(0.0, |side| problem.columns(side)[(i, k)] * side.sign())
+    })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }

@@ -1,6 +1,7 @@
 //! Eigenvalues of the fast motion of one mode, and what they mean.
 
 use super::inertia::Inertia;
+use super::shared::SharedGaps;
 use nalgebra::{Complex, DMatrix, LU, Schur};
 
 /// Imaginary parts below this multiple of an eigenvalue are rounding: double eigenvalues lose half of the
@@ -92,15 +93,43 @@ pub(super) struct Spectrum {
 pub(super) struct Pencil<'i> {
     inertia: &'i Inertia,
     mode: DMatrix<f64>,
-    /// (C S)^-1 Y_left
-    compliance: DMatrix<f64>,
+    /// (C S)^-1 Y_left; none if redundant guides share their load: then stiffnesses count in it.
+    compliance: Option<DMatrix<f64>>,
+    shared: Option<&'i SharedGaps>,
 }
 
 impl<'i> Pencil<'i> {
     /// The pencil of a mode with the matrix `C S`; none if that is singular.
-    pub(super) fn new(inertia: &'i Inertia, mode: DMatrix<f64>) -> Option<Self> {
+    pub(super) fn new(
+        inertia: &'i Inertia,
+        mode: DMatrix<f64>,
+        shared: Option<&'i SharedGaps>,
+    ) -> Option<Self> {
+        if shared.is_some() {
+            return Some(Self { inertia, mode, compliance: None, shared });
+        }
         let compliance = LU::new(mode.clone()).solve(&inertia.left)?;
-        compliance.iter().all(|entry| entry.is_finite()).then_some(Self { inertia, mode, compliance })
+        compliance.iter().all(|entry| entry.is_finite()).then_some(Self {
+            inertia,
+            mode,
+            compliance: Some(compliance),
+            shared,
+        })
+    }
+
+    /// `K^-1 (C S)^-1 left`, or for redundant guides `((C S)_kept K E)^-1 left`.
+    fn compliance(&self, stiffness: &[f64]) -> Option<DMatrix<f64>> {
+        match (&self.compliance, self.shared) {
+            (Some(compliance), _) => {
+                let mut compliance = compliance.clone();
+                for (mut row, stiffness) in compliance.row_iter_mut().zip(stiffness) {
+                    row /= *stiffness;
+                }
+                Some(compliance)
+            }
+            (None, Some(shared)) => LU::new(shared.stiff(&self.mode, stiffness)).solve(&self.inertia.left),
+            (None, None) => None,
+        }
     }
 
     /// The eigenvalues for these stiffnesses and vanishing masses; none if they cannot be computed.
@@ -108,10 +137,7 @@ impl<'i> Pencil<'i> {
     /// The finite ones are the inverse eigenvalues of `right^T K^-1 (C S)^-1 left`, where motions without
     /// mass do not enter.
     pub(super) fn spectrum(&self, stiffness: &[f64], ratios: &[f64]) -> Option<Spectrum> {
-        let mut compliance = self.compliance.clone();
-        for (mut row, stiffness) in compliance.row_iter_mut().zip(stiffness) {
-            row /= *stiffness;
-        }
+        let compliance = self.compliance(stiffness)?;
         let inverse = eigenvalues(&(self.inertia.right.transpose() * compliance))?;
         let greatest = inverse.iter().map(|value| value.norm()).fold(0.0, f64::max);
         let clear = inverse.iter().all(|value| value.norm() > ZERO * greatest);
@@ -145,11 +171,16 @@ impl<'i> Pencil<'i> {
         if right.ncols() == 0 {
             return Some(Vec::new());
         }
-        let mut stiff = right.clone();
-        for (mut row, stiffness) in stiff.row_iter_mut().zip(stiffness) {
-            row *= *stiffness;
-        }
-        let block = left.transpose() * &self.mode * stiff;
+        let block = match self.shared {
+            Some(shared) => left.transpose() * shared.stiff(&self.mode, stiffness) * right,
+            None => {
+                let mut stiff = right.clone();
+                for (mut row, stiffness) in stiff.row_iter_mut().zip(stiffness) {
+                    row *= *stiffness;
+                }
+                left.transpose() * &self.mode * stiff
+            }
+        };
         eigenvalues(&LU::new(self.inertia.vanishing(ratios)).solve(&block)?)
     }
 }

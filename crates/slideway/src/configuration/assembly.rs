@@ -57,7 +57,8 @@ fn check_excess(mechanism: &Mechanism, poses: &[Pose]) -> Result<(), Faults> {
         None => Ok(()),
         Some(gap) => {
             let joint = &mechanism.joints[gap.joint.index()];
-            let kind = FaultKind::GuidesDoNotFit { joint: joint.name.to_string(), gap: gap.in_words(mechanism) };
+            let kind =
+                FaultKind::GuidesDoNotFit { joint: joint.name.to_string(), gap: gap.in_words(mechanism) };
             Err(Fault::new(kind, joint.place.clone()).into())
         }
     }

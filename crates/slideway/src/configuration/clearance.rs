@@ -80,7 +80,7 @@ impl Configuration {
             .filter(|contact| mechanism.contacts[*contact].joint == joint)
             .collect();
         match contacts[..] {
-            [front, rear] => {
+            [front, rear, ..] => {
                 let slide = self.slide(mechanism, slider).displacement;
                 let offset = |contact: usize| {
                     let contact = &mechanism.contacts[contact];

@@ -75,7 +75,7 @@ impl Mobility {
 
     /// The fault that a redundancy is, if there is one that guides do not share.
     pub fn fault(&self, mechanism: &Mechanism) -> Option<FaultKind> {
-        let is_shared = self.excess() == mechanism.excess.contacts.len()
+        let is_shared = self.excess() == mechanism.excess.rows.len()
             && self.redundancy.as_ref().is_some_and(|redundancy| !redundancy.only_here);
         if is_shared { None } else { self.fault_without_sharing(mechanism) }
     }

@@ -291,7 +291,7 @@ impl<T: Real> Configuration<T> {
 
     /// Supported length of a block slider: distance of front from rear contact along the guide (m).
     pub fn overlap(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Option<T> {
-        let [front, rear] = slider.contacts[..] else { return None };
+        let [front, rear, ..] = slider.contacts[..] else { return None };
         let front = self.contact(mechanism, front);
         Some(front.tangent.dot(&(front.point - self.contact(mechanism, rear).point)))
     }

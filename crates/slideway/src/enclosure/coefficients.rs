@@ -6,10 +6,10 @@ use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
 use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled};
 use crate::mechanism::{Contact, Mechanism, Slider};
-use crate::sharing::NO_STRESS;
 use crate::model::{self, JointKind, Model, PreloadLine, SliderKind};
 use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
+use crate::sharing::NO_STRESS;
 use nalgebra::{DMatrix, DVector};
 
 /// Where parameters are uncertain, forces below this multiple of the greatest are taken for nothing but
@@ -226,8 +226,10 @@ impl Coefficients<'_> {
     /// The normal forces by which the contacts of a block slider take up the couple between both faces of a
     /// contact, -h/o at the front and h/o at the rear; nothing for other sliders.
     fn taken_up_between_faces(&self, contact: usize) -> Vec<(usize, Interval)> {
-        let Some(slider) = self.slider(contact).filter(|slider| has_two_faces(slider)) else { return Vec::new() };
-        let [front, rear] = slider.contacts[..] else { return Vec::new() };
+        let Some(slider) = self.slider(contact).filter(|slider| has_two_faces(slider)) else {
+            return Vec::new();
+        };
+        let [front, rear, ..] = slider.contacts[..] else { return Vec::new() };
         let overlap = self.configuration.overlap(self.mechanism, slider);
         let force = slider.height / overlap.unwrap_or(Interval::REAL_LINE);
         vec![(front.index(), -force), (rear.index(), force)]

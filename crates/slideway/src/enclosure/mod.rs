@@ -246,10 +246,11 @@ pub fn enclosure(
     let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
     let influence = coefficients.influence(&unknowns)?;
     let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
-    let problem = match shared_load(&mechanism, coefficients.self_stresses(&unknowns)).map_err(NotEnclosed::Values)? {
-        Some(shared) => problem.with_shared_load(&shared)?,
-        None => problem,
-    };
+    let problem =
+        match shared_load(&mechanism, coefficients.self_stresses(&unknowns)).map_err(NotEnclosed::Values)? {
+            Some(shared) => problem.with_shared_load(&shared)?,
+            None => problem,
+        };
     Ok(EnclosedModeProblem {
         influence,
         problem,

@@ -174,7 +174,8 @@ impl KineticEquations {
         factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Singular>,
     ) -> Result<Self, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
-        let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows, cut_rows } = assembled;
+        let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows, cut_rows } =
+            assembled;
         let factorization = factor(matrix).map_err(|singular| {
             Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
         })?;
@@ -195,7 +196,14 @@ impl KineticEquations {
             error > INCONSISTENT * (terms + row.right_hand_side.abs())
         };
         let joint = |contact: &ContactId| mechanism.contacts[contact.index()].joint;
-        let violated: Vec<JointId> = self.layout.cut.iter().zip(cut_rows).filter(|(_, row)| violated(row)).map(|(contact, _)| joint(contact)).collect();
+        let violated: Vec<JointId> = self
+            .layout
+            .cut
+            .iter()
+            .zip(cut_rows)
+            .filter(|(_, row)| violated(row))
+            .map(|(contact, _)| joint(contact))
+            .collect();
         let Some(first) = violated.first() else { return Ok(()) };
         let joints = violated.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();
         let kind = FaultKind::SingularPosition { lost: violated.len(), joints };

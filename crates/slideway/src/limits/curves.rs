@@ -14,8 +14,8 @@ use crate::influence::ContactFriction;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Effort, Mechanism};
 use crate::model::Model;
+use crate::modes::ContactState;
 use crate::modes::existence::{EndCause, ModeInterval};
-use crate::modes::{ContactState, Side};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
 use crate::solve::{Parts, ProblemData, Stages, friction, rougher};
@@ -267,12 +267,8 @@ impl StateAt {
     }
 
     fn verdict(&self, pattern: &[ContactState]) -> Verdict {
-        let sides: Option<Vec<Side>> = pattern.iter().map(|state| state.side()).collect();
-        match (sides, self.stages.data().problem()) {
-            (Some(sides), Ok(problem)) => {
-                ElasticGuides::new(&self.stages.mechanism, &self.equations, &problem).verdict_on(&sides)
-            }
-            _ => Verdict::NotComputed,
-        }
+        self.stages.data().problem().map_or(Verdict::NotComputed, |problem| {
+            ElasticGuides::new(&self.stages.mechanism, &self.equations, &problem).verdict_on(pattern)
+        })
     }
 }

@@ -1,8 +1,8 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess, Joint, JointKind,
-    Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
+    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess, Joint,
+    JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -155,11 +155,12 @@ impl<T: Real> Evaluation<'_, T> {
         let height = slider.height.map_or(T::zero(), |height| self.value(height));
         let offsets: &[f64] = if slider.kind == SliderKind::Block { &[0.5, -0.5] } else { &[0.0] };
         let first = contacts.len();
-        for (contact, offset) in slider.contacts.iter().zip(offsets) {
+        for (index, contact) in slider.contacts.iter().enumerate() {
+            let of_length = || T::exactly(offsets.get(index).copied().unwrap_or(0.0)) * length;
             contacts.push(Contact {
                 name: contact.name.clone(),
                 joint,
-                offset: T::exactly(*offset) * length,
+                offset: contact.offset.map_or_else(of_length, |offset| self.value(offset)),
                 carried_by: contact.carried_by,
                 mu: contact.mu.map(|mu| self.value(mu)),
                 law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),
@@ -174,9 +175,7 @@ impl<T: Real> Evaluation<'_, T> {
                     .misalignment
                     .filter(|formula| !self.model.formula(*formula).moves())
                     .map_or(T::zero(), |misalignment| self.value(misalignment)),
-                misalignment_law: contact
-                    .misalignment
-                    .filter(|formula| self.model.formula(*formula).moves()),
+                misalignment_law: contact.misalignment.filter(|formula| self.model.formula(*formula).moves()),
                 pad: contact.pad.map(|pad| {
                     [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
                 }),

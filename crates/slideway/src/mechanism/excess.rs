@@ -43,18 +43,18 @@ struct Row {
 impl Mechanism {
     /// The excess in the drawing; nothing if the coordinates leave none, or the rows are independent.
     pub(super) fn found_excess(&self) -> Excess {
-        let rows = self.position_rows();
-        let expected = (rows.len() + self.coordinates.len()).saturating_sub(3 * self.bodies.len());
-        if expected == 0 {
+        let (reactions, contacts) = self.reaction_rows();
+        let excess =
+            |rows: &[Row]| (rows.len() + self.coordinates.len()).saturating_sub(3 * self.bodies.len());
+        if excess(&reactions) == 0 {
             return Excess::default();
         }
         let in_excess = |rows: &[Row]| {
             let mut dependent = dependent(rows);
-            dependent.truncate(expected);
+            dependent.truncate(excess(rows));
             dependent
         };
-        let positions = in_excess(&rows);
-        let (reactions, contacts) = self.reaction_rows();
+        let positions = in_excess(&self.position_rows());
         let cut: Vec<Option<ContactId>> = in_excess(&reactions).iter().map(|&row| contacts[row]).collect();
         Excess {
             of_hinges: cut.iter().filter(|contact| contact.is_none()).count(),

@@ -17,8 +17,8 @@ use crate::model::{
 };
 use crate::units::Units;
 use evaluation::Evaluation;
-use nalgebra::Vector2;
 pub use excess::Excess;
+use nalgebra::Vector2;
 pub use pad::Pad;
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
@@ -145,7 +145,7 @@ pub struct Slider<T = f64> {
     pub travel: Option<[T; 2]>,
     /// The stops at the least and at the greatest displacement; without, the motion ends there.
     pub stops: [Option<Stop<T>>; 2],
-    /// Its contacts: front and rear of a block slider, else the only one.
+    /// Its contacts: front, rear and further supports of a block slider, else the only one.
     pub contacts: Vec<ContactId>,
 }
 

@@ -2,7 +2,8 @@
 //! relations between values, and how its parts are connected.
 
 use super::{
-    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, NamedPoint, Slider, SliderKind, Stop,
+    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, NamedPoint, Slider, SliderKind,
+    Stop,
 };
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
@@ -154,7 +155,9 @@ impl Model {
     pub(crate) fn is_redundant(&self) -> bool {
         let equations = |joint: &Joint| match &joint.kind {
             JointKind::Slider(slider) if slider.kind == SliderKind::Pin => 1,
-            _ => 2,
+            // Further supports of a block count, too.
+            JointKind::Slider(slider) => slider.contacts.len().max(2),
+            JointKind::Hinge(_) => 2,
         };
         let rows: usize = self.joints.iter().map(equations).sum();
         rows + self.coordinates.len() > 3 * self.bodies.len()

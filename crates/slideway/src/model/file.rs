@@ -7,6 +7,7 @@ use super::quantity::{Components, Direction, Name, OutlinePlace, PerSide, Place,
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// A function of one argument, linear between its values.
 #[derive(Deserialize)]
@@ -145,12 +146,42 @@ pub(super) struct BlockSliderTable {
     pub(super) front: Option<EndTable>,
     /// The contact at the other end.
     pub(super) rear: Option<EndTable>,
+    /// Further contacts by their names, such as `middle = { at = "20 mm" }`: they are redundant, and share the load
+    /// by play, stiffness and misalignment.
+    pub(super) supports: Option<BTreeMap<String, SupportTable>>,
 }
 
 /// What differs at one end of a block.
 #[derive(Deserialize, Default)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct EndTable {
+    /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
+    pub(super) carried_by: Option<CarriedBy>,
+    /// Kinetic friction coefficient of this contact.
+    pub(super) mu: Option<PerSide>,
+    /// Static friction coefficient of this contact.
+    pub(super) mu_static: Option<PerSide>,
+    /// Preload of this contact.
+    pub(super) preload: Option<PerSide>,
+    /// Where the preload's friction acts.
+    pub(super) preload_line: Option<PreloadLine>,
+    /// Stiffness of the guide at this contact (N/m).
+    pub(super) stiffness: Option<Quantity>,
+    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    pub(super) play: Option<Quantity>,
+    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
+    /// a load; may depend on coordinates. Default: 0.
+    pub(super) misalignment: Option<Quantity>,
+    /// Area in contact at this contact, for the bearing pressure: { length = .., width = .. }.
+    pub(super) pad: Option<PadTable>,
+}
+
+/// A further contact of a block.
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
+pub(super) struct SupportTable {
+    /// Its place in the drawing: how far from the middle of the block in the direction of `along`.
+    pub(super) at: Quantity,
     /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
     pub(super) carried_by: Option<CarriedBy>,
     /// Kinetic friction coefficient of this contact.

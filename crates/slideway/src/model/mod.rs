@@ -266,6 +266,8 @@ pub enum Along {
 pub struct Contact {
     /// "joint" or, for the ends of a block slider, "joint.front" and "joint.rear".
     pub name: Arc<str>,
+    /// Its place from the middle of the block; nothing means an end of a block, or its middle for other sliders.
+    pub offset: Option<FormulaId>,
     /// What it travels with.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.

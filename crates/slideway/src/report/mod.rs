@@ -483,6 +483,10 @@ pub struct Contact {
     /// In a preload gap: the share of the preload friction at the face of positive normal force.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub preload_share: Option<f64>,
+    /// Of a contact that shares its load with others: by how much the block is displaced against its guide there,
+    /// towards +n (m); within its play where the contact is open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deflection: Option<f64>,
 }
 
 /// The contact mode of a sliding joint.

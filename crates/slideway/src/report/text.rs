@@ -156,7 +156,8 @@ impl Text<'_> {
         let signs = format!("signs {}", spaced(&solution.pattern));
         self.headed(title, &format!("   {signs}"));
         let contacts = &solution.contacts;
-        let about_to_change = are(contacts.iter().filter(|c| c.side == 0 && c.preload_share.is_none()));
+        let pressed = contacts.iter().zip(solution.pattern.bytes()).filter(|(_, state)| *state != b'0');
+        let about_to_change = are(pressed.map(|(contact, _)| contact).filter(|contact| contact.side == 0));
         let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
             if let Some(are) = about_to_change {
@@ -468,12 +469,17 @@ fn contact_table(contacts: &[Contact], units: &Units) -> String {
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
     let has_pad = contacts.iter().any(|contact| contact.pressure.is_some());
     let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
+    let has_deflection = contacts.iter().any(|contact| contact.deflection.is_some());
+    let length = units.of("m");
+    let deflections = contacts.iter().filter_map(|contact| contact.deflection);
+    let greatest_deflection = deflections.fold(0.0_f64, |most, value| most.max(value.abs()));
     let greatest_pressure = contacts.iter().filter_map(|contact| contact.pressure).fold(0.0, f64::max);
     let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];
     header.push(speed.title("sliding"));
     header.extend(has_couple.then(|| couple.title("couple")));
     header.extend(has_pad.then(|| pressure.title("pressure")));
     header.extend(has_share.then(|| "preload share at +".to_owned()));
+    header.extend(has_deflection.then(|| length.title("deflection")));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let optional =
         |value: Option<f64>, unit: &Unit| value.map_or(String::new(), |value| unit.against(value, scale));
@@ -489,6 +495,9 @@ fn contact_table(contacts: &[Contact], units: &Units) -> String {
             contact.pressure.map_or(String::new(), |value| pressure.against(value, greatest_pressure))
         }));
         row.extend(has_share.then(|| optional(contact.preload_share, &Unit::default())));
+        row.extend(has_deflection.then(|| {
+            contact.deflection.map_or(String::new(), |value| length.against(value, greatest_deflection))
+        }));
         row
     };
     table(&header, &contacts.iter().map(row).collect::<Vec<_>>(), 1)

@@ -7,21 +7,22 @@ use super::equilibrium::{Balance, Residual};
 use super::found::SearchFound;
 use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
-use super::words::mode_in_words;
+use super::words::{mode_in_words, shared_mode_in_words};
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedModeProblem, Tipping};
 use crate::fault::Faults;
-use crate::ids::{BodyId, DriveId, JointId};
+use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, Effort, JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
 use crate::modes::{
-    Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
-    UndecidedPattern,
+    Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SharedLoad, SingularMode,
+    SolutionSet, UndecidedPattern,
 };
 use crate::report::{self, Proof, SolveReport, SpeedChange, Status, Stopping};
+use crate::sharing::Elasticity;
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -49,6 +50,9 @@ pub(super) struct Answer<'a> {
     pub(super) velocity_signs: &'a DVector<f64>,
     /// For each contact, whether the right-hand side of the mode problem jumps with its side.
     pub(super) jumps: Vec<bool>,
+    /// How redundant guides share their load, and what is taken for their elasticity.
+    pub(super) shared: Option<SharedLoad>,
+    pub(super) elasticity: Option<Elasticity>,
     /// Bounds of the exact numbers, if they could be enclosed.
     pub(super) enclosed: Option<&'a EnclosedModeProblem>,
 }
@@ -116,18 +120,47 @@ impl<'a> Answer<'a> {
         })
     }
 
+    /// Whether a contact takes part in a self-stress of redundant guides.
+    fn shares(&self, contact: usize) -> bool {
+        self.shared.as_ref().is_some_and(|shared| shared.shares(contact))
+    }
+
+    /// Whether every contact between its faces is open: redundant guides leave that to it.
+    fn is_open(&self, states: &[ContactState]) -> bool {
+        let mut between = (0..states.len()).filter(|&k| states[k] == ContactState::Gap);
+        between.all(|k| self.shared.as_ref().is_some_and(|shared| shared.may_be_open(k)))
+    }
+
+    /// By how much a contact is displaced against its guide (m): -(delta + f N) where it is pressed towards +n,
+    /// delta - f N towards -n, between -delta and delta where it is open; none where it shares no load, or only
+    /// ratios of stiffnesses are known.
+    fn deflection(&self, state: &State<'_>, contact: usize) -> Option<f64> {
+        let shared = self
+            .shared
+            .as_ref()
+            .filter(|shared| shared.shares(contact) && self.elasticity != Some(Elasticity::Equal))?;
+        let (clearance, compliance) = (shared.clearance[contact], shared.compliance[contact]);
+        let yielding = compliance * state.normal_force[contact];
+        Some(match state.pattern[contact] {
+            ContactState::Positive => -clearance - yielding,
+            ContactState::Negative => clearance - yielding,
+            ContactState::Gap => clearance * (1.0 - 2.0 * state.shares[contact].unwrap_or(0.5)),
+        })
+    }
+
     /// Files the states of the mechanism that a state of the mode problem stands for, unless a guided slider
     /// would tip.
     fn keep(&self, state: &State<'_>, states: &mut States, tipping: &mut Tipped) {
         for faces in self.faces(state) {
             let kept = self.kept(&faces.state(state), tipping);
-            if faces.in_gap() { &mut states.gaps } else { &mut states.solutions }.extend(kept);
+            if !self.is_open(faces.states()) { &mut states.gaps } else { &mut states.solutions }.extend(kept);
         }
     }
 
     /// A state as a solution, unless a guided slider would tip in it.
     fn kept(&self, state: &State<'_>, tipping: &mut Tipped) -> Option<report::Solution> {
-        let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state), state.normal_force));
+        let unknowns =
+            self.equations.without_noise(&self.influence.unknowns(&self.friction(state), state.normal_force));
         match self.tipping(state, &unknowns) {
             None => Some(self.solution(state, &unknowns)),
             Some(rejection) => {
@@ -311,7 +344,8 @@ impl<'a> Answer<'a> {
                 sliding_velocity: self.equations.contacts[k].sliding_velocity,
                 couple: self.couple(contact.joint, unknowns),
                 pressure: contact.pressure(state.normal_force[k]),
-                preload_share: state.shares[k],
+                preload_share: state.shares[k].filter(|_| self.mechanism.preload_jumps(ContactId(k))),
+                deflection: self.deflection(state, k),
             }
         };
         (0..state.pattern.len()).map(one).collect()
@@ -321,10 +355,14 @@ impl<'a> Answer<'a> {
         let one = |(joint, slider): (JointId, &Slider)| {
             let tangent = self.configuration.slide(self.mechanism, slider).tangent;
             let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-            report::JointMode {
-                name: self.mechanism.joints[joint.index()].name.to_string(),
-                mode: mode_in_words(slider, tangent, &signs),
-            }
+            let named = slider.contacts.iter().map(|contact| &*self.mechanism.contacts[contact.index()].name);
+            let is_shared = slider.contacts.iter().any(|contact| self.shares(contact.index()));
+            let mode = if is_shared {
+                shared_mode_in_words(slider, tangent, &named.zip(signs).collect::<Vec<_>>())
+            } else {
+                mode_in_words(slider, tangent, &signs)
+            };
+            report::JointMode { name: self.mechanism.joints[joint.index()].name.to_string(), mode }
         };
         self.sliders().map(one).collect()
     }

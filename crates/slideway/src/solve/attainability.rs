@@ -7,7 +7,7 @@ use super::answer::Answer;
 use super::mode_problem::mode_problem;
 use crate::attainability::{Candidate, ElasticGuides};
 use crate::fault::Faults;
-use crate::modes::Side;
+use crate::modes::ContactState;
 use crate::report::{Attainability, Fate, Solution, Verdict};
 use nalgebra::DVector;
 
@@ -29,6 +29,12 @@ impl Answer<'_> {
         }
         let problem = mode_problem(self.mechanism, self.influence, self.velocity_signs)?;
         let guides = ElasticGuides::new(self.mechanism, self.equations, &problem);
+        for &index in &inside {
+            let states = states(&solutions[index]);
+            if let Some(mean) = guides.oriented_mean(&states) {
+                solutions[index].oriented_determinant = mean;
+            }
+        }
         let candidates: Vec<Candidate> = inside.iter().map(|&index| candidate(&solutions[index])).collect();
         for (&index, mut attainability) in inside.iter().zip(guides.attainability(&candidates)) {
             attainability.separates = attainability.separates.map(|fates| {
@@ -45,13 +51,23 @@ impl Answer<'_> {
 
 /// Whether a solution belongs to several modes, or to a singular one.
 fn is_on_boundary(solution: &Solution) -> bool {
-    solution.on_boundary || solution.determinant == 0.0 || solution.signs.contains(&0)
+    let pressed =
+        solution.signs.iter().zip(states(solution)).filter(|(_, state)| *state != ContactState::Gap);
+    solution.on_boundary || solution.determinant == 0.0 || pressed.into_iter().any(|(sign, _)| *sign == 0)
+}
+
+fn states(solution: &Solution) -> Vec<ContactState> {
+    let state = |state: char| match state {
+        '+' => ContactState::Positive,
+        '-' => ContactState::Negative,
+        _ => ContactState::Gap,
+    };
+    solution.pattern.chars().map(state).collect()
 }
 
 fn candidate(solution: &Solution) -> Candidate {
-    let side = |sign: &i8| if *sign > 0 { Side::Positive } else { Side::Negative };
     Candidate {
-        sides: solution.signs.iter().map(side).collect(),
+        states: states(solution),
         normal_force: DVector::from_iterator(
             solution.contacts.len(),
             solution.contacts.iter().map(|contact| contact.normal_force),

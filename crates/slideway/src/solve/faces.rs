@@ -110,9 +110,9 @@ pub(super) struct Faces {
 }
 
 impl Faces {
-    /// Whether some contact is between its faces.
-    pub(super) fn in_gap(&self) -> bool {
-        self.states.contains(&ContactState::Gap)
+    /// The states of all contacts.
+    pub(super) fn states(&self) -> &[ContactState] {
+        &self.states
     }
 
     /// The state of which these are the faces.

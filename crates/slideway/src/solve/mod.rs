@@ -145,6 +145,8 @@ pub fn solve_with(
         influence,
         velocity_signs,
         jumps,
+        elasticity: stages.elasticity()?,
+        shared: stages.shared_load()?,
         enclosed: enclosed.as_ref().ok(),
     };
     let mut report = answer.report(&found::SearchFound {

@@ -7,8 +7,8 @@ use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::{PreloadLine, SliderKind};
-use crate::sharing::{NO_STRESS, shared_load};
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
+use crate::sharing::{NO_STRESS, shared_load};
 use nalgebra::{DMatrix, DVector};
 
 /// Sliding velocities below this multiple of the greatest velocity count as zero.
@@ -73,9 +73,16 @@ pub fn mode_problem(
 /// The normal forces of the self-stresses, without rounding: a row for each contact.
 pub(crate) fn self_stresses(influence: &Influence) -> DMatrix<f64> {
     let without_rounding = |force: f64| if force.abs() <= NO_STRESS { 0.0 } else { force };
-    let columns: Vec<DVector<f64>> =
-        influence.self_stresses.iter().map(|stress| influence.normal_part(stress).map(without_rounding)).collect();
-    if columns.is_empty() { DMatrix::zeros(influence.columns.len(), 0) } else { DMatrix::from_columns(&columns) }
+    let columns: Vec<DVector<f64>> = influence
+        .self_stresses
+        .iter()
+        .map(|stress| influence.normal_part(stress).map(without_rounding))
+        .collect();
+    if columns.is_empty() {
+        DMatrix::zeros(influence.columns.len(), 0)
+    } else {
+        DMatrix::from_columns(&columns)
+    }
 }
 
 /// What the mode problem is made of.

@@ -1,6 +1,6 @@
 //! The stages of a model up to the numbers of its mode problem.
 
-use super::mode_problem::{mode_problem, velocity_signs};
+use super::mode_problem::{mode_problem, self_stresses, velocity_signs};
 use super::parts::Parts;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
@@ -10,7 +10,8 @@ use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coordinate_rows};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::ModeProblem;
+use crate::modes::{ModeProblem, SharedLoad};
+use crate::sharing::{Elasticity, elasticity, shared_load};
 use nalgebra::DVector;
 
 /// A model in its state, ready for its mode problem.
@@ -75,6 +76,25 @@ impl Stages {
         let influence = Influence::of(influences);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
         Ok(Self { mechanism, configuration, influence, velocity_signs, accuracy })
+    }
+
+    /// How redundant guides share their load; none if nothing is in excess.
+    ///
+    /// # Errors
+    /// Nothing says how.
+    pub(crate) fn shared_load(&self) -> Result<Option<SharedLoad>, Faults> {
+        shared_load(&self.mechanism, self_stresses(&self.influence))
+    }
+
+    /// What is taken for the elasticity of redundant guides.
+    ///
+    /// # Errors
+    /// As [`Self::shared_load`].
+    pub(crate) fn elasticity(&self) -> Result<Option<Elasticity>, Faults> {
+        if self.mechanism.excess.is_empty() {
+            return Ok(None);
+        }
+        elasticity(&self.mechanism, &self_stresses(&self.influence)).map(Some)
     }
 
     /// What its mode problem is made of.

@@ -37,6 +37,8 @@ pub(crate) fn solve_with_friction(
         influence,
         velocity_signs,
         jumps,
+        elasticity: stages.elasticity()?,
+        shared: stages.shared_load()?,
         enclosed: enclosed.as_ref().ok(),
     };
     let found = SearchFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };

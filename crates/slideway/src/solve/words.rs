@@ -30,6 +30,34 @@ pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> St
     }
 }
 
+/// The contact mode of a sliding joint that shares its load with others: what each of its contacts does.
+///
+/// `contacts` are their names, `joint.contact`, with the signs of their normal forces, 0 for an open one.
+pub(super) fn shared_mode_in_words(
+    slider: &Slider,
+    tangent: Vector2<f64>,
+    contacts: &[(&str, i8)],
+) -> String {
+    let guide = GuideInWords { tangent, around: slider.around };
+    let place = |sign: i8| match (slider.kind, sign) {
+        (_, 0) => "open".to_owned(),
+        (SliderKind::Pin, _) => format!("on the {} side of the slot", guide.face(sign)),
+        _ => format!("on the {} face", guide.face(sign)),
+    };
+    match contacts {
+        [(_, sign)] => place(*sign),
+        [(_, first), others @ ..] if others.iter().all(|(_, sign)| sign == first) => match first {
+            0 => "open".to_owned(),
+            sign => guide.flat(*sign),
+        },
+        _ => {
+            let name = |name: &str| name.rsplit_once('.').map_or(name, |(_, end)| end).to_owned();
+            let each = contacts.iter().map(|(contact, sign)| format!("{} {}", name(contact), place(*sign)));
+            each.collect::<Vec<_>>().join(", ")
+        }
+    }
+}
+
 /// "drawer slides along (1, 0)", or "block slides along (0, -1) on arm": what it means that a joint slides in
 /// its positive direction (`sign` = 1) or against it (-1).
 ///

@@ -7,8 +7,8 @@ use super::stages::Stages;
 use crate::attainability::ElasticGuides;
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::PreloadLine;
+use crate::modes::ContactState;
 use crate::modes::screen::SmallState;
-use crate::modes::{ContactState, Side};
 use crate::report::Verdict;
 
 /// What the rows of a point are made of.
@@ -161,11 +161,10 @@ impl Writer<'_> {
         Some(keeps)
     }
 
-    /// The verdict on a solution, if it was asked for; states with gaps have none.
+    /// The verdict on a solution, if it was asked for; states between the faces of determinate guides have none.
     fn verdict(&self, pattern: &[ContactState]) -> RowVerdict {
         let Some(guides) = &self.guides else { return RowVerdict::NotComputed };
-        let sides: Option<Vec<Side>> = pattern.iter().map(|state| state.side()).collect();
-        sides.map_or(RowVerdict::NotComputed, |sides| verdict(guides.verdict_on(&sides)))
+        verdict(guides.verdict_on(pattern))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::file::{
     BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PadTable, PinInSlotTable,
-    PreloadLine, StopAtEndTable, StopTable,
+    PreloadLine, StopAtEndTable, StopTable, SupportTable,
 };
 use super::super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
 use super::super::sections::JointContents;
@@ -74,6 +74,23 @@ impl<'a> WrittenFriction<'a> {
             pad: end.pad.as_ref(),
             has_face: false,
             carried_by: end.carried_by,
+        }
+    }
+}
+
+impl<'a> WrittenFriction<'a> {
+    fn at_support(table: &'a SupportTable) -> Self {
+        Self {
+            mu: table.mu.as_ref(),
+            mu_static: table.mu_static.as_ref(),
+            preload: table.preload.as_ref(),
+            preload_line: table.preload_line,
+            stiffness: table.stiffness.as_ref(),
+            play: table.play.as_ref(),
+            misalignment: table.misalignment.as_ref(),
+            pad: table.pad.as_ref(),
+            has_face: false,
+            carried_by: table.carried_by,
         }
     }
 }
@@ -225,13 +242,25 @@ impl Reader<'_> {
     fn block_slider(&mut self, table: &BlockSliderTable, name: &str, span: &Span) -> JointKind {
         let written = WrittenSlider::from(table);
         let both = self.friction(written.friction, name, span);
-        let contacts =
-            [("front", table.front.as_ref()), ("rear", table.rear.as_ref())].map(|(end, table)| {
-                let contact = format!("{name}.{end}");
-                let friction = self.friction(WrittenFriction::at_end(table), &contact, span).or(both);
-                self.contact(friction, contact, name, span)
-            });
-        self.slider(&written, Vec::from(contacts), name, span)
+        let ends = [("front", table.front.as_ref()), ("rear", table.rear.as_ref())];
+        let mut contacts: Vec<Contact> = Vec::new();
+        for (end, table) in ends {
+            let contact = format!("{name}.{end}");
+            let friction = self.friction(WrittenFriction::at_end(table), &contact, span).or(both);
+            contacts.push(self.contact(friction, contact, name, span));
+        }
+        for (support, table) in table.supports.iter().flatten() {
+            self.valid_name("support", support, span);
+            let contact = format!("{name}.{support}");
+            if contacts.iter().any(|other| *other.name == *contact) {
+                self.fault(FaultKind::SharedName { name: contact.clone() }, span);
+            }
+            let friction = self.friction(WrittenFriction::at_support(table), &contact, span).or(both);
+            let wanted = Wanted::constant(format!("the place of {contact}"), Dimension::LENGTH);
+            let offset = Some(self.formula(&table.at, wanted));
+            contacts.push(Contact { offset, ..self.contact(friction, contact, name, span) });
+        }
+        self.slider(&written, contacts, name, span)
     }
 
     fn slider_of_one_contact(&mut self, written: &WrittenSlider<'_>, name: &str, span: &Span) -> JointKind {
@@ -359,9 +388,8 @@ impl Reader<'_> {
             let what = format!("the stiffness of the guide at {name}");
             self.formula(stiffness, Wanted::constant(what, Dimension::STIFFNESS).positive())
         });
-        let play = written.play.map(|play| {
-            self.formula(play, Wanted::constant(of("play"), Dimension::LENGTH))
-        });
+        let play =
+            written.play.map(|play| self.formula(play, Wanted::constant(of("play"), Dimension::LENGTH)));
         let misalignment = written.misalignment.map(|misalignment| {
             self.formula(misalignment, Wanted::moving(of("misalignment"), Dimension::LENGTH))
         });
@@ -399,6 +427,7 @@ impl Reader<'_> {
             mu_static: friction.mu_static.unwrap_or(mu),
             preload: friction.preload.map_or([None; 2], |preload| preload.map(Some)),
             preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
+            offset: None,
             stiffness: friction.stiffness,
             play: friction.play,
             misalignment: friction.misalignment,

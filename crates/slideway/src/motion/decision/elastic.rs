@@ -7,7 +7,7 @@ use crate::ids::CoordinateId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Attachment, Coordinate, CoordinateKind, Drive, Effort, Mechanism, Quantity, Slider};
-use crate::modes::Side;
+use crate::modes::ContactState;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 use crate::solve::mode_problem;
@@ -26,14 +26,14 @@ pub(super) fn attainability(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Attainability {
-    let ask = |guides: &ElasticGuides<'_>, sides: &[Side]| guides.of(sides);
+    let ask = |guides: &ElasticGuides<'_>, states: &[ContactState]| guides.of(states);
     examine(instant, configuration, phase, ask)
         .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
 }
 
 /// Only the verdict of [`attainability`].
 pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
-    let ask = |guides: &ElasticGuides<'_>, sides: &[Side]| guides.verdict_on(sides);
+    let ask = |guides: &ElasticGuides<'_>, states: &[ContactState]| guides.verdict_on(states);
     examine(instant, configuration, phase, ask).unwrap_or(Verdict::NotComputed)
 }
 
@@ -42,7 +42,7 @@ fn examine<T>(
     instant: &Instant<'_>,
     configuration: &Configuration,
     phase: &Phase,
-    ask: impl Fn(&ElasticGuides<'_>, &[Side]) -> T,
+    ask: impl Fn(&ElasticGuides<'_>, &[ContactState]) -> T,
 ) -> Result<T, &'static str> {
     let sticks = |joint: usize| phase.joints[joint] == JointPhase::Sticking;
     if !phase.joints.is_empty() && (0..phase.joints.len()).all(sticks) {
@@ -64,15 +64,15 @@ fn examine<T>(
             _ => 0.0,
         });
     let problem = mode_problem(&mechanism, &influence, &signs).map_err(|_| OUT_OF_RANGE)?;
-    let sides: Vec<Side> = phase
+    let states: Vec<ContactState> = phase
         .contacts
         .iter()
         .map(|contact| match contact {
-            ContactPhase::Pressed(side) => *side,
-            ContactPhase::PreloadGap => Side::Positive,
+            ContactPhase::Pressed(side) => ContactState::from(*side),
+            ContactPhase::PreloadGap => ContactState::Positive,
         })
         .collect();
-    Ok(ask(&ElasticGuides::new(&mechanism, &equations, &problem), &sides))
+    Ok(ask(&ElasticGuides::new(&mechanism, &equations, &problem), &states))
 }
 
 /// The mechanism with these joints locked, as far as the locks are independent.

@@ -42,7 +42,8 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
     let unit = |k: usize| instant.units_of(k).force;
     let scaled = |(k, friction): (usize, &ContactFriction)| friction.times(unit(k));
     let frictions: Vec<ContactFriction> = forces.frictions.iter().enumerate().map(scaled).collect();
-    let normal_forces: Vec<f64> = forces.normal.iter().enumerate().map(|(k, normal)| normal * unit(k)).collect();
+    let normal_forces: Vec<f64> =
+        forces.normal.iter().enumerate().map(|(k, normal)| normal * unit(k)).collect();
     let unknowns = instant.influence.unknowns(&frictions, &DVector::from_column_slice(&normal_forces));
     let sliding = instant.joints.iter().zip(&assessment.phase.joints);
     let acceleration = |(joint, phase): (&super::joints::SlidingJoint, &JointPhase)| match phase {

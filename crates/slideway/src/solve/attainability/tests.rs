@@ -9,7 +9,7 @@ use crate::influence::Influence;
 use crate::kinetics::{Assembled, KineticEquations, Reaction};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
-use crate::modes::{ModeProblem, Side};
+use crate::modes::{ContactState, ModeProblem, Side};
 use crate::report::Attainability;
 use crate::solve::{mode_problem, velocity_signs};
 use nalgebra::{Complex, DMatrix, DVector, LU};
@@ -93,8 +93,9 @@ impl Case {
 }
 
 fn attainability(guides: &ElasticGuides<'_>, sides: &[Side]) -> Attainability {
+    let states = sides.iter().map(|side| ContactState::from(*side)).collect();
     let normal_force = DVector::from_iterator(sides.len(), sides.iter().map(|side| side.sign()));
-    guides.attainability(&[Candidate { sides: sides.to_vec(), normal_force }]).swap_remove(0)
+    guides.attainability(&[Candidate { states, normal_force }]).swap_remove(0)
 }
 
 #[test]

@@ -1,0 +1,74 @@
+//! Elastic guides in excess: which gaps move, and which follow from them.
+//!
+//! With `Z` the self-stresses, identity in the rows of the cut contacts, the gaps of all contacts follow from
+//! those that are not cut, `gap = E gap_kept` with `gap_cut = -Z_kept^T gap_kept`, and
+//!
+//! ```text
+//! Y gap_kept'' = -(C S)_kept K E gap_kept,     p(sigma) = det((C S)_kept K E) / det((C S)_kept K E without friction)
+//! ```
+//!
+//! with stiffness 0 for open contacts: `p` is the mean of the oriented determinants of the determinate
+//! sub-mechanisms, weighted by stiffness (theory of redundant guides, R4).
+
+use crate::ids::ContactId;
+use crate::kinetics::{KineticEquations, Reaction};
+use crate::mechanism::Mechanism;
+use crate::modes::ContactState;
+use crate::sharing::NO_STRESS;
+use nalgebra::DMatrix;
+
+/// The gaps of redundant contacts.
+#[derive(Debug, Clone)]
+pub(super) struct SharedGaps {
+    /// The contacts that are not cut.
+    pub(super) kept: Vec<usize>,
+    /// E: all gaps from those of the contacts that are not cut (contacts x kept).
+    pub(super) gaps: DMatrix<f64>,
+    /// (C S)_kept without friction, all contacts pressed.
+    frictionless: DMatrix<f64>,
+}
+
+impl SharedGaps {
+    /// Those of a mechanism; none if nothing is in excess.
+    pub(super) fn of(mechanism: &Mechanism, equations: &KineticEquations) -> Option<Self> {
+        let contacts = mechanism.contacts.len();
+        let cut: Vec<usize> = mechanism.excess.contacts.iter().map(|contact| contact.index()).collect();
+        if cut.is_empty() {
+            return None;
+        }
+        let normal = |contact: usize| equations.layout.reaction(Reaction::Normal(ContactId(contact)));
+        let stresses = equations.self_stresses();
+        let stress = |contact: usize, stress: usize| {
+            let force = normal(contact).map_or(0.0, |row| stresses[stress][row]);
+            if force.abs() <= NO_STRESS { 0.0 } else { force }
+        };
+        let kept: Vec<usize> = (0..contacts).filter(|contact| !cut.contains(contact)).collect();
+        let position = |contact: usize| cut.iter().position(|other| *other == contact);
+        let gaps = DMatrix::from_fn(contacts, kept.len(), |contact, column| match position(contact) {
+            Some(number) => -stress(kept[column], number),
+            None => f64::from(u8::from(kept[column] == contact)),
+        });
+        // sigma e_k, and -sigma Z of a cut contact, times sigma: E^T.
+        Some(Self { frictionless: gaps.transpose(), kept, gaps })
+    }
+
+    /// The stiffness matrix of a mode, `(C S)_kept K E`, from `C S`.
+    pub(super) fn stiff(&self, mode: &DMatrix<f64>, stiffness: &[f64]) -> DMatrix<f64> {
+        let mut gaps = self.gaps.clone();
+        for (mut row, stiffness) in gaps.row_iter_mut().zip(stiffness) {
+            row *= *stiffness;
+        }
+        mode * gaps
+    }
+
+    /// Oriented determinant p: 1 without friction.
+    pub(super) fn oriented(&self, mode: &DMatrix<f64>, states: &[ContactState], stiffness: &[f64]) -> f64 {
+        let closed: Vec<f64> = stiffness
+            .iter()
+            .zip(states)
+            .map(|(stiffness, state)| if *state == ContactState::Gap { 0.0 } else { *stiffness })
+            .collect();
+        let [with, without] = [mode, &self.frictionless].map(|mode| self.stiff(mode, &closed).determinant());
+        if without == 0.0 { 0.0 } else { with / without }
+    }
+}
