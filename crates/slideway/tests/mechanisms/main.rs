@@ -31,6 +31,7 @@ mod no_sliding;
 mod positions;
 mod preload_gap;
 mod properties;
+mod redundant;
 mod rest;
 mod speeds;
 mod standstill;

@@ -1,0 +1,455 @@
+//! Redundant guides: `reference/redundant.toml`, and random ones against equations of their own.
+
+use crate::answers::report_on;
+use crate::random_mechanisms::cases;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use serde::Deserialize;
+use slideway::report::{Proof, Report, SolveReport, Style, Verdict};
+use std::fmt::Write as _;
+
+const REFERENCE: &str = include_str!("../../../../reference/redundant.toml");
+
+#[derive(Deserialize)]
+struct Reference {
+    case: Vec<Case>,
+}
+
+#[derive(Deserialize)]
+struct Case {
+    name: String,
+    gravity: [f64; 2],
+    bodies: Vec<Body>,
+    hinges: Vec<Hinge>,
+    contacts: Vec<Contact>,
+    forces: Vec<Force>,
+    drives: Vec<Drive>,
+    solutions: Vec<Expected>,
+}
+
+#[derive(Deserialize)]
+struct Body {
+    name: String,
+    m: f64,
+    #[serde(rename = "J")]
+    moment: f64,
+    pose: [f64; 3],
+    velocity: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct Hinge {
+    a: String,
+    at_a: [f64; 2],
+    b: String,
+}
+
+#[derive(Deserialize, Clone)]
+struct Contact {
+    #[serde(rename = "O")]
+    on_guide: [f64; 2],
+    slider: String,
+    #[serde(rename = "P")]
+    point: [f64; 2],
+    h: f64,
+    mu: f64,
+    #[serde(rename = "F0")]
+    preload: f64,
+    delta: f64,
+    f: f64,
+    e: f64,
+}
+
+#[derive(Deserialize)]
+struct Force {
+    body: String,
+    at: [f64; 2],
+    force: [f64; 2],
+}
+
+#[derive(Deserialize)]
+struct Drive {
+    body: String,
+    at: [f64; 2],
+    direction: [f64; 2],
+}
+
+#[derive(Deserialize)]
+struct Expected {
+    states: String,
+    #[serde(rename = "N_plus")]
+    plus: Vec<f64>,
+    #[serde(rename = "N_minus")]
+    minus: Vec<f64>,
+    d: Vec<f64>,
+    a: Vec<f64>,
+    #[serde(rename = "P")]
+    efforts: Vec<f64>,
+    verdict: String,
+    p: Option<f64>,
+}
+
+impl Case {
+    fn place(&self, body: &str, local: [f64; 2]) -> [f64; 2] {
+        let [x, y, angle] = self.bodies.iter().find(|other| other.name == body).unwrap().pose;
+        let (sin, cos) = angle.sin_cos();
+        [x + cos * local[0] - sin * local[1], y + sin * local[0] + cos * local[1]]
+    }
+
+    /// The contacts of each line of a body, by their numbers: one joint each, the foremost contact first and the
+    /// rearmost second.
+    fn joints(&self) -> Vec<Vec<usize>> {
+        let mut joints: Vec<Vec<usize>> = Vec::new();
+        for (k, contact) in self.contacts.iter().enumerate() {
+            let same = |joint: &&mut Vec<usize>| {
+                let first = &self.contacts[joint[0]];
+                first.slider == contact.slider && first.on_guide[1] == contact.on_guide[1]
+            };
+            match joints.iter_mut().find(same) {
+                Some(joint) => joint.push(k),
+                None => joints.push(vec![k]),
+            }
+        }
+        for joint in &mut joints {
+            let x = |k: &usize| self.contacts[*k].point[0];
+            joint.sort_by(|a, b| x(b).total_cmp(&x(a)));
+            if joint.len() > 2 {
+                let last = joint.pop().unwrap();
+                joint.insert(1, last);
+            }
+        }
+        joints
+    }
+
+    /// The model file.
+    fn text(&self) -> String {
+        let mut text = format!("gravity = [{}, {}]\n", self.gravity[0], self.gravity[1]);
+        let mut points = String::new();
+        let mut owned = vec![Vec::new(); self.bodies.len()];
+        let mut point = |name: String, body: &str, place: [f64; 2]| {
+            writeln!(points, "{name} = [{}, {}]", place[0], place[1]).unwrap();
+            owned[self.bodies.iter().position(|other| other.name == body).unwrap()].push(name);
+        };
+        for (index, force) in self.forces.iter().enumerate() {
+            point(format!("load{index}"), &force.body, self.place(&force.body, force.at));
+        }
+        for (index, drive) in self.drives.iter().enumerate() {
+            point(format!("drive{index}"), &drive.body, self.place(&drive.body, drive.at));
+        }
+        for (index, hinge) in self.hinges.iter().enumerate() {
+            let place = self.place(&hinge.a, hinge.at_a);
+            point(format!("hinge{index}a"), &hinge.a, place);
+            point(format!("hinge{index}b"), &hinge.b, place);
+        }
+        writeln!(text, "[points]\n{points}").unwrap();
+        for (body, owned) in self.bodies.iter().zip(&owned) {
+            let [x, y, _] = body.pose;
+            writeln!(
+                text,
+                "[bodies.{}]\nmass = {}\nmoment_of_inertia = {}\ncentre_of_mass = [{x}, {y}]\npoints = {owned:?}",
+                body.name, body.m, body.moment
+            )
+            .unwrap();
+        }
+        for (index, _) in self.hinges.iter().enumerate() {
+            let Hinge { a, b, .. } = &self.hinges[index];
+            writeln!(
+                text,
+                "[joints.hinge{index}]\ntype = \"hinge\"\nbetween = [\"{a}.hinge{index}a\", \"{b}.hinge{index}b\"]"
+            )
+            .unwrap();
+        }
+        for (index, joint) in self.joints().iter().enumerate() {
+            self.joint(&mut text, index, joint);
+        }
+        for (index, force) in self.forces.iter().enumerate() {
+            writeln!(
+                text,
+                "[loads.load{index}]\ntype = \"force\"\nat = \"{}.load{index}\"\ncomponents = [{}, {}]",
+                force.body, force.force[0], force.force[1]
+            )
+            .unwrap();
+        }
+        for (index, drive) in self.drives.iter().enumerate() {
+            let angle = drive.direction[1].atan2(drive.direction[0]);
+            writeln!(
+                text,
+                "[drives.drive{index}]\ncoordinate = \"s\"\nforce = {{ at = \"{}.drive{index}\", direction = {angle} }}",
+                drive.body
+            )
+            .unwrap();
+        }
+        let rate = self.bodies[0].velocity[0];
+        writeln!(text, "[coordinates.s]\nslide = \"joint0\"\nrate = {rate}").unwrap();
+        text
+    }
+
+    fn joint(&self, text: &mut String, index: usize, joint: &[usize]) {
+        let contact = |number: usize| &self.contacts[joint[number]];
+        let keys = |k: usize| {
+            let Contact { mu, preload, delta, f, e, .. } = &self.contacts[k];
+            let stiffness = if *f > 0.0 { format!("\nstiffness = {}", 1.0 / f) } else { String::new() };
+            format!("mu = {mu}\npreload = {preload}\nplay = {}\nmisalignment = {e}{stiffness}\n", 2.0 * delta)
+        };
+        let place = self.place(&contact(0).slider, contact(0).point);
+        writeln!(text, "[joints.joint{index}]\nblock = \"{}\"\nalong = 0", contact(0).slider).unwrap();
+        if joint.len() == 1 {
+            write!(text, "type = \"pin_in_slot\"\nat = [{}, {}]\n{}", place[0], place[1], keys(joint[0]))
+                .unwrap();
+            return;
+        }
+        let length = contact(0).point[0] - contact(1).point[0];
+        let fit = if contact(0).h < 0.0 { "around" } else { "inside" };
+        let middle = place[0] - length / 2.0;
+        writeln!(
+            text,
+            "type = \"block_slider\"\nat = [{middle}, {}]\nlength = {length}\nheight = {}\nfit = \"{fit}\"\npreload_line = \"centre\"",
+            place[1],
+            contact(0).h.abs(),
+        )
+        .unwrap();
+        for (end, k) in ["front", "rear"].iter().zip(joint) {
+            write!(text, "[joints.joint{index}.{end}]\n{}", keys(*k)).unwrap();
+        }
+        for (number, k) in joint.iter().enumerate().skip(2) {
+            let at = self.contacts[*k].point[0] - (contact(0).point[0] - length / 2.0);
+            write!(text, "[joints.joint{index}.supports.pad{number}]\nat = {at}\n{}", keys(*k)).unwrap();
+        }
+    }
+}
+
+fn text(report: &SolveReport) -> String {
+    report.text(Style::Plain)
+}
+
+fn close(found: f64, expected: f64, scale: f64) -> bool {
+    (found - expected).abs() <= 1e-9 * scale
+}
+
+fn check(case: &Case) {
+    let report = report_on(&case.text());
+    let name = &case.name;
+    assert_eq!(report.complete, Proof::Proven, "{name}: {:?}", report.open);
+    assert_eq!(report.solutions.len(), case.solutions.len(), "{name}: {}", text(&report));
+    assert!(report.preload_gap_states.is_empty(), "{name}");
+    let order: Vec<usize> = case.joints().into_iter().flatten().collect();
+    for expected in &case.solutions {
+        let states: String = order.iter().map(|&k| expected.states.as_bytes()[k] as char).collect();
+        let solution = report.solutions.iter().find(|solution| solution.pattern == states);
+        let solution = solution.unwrap_or_else(|| panic!("{name}: {states} in\n{}", text(&report)));
+        let force = |k: usize| expected.plus[k] - expected.minus[k];
+        let scale = order.iter().map(|&k| force(k).abs()).fold(0.0, f64::max);
+        for (contact, &k) in solution.contacts.iter().zip(&order) {
+            assert!(close(contact.normal_force, force(k), scale), "{name} {states}: {contact:?}");
+            if let Some(deflection) = contact.deflection {
+                assert!(close(deflection, expected.d[k], 1e-3), "{name} {states}: {contact:?}");
+            }
+        }
+        for (drive, effort) in solution.drives.iter().zip(&expected.efforts) {
+            assert!(close(drive.effort, *effort, effort.abs()), "{name} {states}: {drive:?}");
+        }
+        for (body, expected) in solution.bodies.iter().zip(expected.a.chunks(3)) {
+            let found = [body.acceleration[0], body.acceleration[1], body.angular_acceleration];
+            for (found, expected) in found.iter().zip(expected) {
+                assert!(close(*found, *expected, 10.0), "{name} {states}: {body:?}");
+            }
+        }
+        let verdict = match solution.attainability.verdict {
+            Verdict::Attainable => "attainable",
+            Verdict::Unattainable => "unattainable",
+            _ => "other",
+        };
+        assert_eq!(verdict, expected.verdict, "{name} {states}: {:?}", solution.attainability);
+        if let Some(p) = expected.p {
+            let found = solution.oriented_determinant;
+            assert!(close(found, p, 10.0), "{name} {states}: {found} {p}");
+        }
+    }
+}
+
+/// `reference/redundant.toml`, by two formulations and a stiff simulation.
+#[test]
+fn the_reference_cases_have_their_solutions() {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    for case in reference.case.iter().filter(|case| case.contacts.iter().all(|contact| contact.delta >= 0.0))
+    {
+        check(case);
+    }
+}
+
+/// A rigid body that slides along x on rails along x: contacts at (x, y) with their law.
+#[derive(Debug, Clone)]
+struct Carriage {
+    load: [f64; 2],
+    at: [f64; 2],
+    mass: f64,
+    moment: f64,
+    /// For each rail its height and the half distance of the faces; three contacts each.
+    rails: Vec<(f64, f64)>,
+    contacts: Vec<Pad>,
+}
+
+#[derive(Debug, Clone)]
+struct Pad {
+    x: f64,
+    mu: f64,
+    preload: f64,
+    clearance: f64,
+    compliance: f64,
+    misalignment: f64,
+}
+
+impl Carriage {
+    fn per_rail(&self) -> usize {
+        self.contacts.len() / self.rails.len()
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!(
+            "[points]\nload = [{}, {}]\n[bodies.body]\nmass = {}\nmoment_of_inertia = {}\ncentre_of_mass = [0, 0]\npoints = [\"load\"]\n\
+             [loads.load]\ntype = \"force\"\nat = \"body.load\"\ncomponents = [{}, {}]\n[coordinates.s]\nslide = \"rail0\"\nrate = 1\n",
+            self.at[0], self.at[1], self.mass, self.moment, self.load[0], self.load[1]
+        );
+        for (rail, pads) in self.contacts.chunks(self.per_rail()).enumerate() {
+            let (y, half) = self.rails[rail];
+            let (middle, length) = ((pads[0].x + pads[1].x) / 2.0, pads[0].x - pads[1].x);
+            writeln!(
+                text,
+                "[joints.rail{rail}]\ntype = \"block_slider\"\nblock = \"body\"\nat = [{middle}, {y}]\nalong = 0\nlength = {length}\nheight = {}\npreload_line = \"centre\"",
+                2.0 * half
+            )
+            .unwrap();
+            for (number, pad) in pads.iter().enumerate() {
+                let table = ["front".to_owned(), "rear".to_owned()].into_iter().nth(number);
+                let is_support = table.is_none();
+                let table = table.unwrap_or_else(|| format!("supports.pad{number}"));
+                writeln!(text, "[joints.rail{rail}.{table}]").unwrap();
+                if is_support {
+                    writeln!(text, "at = {}", pad.x - middle).unwrap();
+                }
+                writeln!(
+                    text,
+                    "mu = {}\npreload = {}\nplay = {}\nstiffness = {}\nmisalignment = {}",
+                    pad.mu,
+                    pad.preload,
+                    2.0 * pad.clearance,
+                    1.0 / pad.compliance,
+                    pad.misalignment
+                )
+                .unwrap();
+            }
+        }
+        text
+    }
+
+    /// All solutions (R1) in descriptor form: for each state of every contact one linear system in the
+    /// acceleration, the normal forces, and the small displacement and rotation of the body.
+    fn solutions(&self) -> Vec<(String, Vec<f64>)> {
+        let count = self.contacts.len();
+        let mut found = Vec::new();
+        for number in 0..3_usize.pow(u32::try_from(count).unwrap()) {
+            let states: Vec<i8> =
+                (0..count).map(|k| [1, -1, 0][number / 3_usize.pow(u32::try_from(k).unwrap()) % 3]).collect();
+            // Unknown: acceleration, N_k, displacement along y, rotation.
+            let size = count + 3;
+            let mut matrix = DMatrix::zeros(size, size);
+            let mut right = DVector::zeros(size);
+            matrix[(0, 0)] = self.mass;
+            right[0] = self.load[0];
+            right[1] = self.load[1];
+            right[2] = self.at[0] * self.load[1] - self.at[1] * self.load[0];
+            for (k, pad) in self.contacts.iter().enumerate() {
+                let (y, half) = self.rails[k / self.per_rail()];
+                let sign = f64::from(states[k]);
+                // Friction (mu |N| + F0) along -x, the pressure's at y - sign h/2, the preload's at y.
+                matrix[(0, 1 + k)] = pad.mu * sign;
+                right[0] -= pad.preload;
+                matrix[(1, 1 + k)] = -1.0;
+                matrix[(2, 1 + k)] = -pad.x - (y - sign * half) * pad.mu * sign;
+                right[2] += y * pad.preload;
+                let row = 3 + k;
+                if states[k] == 0 {
+                    matrix[(row, 1 + k)] = 1.0;
+                } else {
+                    // d = displacement + x rotation - e = -sign delta - f N
+                    matrix[(row, count + 1)] = 1.0;
+                    matrix[(row, count + 2)] = pad.x;
+                    matrix[(row, 1 + k)] = pad.compliance;
+                    right[row] = pad.misalignment - sign * pad.clearance;
+                }
+            }
+            let Some(solution) = matrix.lu().solve(&right) else { continue };
+            let fits = (0..count).all(|k| {
+                let pad = &self.contacts[k];
+                let deflection = solution[count + 1] + pad.x * solution[count + 2] - pad.misalignment;
+                match states[k] {
+                    0 => deflection.abs() <= pad.clearance,
+                    sign => f64::from(sign) * solution[1 + k] >= 0.0,
+                }
+            });
+            if fits {
+                let sign = |state: &i8| ['-', '0', '+'][(state + 1) as usize];
+                found.push((
+                    states.iter().map(sign).collect::<String>(),
+                    (0..count).map(|k| solution[1 + k]).collect::<Vec<f64>>(),
+                ));
+            }
+        }
+        found.sort_by(|a, b| a.0.cmp(&b.0));
+        found
+    }
+}
+
+fn carriages() -> impl Strategy<Value = Carriage> {
+    let pad = (0.0..1.5_f64, 0.0..3.0_f64, 0.0..3e-4_f64, 5e-6..5e-5_f64, -3e-4..3e-4_f64);
+    let rails = proptest::collection::vec((-0.4..0.4_f64, 0.0..0.05_f64), 1..3);
+    (
+        rails,
+        proptest::collection::vec(pad, 6),
+        [-20.0..20.0_f64, -20.0..20.0],
+        [-0.4..0.4_f64, -0.4..0.4],
+        2..4_usize,
+    )
+        .prop_map(|(rails, pads, load, at, of_first)| {
+            let per_rail = if rails.len() == 1 { 3 } else { of_first };
+            let places = [0.2, -0.2, 0.05];
+            let contacts = (0..rails.len() * per_rail)
+                .map(|k| {
+                    let (mu, preload, clearance, compliance, misalignment) = pads[k];
+                    let x = places[k % per_rail] + 0.02 * (k / per_rail) as f64;
+                    Pad { x, mu, preload, clearance, compliance, misalignment }
+                })
+                .collect();
+            Carriage { load, at, mass: 3.0, moment: 0.2, rails, contacts }
+        })
+}
+
+fn found(report: &SolveReport) -> Vec<(String, Vec<f64>)> {
+    let forces = |solution: &slideway::report::Solution| {
+        solution.contacts.iter().map(|contact| contact.normal_force).collect::<Vec<f64>>()
+    };
+    let mut found: Vec<_> =
+        report.solutions.iter().map(|solution| (solution.pattern.clone(), forces(solution))).collect();
+    found.sort_by(|a, b| a.0.cmp(&b.0));
+    found
+}
+
+proptest! {
+    #![proptest_config(cases(60))]
+
+    /// Two rails or one with three pads: the same lists as three states for every contact.
+    #[test]
+    fn random_carriages_have_the_solutions_of_the_descriptor_form(carriage in carriages()) {
+        let report = report_on(&carriage.text());
+        prop_assert_eq!(report.complete, Proof::Proven, "{:?}", report.open);
+        let (found, expected) = (found(&report), carriage.solutions());
+        prop_assert_eq!(found.len(), expected.len(), "{:?}\n{:?}", &found, &expected);
+        for ((states, forces), (expected_states, expected)) in found.iter().zip(&expected) {
+            prop_assert_eq!(states, expected_states);
+            let scale = expected.iter().map(|force| force.abs()).fold(0.0, f64::max);
+            for (force, expected) in forces.iter().zip(expected) {
+                prop_assert!((force - expected).abs() <= 1e-8 * scale, "{} {:?} {:?}", states, forces, expected);
+            }
+        }
+    }
+}
