@@ -189,11 +189,15 @@ impl KineticEquations {
         if cut_rows.is_empty() {
             return Ok(());
         }
-        let motion = self.frictionless();
+        let motion = self.without_noise(&self.frictionless());
+        // As an acceleration, of which rows are sums: components of unit vectors, and lengths times rotations.
+        let in_metres = |index: usize| if index % 3 == 2 { mechanism.size } else { 1.0 };
+        let greatest = (0..3 * mechanism.bodies.len())
+            .map(|index| (motion[index] * in_metres(index)).abs())
+            .fold(0.0, f64::max);
         let violated = |row: &&ConstraintRow| {
-            let terms: f64 = row.entries.iter().map(|(index, value)| (value * motion[*index]).abs()).sum();
             let error = (row.times(&motion) - row.right_hand_side).abs();
-            error > INCONSISTENT * (terms + row.right_hand_side.abs())
+            error > INCONSISTENT * (greatest + row.right_hand_side.abs())
         };
         let joint = |contact: &ContactId| mechanism.contacts[contact.index()].joint;
         let violated: Vec<JointId> = self
