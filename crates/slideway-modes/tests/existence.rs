@@ -303,6 +303,7 @@ fn an_output_bound_ends_a_mode() -> Result<(), Box<dyn Error>> {
         bounds: vec![OutputBound { output: 0, contact: 0, factor: 0.5 }],
         has_jump: vec![false],
         sides_differ: vec![false],
+        open: slideway_modes::OpenContacts::default(),
     };
     let existence = line.existence(&options(0.0, 5.0))?;
     let [mode] = &existence.modes[..] else { panic!("{existence:#?}") };

@@ -358,6 +358,8 @@ pub enum FaultKind {
     RigidWithoutPlay { contacts: Vec<String> },
     #[error("a press fit (negative play) is not supported yet: {}", listed(contacts))]
     PressFit { contacts: Vec<String> },
+    #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
+    SharedLoad { question: &'static str, joints: Vec<String> },
     #[error("the redundant guides do not fit together: {joint} is off by {gap}")]
     GuidesDoNotFit { joint: String, gap: String },
     #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
@@ -499,6 +501,10 @@ impl FaultKind {
                 Some(suggestion) => format!("the redundancy lies among {}; {suggestion}", joints.join(", ")),
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
+            Self::SharedLoad { .. } => Some(
+                "contacts that open and close, and friction at rest between two faces, are states that only moving mechanisms with a given load have so far: ask `slideway solve`, `limits`, `drive`, `size`, `sweep` or `map`"
+                    .to_owned(),
+            ),
             Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
             Self::RigidWithoutPlay { .. } => Some(
                 "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"

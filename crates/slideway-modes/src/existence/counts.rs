@@ -48,9 +48,9 @@ pub fn counts_in(
         let inside = middle(cell);
         let present: Vec<&ModeInterval> =
             existence.modes.iter().filter(|mode| mode.from.at < inside && inside < mode.to.at).collect();
-        let (gaps, pressed): (Vec<_>, Vec<_>) =
-            present.into_iter().partition(|mode| mode.pattern.contains(&ContactState::Gap));
-        let [solutions, gap_states] = [pressed, gaps].map(|modes| distinct(&modes, inside));
+        let (solutions, gaps): (Vec<_>, Vec<_>) =
+            present.into_iter().partition(|mode| existence.open.is_solution(&mode.pattern));
+        let [solutions, gap_states] = [solutions, gaps].map(|modes| distinct(&modes, inside));
         match intervals.last_mut() {
             Some(last)
                 if last.to == cell[0] && (last.solutions, last.gap_states) == (solutions, gap_states) =>

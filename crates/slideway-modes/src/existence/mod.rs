@@ -27,6 +27,7 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
 use crate::interval::Sign;
+use crate::problem::OpenContacts;
 use crate::problem::{BySide, ContactState, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
 use extent::Extent;
@@ -54,6 +55,9 @@ pub struct ModeProblemLine {
     /// Whether the two sides of a contact are different states even where `y_k = 0`, because of something
     /// that the problem does not contain.
     pub sides_differ: Vec<bool>,
+    /// Which contacts may be open, and together, which counts as a solution. Patterns that cannot hold are left
+    /// out.
+    pub open: OpenContacts,
 }
 
 /// `|output| <= factor * y_contact`: the couple of a guided slider with `factor` half its length.
@@ -146,6 +150,8 @@ pub struct Existence {
     pub singular_throughout: Vec<Vec<ContactState>>,
     /// Patterns for which eigenvalues could not be computed.
     pub not_computed: Vec<Vec<ContactState>>,
+    /// As in [`ModeProblemLine::open`].
+    pub open: OpenContacts,
 }
 
 /// More patterns than the options allow.
@@ -179,6 +185,7 @@ impl ModeProblemLine {
             bounds: Vec::new(),
             has_jump: contacts.map(|contact| start.has_jump(contact) || end.has_jump(contact)).collect(),
             sides_differ: vec![false; start.contacts()],
+            open: OpenContacts::default(),
         }
     }
 
@@ -232,12 +239,15 @@ impl ModeProblemLine {
     ) -> Result<Option<Existence>, TooManyModes> {
         let [from, to] = options.range;
         assert!(from < to && (to.is_finite() || from > 0.0), "an increasing range");
-        let mut existence = Existence::default();
+        let mut existence = Existence { open: self.open.clone(), ..Existence::default() };
         let patterns = self.patterns(options.patterns)?;
         let all = patterns.len() as u64;
         for (done, pattern) in (0..).zip(patterns) {
             if callback(&Progress::of("patterns", done, all)).is_break() {
                 return Ok(None);
+            }
+            if !self.open.holds(&pattern) {
+                continue;
             }
             let mode = self.mode(&pattern, options);
             match mode.extent(options.range) {

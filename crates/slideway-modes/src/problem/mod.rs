@@ -20,5 +20,5 @@ pub use mode_problem::{InfluenceCoefficients, ModeProblem, ModeProblemError};
 pub use pattern::{ContactState, SolutionSet};
 pub(crate) use radii::Radii;
 pub(crate) use scaling::{ScaledProblem, patterns_of, power_of_two_above};
-pub use shared_load::SharedLoad;
+pub use shared_load::{OpenContacts, SharedLoad};
 pub use side::{BySide, ProblemPart, Side};

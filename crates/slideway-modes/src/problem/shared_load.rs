@@ -6,6 +6,7 @@ use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::bounds::{Column, IntervalModeProblem, IntervalModeProblemError, ProblemView};
 use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
+use crate::problem::pattern::ContactState;
 use crate::problem::scaling::power_of_two_above;
 use crate::problem::side::{BySide, ProblemPart, Side};
 
@@ -93,6 +94,63 @@ impl<T: Real> SharedLoad<T> {
         let found = self.self_stress.shape();
         let part = ProblemPart::Columns(Side::Positive);
         if fits { Ok(()) } else { Err(ModeProblemError::Shape { part, expected, found }) }
+    }
+}
+
+/// Which contacts may be open, and together: those of a shared load.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OpenContacts {
+    /// As [`SharedLoad::self_stress`]; empty if no load is shared.
+    self_stress: Option<DMatrix<f64>>,
+}
+
+impl OpenContacts {
+    /// Normal forces below this part of the greatest of a self-stress are rounding.
+    const ROUNDING: f64 = 1e-9;
+
+    /// Those with these self-stresses: a row for each contact, a column for each self-stress.
+    pub fn new(self_stress: DMatrix<f64>) -> Self {
+        Self { self_stress: Some(self_stress).filter(|forces| forces.ncols() > 0) }
+    }
+
+    /// Whether a contact takes part in a self-stress.
+    pub fn shares(&self, contact: usize) -> bool {
+        self.self_stress
+            .as_ref()
+            .is_some_and(|forces| forces.row(contact).amax() > Self::ROUNDING * forces.amax())
+    }
+
+    /// Whether the states of a pattern are solutions: each contact is pressed, or open. Between its faces any other
+    /// is in its preload gap.
+    pub fn is_solution(&self, pattern: &[ContactState]) -> bool {
+        let mut between = (0..pattern.len()).filter(|&k| pattern[k] == ContactState::Gap);
+        between.all(|k| self.shares(k))
+    }
+
+    /// Whether the contacts that are not open hold what all of them hold: else the determinant of the pattern
+    /// vanishes. The rows of the self-stresses are independent for the open ones then.
+    pub fn holds(&self, pattern: &[ContactState]) -> bool {
+        let Some(forces) = &self.self_stress else { return true };
+        let open: Vec<usize> =
+            (0..pattern.len()).filter(|&k| pattern[k] == ContactState::Gap && self.shares(k)).collect();
+        if open.len() > forces.ncols() {
+            return false;
+        }
+        // Gram and Schmidt.
+        let mut rows: Vec<DVector<f64>> = open.iter().map(|&k| forces.row(k).transpose()).collect();
+        for row in 0..rows.len() {
+            let before = forces.row(open[row]).norm();
+            let length = rows[row].norm();
+            if length <= Self::ROUNDING * before {
+                return false;
+            }
+            let direction = &rows[row] / length;
+            for later in &mut rows[row + 1..] {
+                let part = later.dot(&direction);
+                later.axpy(-part, &direction, 1.0);
+            }
+        }
+        true
     }
 }
 

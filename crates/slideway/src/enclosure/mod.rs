@@ -40,6 +40,7 @@ use crate::interval::Interval;
 use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
+use crate::modes::OpenContacts;
 use crate::modes::certificate::{
     IntervalInfluence, IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
 };
@@ -149,6 +150,8 @@ pub struct EnclosedModeProblem {
     /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are
     /// moved to the right-hand side, so that they do not look like a jump.
     pub problem: IntervalModeProblem,
+    /// Which contacts may be open: others between their faces are in preload gaps.
+    pub open: OpenContacts,
     /// Bounds of the couples of guided sliders, in the order of the joints.
     pub couples: Vec<EnclosedCouple>,
     /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
@@ -252,6 +255,7 @@ pub fn enclosure(
             None => problem,
         };
     Ok(EnclosedModeProblem {
+        open: mechanism.excess.open.clone(),
         influence,
         problem,
         couples: coefficients.couples(&unknowns),

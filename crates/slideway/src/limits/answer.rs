@@ -13,10 +13,9 @@ use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
-use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{JointMode, locked};
-use crate::solve::{mode_in_words, pattern, signs};
+use crate::solve::{joint_mode_in_words, pattern, signs};
 
 impl VariedQuantity {
     pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
@@ -53,7 +52,8 @@ impl Naming {
         let one = |(_, name, slider): (JointId, &str, &Slider)| {
             let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
             let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-            JointMode { name: name.to_owned(), mode: mode_in_words(slider, tangent, &signs) }
+            let mode = joint_mode_in_words(&self.mechanism, slider, tangent, &signs);
+            JointMode { name: name.to_owned(), mode }
         };
         self.sliders().map(one).collect()
     }
@@ -103,7 +103,7 @@ impl Naming {
         };
         ModeLimits {
             pattern: pattern(&mode.pattern),
-            preload_gap: mode.pattern.contains(&ContactState::Gap),
+            preload_gap: !self.mechanism.excess.open.is_solution(&mode.pattern),
             joints: self.joint_modes(&signs),
             signs,
             from: end(mode.from.at),

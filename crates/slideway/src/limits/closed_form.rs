@@ -51,6 +51,7 @@ pub(super) fn closed_form(
         stretch(&mut found, &mut intervals, piece);
         all.modes.extend(found.modes);
         all.singular_throughout.extend(found.singular_throughout);
+        all.open = found.open;
         all.not_computed.extend(found.not_computed);
         append(&mut numbers, intervals);
     }

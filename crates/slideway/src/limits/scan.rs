@@ -68,7 +68,9 @@ impl Scanner<'_> {
             modes = self.modes(&places, &mut ends);
         }
         modes.retain(|mode| self.same_ends().are_two(mode.from.at, mode.to.at));
-        let existence = Existence { modes, ..Existence::default() };
+        let lines = places.iter().filter_map(|place| place.line.as_ref().ok());
+        let open = lines.map(|line| line.open.clone()).next().unwrap_or_default();
+        let existence = Existence { modes, open, ..Existence::default() };
         let gaps = gaps(&places);
         let is_covered = |[from, to]: &[f64; 2]| {
             let middle = f64::midpoint(*from, *to);

@@ -177,7 +177,8 @@ fn states(point: &Point) -> Option<States> {
     for gap in &found.gaps {
         let mut shares = none.clone();
         gap.shares.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
-        states.gaps.extend(standing(&gap.pattern, &gap.on_boundary, &gap.normal_force, &shares));
+        let stand = standing(&gap.pattern, &gap.on_boundary, &gap.normal_force, &shares);
+        if parts.is_solution(&gap.pattern) { &mut states.solutions } else { &mut states.gaps }.extend(stand);
     }
     states.continuum = found.singular.iter().any(|mode| mode.set.is_continuum());
     Some(states)

@@ -8,7 +8,8 @@
 use super::{JointKind, Mechanism, Slider, rot90};
 use crate::ids::{ContactId, Frame};
 use crate::model::SliderKind;
-use nalgebra::{DVector, Vector2};
+use crate::modes::OpenContacts;
+use nalgebra::{DMatrix, DVector, Vector2};
 
 /// A row that differs from combinations of others by less than this part of its length is one of them.
 const DEPENDENT: f64 = 1e-9;
@@ -16,17 +17,24 @@ const DEPENDENT: f64 = 1e-9;
 const INDEPENDENT_ENOUGH: f64 = 0.3;
 
 /// The joint equations in excess, and the contacts that are cut for them.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Excess {
     /// The contacts that are cut, as many as there are self-stresses.
     pub contacts: Vec<ContactId>,
     /// The rows of the joint equations that are left out of those that determine the positions.
     pub(crate) rows: Vec<usize>,
+    /// Which contacts may be open, and together.
+    pub open: OpenContacts,
     /// Of these, how many belong to self-stresses of hinges and rotation locks alone.
     pub(crate) of_hinges: usize,
 }
 
 impl Excess {
+    /// Whether a contact takes part in a self-stress.
+    pub fn shares(&self, contact: ContactId) -> bool {
+        self.open.shares(contact.index())
+    }
+
     /// Whether every joint equation says something new.
     pub fn is_empty(&self) -> bool {
         self.contacts.is_empty() && self.rows.is_empty()
@@ -49,17 +57,24 @@ impl Mechanism {
         if excess(&reactions) == 0 {
             return Excess::default();
         }
-        let in_excess = |rows: &[Row]| {
-            let mut dependent = dependent(rows);
-            dependent.truncate(excess(rows));
-            dependent
-        };
-        let positions = in_excess(&self.position_rows());
-        let cut: Vec<Option<ContactId>> = in_excess(&reactions).iter().map(|&row| contacts[row]).collect();
+        let positions = self.position_rows();
+        let left_out =
+            dependent(&positions).into_iter().map(|(row, _)| row).take(excess(&positions)).collect();
+        let stresses: Vec<(usize, DVector<f64>)> =
+            dependent(&reactions).into_iter().take(excess(&reactions)).collect();
+        let cut: Vec<Option<ContactId>> = stresses.iter().map(|(row, _)| contacts[*row]).collect();
+        let mut forces = DMatrix::zeros(self.contacts.len(), stresses.len());
+        for (row, contact) in contacts.iter().enumerate() {
+            if let Some(contact) = contact {
+                let of_contact = stresses.iter().map(|(_, stress)| stress[row]);
+                of_contact.enumerate().for_each(|(stress, force)| forces[(contact.index(), stress)] = force);
+            }
+        }
         Excess {
             of_hinges: cut.iter().filter(|contact| contact.is_none()).count(),
             contacts: cut.into_iter().flatten().collect(),
-            rows: positions,
+            rows: left_out,
+            open: OpenContacts::new(forces),
         }
     }
 
@@ -156,11 +171,14 @@ impl Mechanism {
     }
 }
 
-/// The rows that are combinations of others: those of the lowest rank, and of these the first that are
-/// independent enough, are kept (Gram and Schmidt with pivoting).
-fn dependent(rows: &[Row]) -> Vec<usize> {
+/// The rows that are combinations of others, each with the combination of all rows that vanishes: those of the
+/// lowest rank, and of these the first that are independent enough, are kept (Gram and Schmidt with pivoting).
+fn dependent(rows: &[Row]) -> Vec<(usize, DVector<f64>)> {
     let mut left: Vec<usize> = (0..rows.len()).collect();
+    // What is left of each row, and of which rows it is made.
     let mut rest: Vec<DVector<f64>> = rows.iter().map(|row| row.entries.clone()).collect();
+    let unit = |row: usize| DVector::from_fn(rows.len(), |entry, _| f64::from(u8::from(entry == row)));
+    let mut made_of: Vec<DVector<f64>> = (0..rows.len()).map(unit).collect();
     for rank in 0..=2 {
         loop {
             let size = |row: usize| {
@@ -171,16 +189,18 @@ fn dependent(rows: &[Row]) -> Vec<usize> {
             let greatest = of_rank.iter().map(|&row| size(row)).fold(0.0, f64::max);
             let next = of_rank.iter().copied().find(|&row| size(row) >= INDEPENDENT_ENOUGH * greatest);
             let Some(next) = next.filter(|_| greatest > 0.0) else { break };
-            let direction = rest[next].normalize();
+            let length = rest[next].norm();
+            let [direction, combination] = [&rest[next] / length, &made_of[next] / length];
             left.retain(|&row| row != next);
             // Twice is enough (Gram and Schmidt).
             for _ in 0..2 {
                 for &row in &left {
                     let part = rest[row].dot(&direction);
                     rest[row].axpy(-part, &direction, 1.0);
+                    made_of[row].axpy(-part, &combination, 1.0);
                 }
             }
         }
     }
-    left
+    left.into_iter().map(|row| (row, made_of[row].clone())).collect()
 }

@@ -478,6 +478,23 @@ impl Mechanism {
     }
 }
 
+impl Mechanism {
+    /// Refuses redundant guides, for what is not known of them.
+    ///
+    /// # Errors
+    /// A fault that names the joints, if some share a load.
+    pub(crate) fn check_determinate(&self, question: &'static str) -> Result<(), Faults> {
+        let shares = |joint: &&Joint| match &joint.kind {
+            JointKind::Slider(slider) => slider.contacts.iter().any(|contact| self.excess.shares(*contact)),
+            JointKind::Hinge(_) => false,
+        };
+        let sharing: Vec<&Joint> = self.joints.iter().filter(shares).collect();
+        let Some(first) = sharing.first() else { return Ok(()) };
+        let joints = sharing.iter().map(|joint| joint.name.to_string()).collect();
+        Err(Fault::new(FaultKind::SharedLoad { question, joints }, first.place.clone()).into())
+    }
+}
+
 impl Mechanism<Interval> {
     /// Intervals that hold the numbers of the mechanism that a model describes, which `nominal` has rounded.
     /// The parameters in `given` have their values from there.

@@ -7,7 +7,7 @@ use super::equilibrium::{Balance, Residual};
 use super::found::SearchFound;
 use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
-use super::words::{mode_in_words, shared_mode_in_words};
+use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedModeProblem, Tipping};
 use crate::fault::Faults;
@@ -120,25 +120,13 @@ impl<'a> Answer<'a> {
         })
     }
 
-    /// Whether a contact takes part in a self-stress of redundant guides.
-    fn shares(&self, contact: usize) -> bool {
-        self.shared.as_ref().is_some_and(|shared| shared.shares(contact))
-    }
-
-    /// Whether every contact between its faces is open: redundant guides leave that to it.
-    fn is_open(&self, states: &[ContactState]) -> bool {
-        let mut between = (0..states.len()).filter(|&k| states[k] == ContactState::Gap);
-        between.all(|k| self.shared.as_ref().is_some_and(|shared| shared.may_be_open(k)))
-    }
-
     /// By how much a contact is displaced against its guide (m): -(delta + f N) where it is pressed towards +n,
     /// delta - f N towards -n, between -delta and delta where it is open; none where it shares no load, or only
     /// ratios of stiffnesses are known.
     fn deflection(&self, state: &State<'_>, contact: usize) -> Option<f64> {
-        let shared = self
-            .shared
-            .as_ref()
-            .filter(|shared| shared.shares(contact) && self.elasticity != Some(Elasticity::Equal))?;
+        let shared = self.shared.as_ref().filter(|_| {
+            self.mechanism.excess.shares(ContactId(contact)) && self.elasticity != Some(Elasticity::Equal)
+        })?;
         let (clearance, compliance) = (shared.clearance[contact], shared.compliance[contact]);
         let yielding = compliance * state.normal_force[contact];
         Some(match state.pattern[contact] {
@@ -153,7 +141,12 @@ impl<'a> Answer<'a> {
     fn keep(&self, state: &State<'_>, states: &mut States, tipping: &mut Tipped) {
         for faces in self.faces(state) {
             let kept = self.kept(&faces.state(state), tipping);
-            if !self.is_open(faces.states()) { &mut states.gaps } else { &mut states.solutions }.extend(kept);
+            if !self.mechanism.excess.open.is_solution(faces.states()) {
+                &mut states.gaps
+            } else {
+                &mut states.solutions
+            }
+            .extend(kept);
         }
     }
 
@@ -355,13 +348,7 @@ impl<'a> Answer<'a> {
         let one = |(joint, slider): (JointId, &Slider)| {
             let tangent = self.configuration.slide(self.mechanism, slider).tangent;
             let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-            let named = slider.contacts.iter().map(|contact| &*self.mechanism.contacts[contact.index()].name);
-            let is_shared = slider.contacts.iter().any(|contact| self.shares(contact.index()));
-            let mode = if is_shared {
-                shared_mode_in_words(slider, tangent, &named.zip(signs).collect::<Vec<_>>())
-            } else {
-                mode_in_words(slider, tangent, &signs)
-            };
+            let mode = joint_mode_in_words(self.mechanism, slider, tangent, &signs);
             report::JointMode { name: self.mechanism.joints[joint.index()].name.to_string(), mode }
         };
         self.sliders().map(one).collect()

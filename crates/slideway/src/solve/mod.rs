@@ -51,6 +51,7 @@ pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
 pub(crate) use with_friction::solve_with_friction;
+pub(crate) use words::joint_mode_in_words;
 pub use words::mode_in_words;
 pub(crate) use words::sliding_in_words;
 

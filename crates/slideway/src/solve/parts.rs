@@ -9,7 +9,7 @@ use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::{PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
-use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
+use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// A load that changes by less than this share of it does not change: each of its numbers has rounding errors
@@ -25,6 +25,8 @@ pub(crate) struct Parts {
     bounds: Vec<OutputBound>,
     has_jump: Vec<bool>,
     free_faces: Vec<Option<FreeFace>>,
+    /// Which contacts may be open, and together.
+    open: OpenContacts,
 }
 
 impl Parts {
@@ -83,6 +85,7 @@ impl Parts {
             bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
             free_faces: (0..contacts).map(|contact| data.free_face(&has_jump, contact)).collect(),
             has_jump,
+            open: mechanism.excess.open.clone(),
         }
     }
 
@@ -106,6 +109,7 @@ impl Parts {
             sides_differ: (0..self.free_faces.len())
                 .map(|k| free_face([self, end].into_iter(), k) == Some(FreeFace::Nothing))
                 .collect(),
+            open: self.open.clone(),
         }
     }
 
@@ -157,6 +161,11 @@ impl Parts {
         parts.columns.positive = DMatrix::identity(rows, contacts);
         parts.columns.negative = -DMatrix::identity(rows, contacts);
         parts
+    }
+
+    /// Whether the states of a pattern are solutions: each contact is pressed, or open.
+    pub(crate) fn is_solution(&self, pattern: &[ContactState]) -> bool {
+        self.open.is_solution(pattern)
     }
 
     /// Number of couples among the outputs, before all others.

@@ -237,7 +237,7 @@ pub(crate) fn certain_counts(
         let forces = mode.iter().zip(unknowns).filter(|(state, _)| **state != ContactState::Gap);
         let forces: Vec<&Interval> = forces.map(|(_, force)| force).collect();
         if forces.iter().all(|force| force.upper() <= greatest) {
-            counts[usize::from(mode.contains(&ContactState::Gap))] += 1;
+            counts[usize::from(!enclosed.open.is_solution(&mode))] += 1;
         } else if forces.iter().all(|force| force.lower() <= greatest) {
             return None;
         }

@@ -30,21 +30,26 @@ pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> St
     }
 }
 
-/// The contact mode of a sliding joint that shares its load with others: what each of its contacts does.
-///
-/// `contacts` are their names, `joint.contact`, with the signs of their normal forces, 0 for an open one.
-pub(super) fn shared_mode_in_words(
+/// The contact mode of a sliding joint, as [`mode_in_words`] has it; of one that shares its load with others,
+/// what each of its contacts does, "open" where its normal force is 0.
+pub(crate) fn joint_mode_in_words(
+    mechanism: &Mechanism,
     slider: &Slider,
     tangent: Vector2<f64>,
-    contacts: &[(&str, i8)],
+    signs: &[i8],
 ) -> String {
+    if !slider.contacts.iter().any(|contact| mechanism.excess.shares(*contact)) {
+        return mode_in_words(slider, tangent, signs);
+    }
+    let names = slider.contacts.iter().map(|contact| &*mechanism.contacts[contact.index()].name);
+    let contacts: Vec<(&str, i8)> = names.zip(signs.iter().copied()).collect();
     let guide = GuideInWords { tangent, around: slider.around };
     let place = |sign: i8| match (slider.kind, sign) {
         (_, 0) => "open".to_owned(),
         (SliderKind::Pin, _) => format!("on the {} side of the slot", guide.face(sign)),
         _ => format!("on the {} face", guide.face(sign)),
     };
-    match contacts {
+    match contacts.as_slice() {
         [(_, sign)] => place(*sign),
         [(_, first), others @ ..] if others.iter().all(|(_, sign)| sign == first) => match first {
             0 => "open".to_owned(),

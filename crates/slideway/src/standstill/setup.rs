@@ -73,6 +73,7 @@ impl Setup {
     pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
+        original.check_determinate("whether it holds at rest")?;
         let configuration = Configuration::new(&original)?;
         let mut mechanism = original.clone();
         if !options.hold_drives {

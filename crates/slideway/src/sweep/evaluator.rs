@@ -15,6 +15,7 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
+use crate::modes::{ModeProblem, Side};
 use crate::progress::{Callback, Progress};
 use crate::solve::{
     self, SolveOptions, Trail, mode_problem, solve_with, solve_with_friction, velocity_signs,
@@ -295,7 +296,7 @@ impl<'p> Evaluator<'p> {
             velocity_signs(&self.mechanism, &stages.configuration)?;
         }
         if let Some((screen, problem)) = &mut self.small {
-            fill(problem, &self.mechanism, stages);
+            fill(problem, &self.mechanism, stages)?;
             problem.load = if self.plan.columns.may_be_between_faces(&self.mechanism) {
                 stages.accuracy.of_load
             } else {
@@ -340,8 +341,12 @@ fn write(
 }
 
 /// The columns and jumps of eq. (6).
-fn fill(problem: &mut SmallProblem, mechanism: &Mechanism, stages: &Stages) {
+fn fill(problem: &mut SmallProblem, mechanism: &Mechanism, stages: &Stages) -> Result<(), Faults> {
     let count = mechanism.contacts.len();
+    if !mechanism.excess.is_empty() {
+        fill_from(problem, &mode_problem(mechanism, &stages.influence, &stages.signs)?);
+        return Ok(());
+    }
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         let sign = stages.signs[k];
         for (side, orientation) in [1.0, -1.0].into_iter().enumerate() {
@@ -358,6 +363,20 @@ fn fill(problem: &mut SmallProblem, mechanism: &Mechanism, stages: &Stages) {
         }
         problem.right_hand_side[k] = stages.normal_forces[k];
     }
+    Ok(())
+}
+
+/// Those of redundant guides.
+fn fill_from(problem: &mut SmallProblem, shared: &ModeProblem) {
+    for (side, sign) in Side::BOTH.into_iter().enumerate() {
+        for k in 0..shared.contacts() {
+            for row in 0..shared.contacts() {
+                problem.columns[side][k][row] = shared.columns(sign)[(row, k)];
+                problem.jumps[side][k][row] = shared.jumps(sign)[(row, k)];
+            }
+        }
+    }
+    (0..shared.contacts()).for_each(|row| problem.right_hand_side[row] = shared.right_hand_side()[row]);
 }
 
 /// Whether there is no position, or another reason why a point is not solved.

@@ -27,6 +27,8 @@ pub(super) struct Stages {
     pub(super) frictionless: Vec<f64>,
     /// What a unit friction adds to the outputs: contact by contact, for both faces.
     pub(super) influences: Vec<[Vec<f64>; 2]>,
+    /// What a unit normal force of each cut contact of redundant guides adds to the outputs.
+    pub(super) self_stresses: Vec<Vec<f64>>,
     /// The greatest applied force (N).
     pub(super) greatest_load: f64,
     /// How well the numbers are known.
@@ -59,6 +61,7 @@ impl Stages {
         let frictionless = outputs(&influences.frictionless, true);
         let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, false));
         let per_force = influences.columns.iter().map(per_force).collect();
+        let self_stresses = influences.self_stresses.iter().map(|stress| outputs(stress, false)).collect();
         let (greatest_load, accuracy) = (influences.greatest_load, influences.accuracy());
         let influence = Influence::of(influences);
         let (eta, eta_preload) = if columns.contacts <= MOST_CONTACTS {
@@ -78,6 +81,7 @@ impl Stages {
             eta_preload,
             frictionless,
             influences: per_force,
+            self_stresses,
             greatest_load,
             accuracy,
             configuration,

@@ -37,7 +37,10 @@ impl Together {
         formulas: &FrictionFormulas,
         varied: &[Kind],
     ) -> Option<Self> {
-        if mechanism.contacts.len() > MOST_CONTACTS || stages.signs.iter().any(|sign| *sign == 0.0) {
+        if !mechanism.excess.is_empty()
+            || mechanism.contacts.len() > MOST_CONTACTS
+            || stages.signs.iter().any(|sign| *sign == 0.0)
+        {
             return None;
         }
         let mut contacts = formulas.contacts_with_one_coefficient()?;

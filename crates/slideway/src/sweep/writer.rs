@@ -98,6 +98,10 @@ impl Writer<'_> {
                 }
             }
         }
+        for (contact, per_force) in self.mechanism.excess.contacts.iter().zip(&self.stages.self_stresses) {
+            let force = forces[contact.index()];
+            outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
+        }
         if !forces.iter().chain(&*outputs).all(|number| number.is_finite()) {
             return None;
         }
@@ -111,7 +115,7 @@ impl Writer<'_> {
             ContactState::Negative => b'-',
             ContactState::Gap => b'0',
         }));
-        let in_gap = pattern.contains(&ContactState::Gap);
+        let in_gap = !self.mechanism.excess.open.is_solution(pattern);
         let kind = if in_gap { RowKind::PreloadGap } else { RowKind::Solution };
         let negative_determinant = Some(state.negative_determinant);
         let verdict = self.verdict(pattern);
