@@ -138,10 +138,12 @@ fn portraits_show_jumps_of_rates() {
     assert!(none.is_empty() && !picture.contains("jumps"), "{none:?}");
 }
 
-/// Both ends of the oscillating block carry m g / 2 all the time: one line in two colours, with both names.
+/// Both ends of the block on the line of its spring carry m g / 2 all the time: one line in two colours, with both names.
 #[test]
 fn what_coincides_is_one_line_with_both_names() {
-    let oscillator = model("frictional-oscillator", &Settings::default());
+    let text = slideway::gallery::find("frictional-oscillator").expect("in the gallery").text;
+    let text = text.replace("guided_slider", "block_slider").replace("at = \"sole\"", "at = \"S\"");
+    let oscillator = Model::parse(&text).expect("a sound model");
     let history = simulate(&oscillator, &SimulateOptions::new(0.5)).expect("a motion");
     let picture = svg(&motion_figure(&history));
     let forces = picture.split("class=\"panel\"").nth(2).expect("the panel of forces");
