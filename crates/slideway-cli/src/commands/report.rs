@@ -40,6 +40,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let Some(sheet) = sheet(&mechanism, &configuration, answer.as_ref().ok(), Shown::All) else {
         return Err(Failure::NoSuchSolution { count: 0 });
     };
+    let sheet = if let Err(reasons) = &answer { sheet.unsolved(reasons) } else { sheet };
+    let sheet = sheet.changed_by(&input.settings);
     let wanted = arguments.vary.iter().map(|vary| input.vary(&model, vary)).collect::<Result<Vec<_>, _>>()?;
     let varied = varied(&model, wanted, &mut watch).map_err(|faults| input.refused(faults))?;
     let efficiency = efficiency(&model, &mut watch);
@@ -78,7 +80,7 @@ fn be_a_page(path: &Path) -> Result<(), Failure> {
 }
 
 /// What keeps the kinetic problem from being solved, in words.
-fn reasons(faults: &Faults) -> Vec<String> {
+pub(super) fn reasons(faults: &Faults) -> Vec<String> {
     faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
 }
 

@@ -1,16 +1,22 @@
 //! A sheet: the mechanism, and beside it each of its solutions.
 
 use super::loads::load_force;
+use super::looks::sliders;
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene, signs};
+use crate::plot::figure::changes;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
+use slideway::ids::Frame;
 use slideway::mechanism::{LoadKind, Mechanism};
+use slideway::model::Settings;
 use slideway::report::{CoordinateState, Solution, SolveReport, Status};
 use slideway::units::{Unit, Units};
 
-/// Width and height for the mechanism itself in each panel.
+/// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
+/// larger in proportion, up to twice that, as each contact has its forces with their values.
 const PANEL: [f64; 2] = [440.0, 320.0];
+const CONTACTS: f64 = 4.0;
 /// Least width of a panel, for its caption.
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels does not exceed if it has several.
@@ -72,6 +78,37 @@ pub struct Sheet {
     pub title: String,
     /// What it shows, in words.
     pub description: String,
+    /// How many of the elements belong to the heading, and where that ends.
+    heading: (usize, f64),
+}
+
+impl Sheet {
+    /// The same, with what settings changed in its model below the title.
+    #[must_use]
+    pub fn changed_by(self, settings: &Settings) -> Self {
+        let changes = changes(settings);
+        if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
+    }
+
+    /// The same, with the reasons below the title why it shows no contact mode.
+    #[must_use]
+    pub fn unsolved(self, reasons: &[String]) -> Self {
+        self.headed(&format!("Without forces of contacts: {}.", reasons.join("; ")))
+    }
+
+    /// The same, with a further paragraph at the end of the heading.
+    fn headed(mut self, text: &str) -> Self {
+        let (count, foot) = self.heading;
+        let drawings = Scene { elements: self.scene.elements.split_off(count), ..Scene::default() };
+        let width = self.bounds.size().x - 2.0 * MARGIN;
+        let below = paragraph(&mut self.scene, text, VALUE_SIZE, Point::new(0.0, foot), width);
+        self.heading = (self.scene.elements.len(), below);
+        let by = Point::new(0.0, below - foot);
+        self.scene.elements.extend(drawings.shifted(by).elements);
+        self.bounds.greatest += by;
+        self.description = format!("{text} {}", self.description);
+        self
+    }
 }
 
 /// Drawings of a mechanism and, if they were found, of its solutions, side by side; none if there is no
@@ -101,8 +138,11 @@ pub fn sheet(
     if let Some(report) = report {
         shown_in_units.units = report.model.units.clone();
     }
+    shown_in_units.units =
+        shown_in_units.units.suited_to_most("N", &forces(mechanism, configuration, report));
     let mechanism = &shown_in_units;
-    let view = View::fitting(mechanism, &[configuration], PANEL);
+    let part = (mechanism.contacts.len() as f64 / CONTACTS).clamp(1.0, 2.0);
+    let view = View::fitting(mechanism, &[configuration], PANEL.map(|side| part * side));
     let drawn = Drawn { mechanism, configuration, report, view: &view };
     let panels = drawn.panels(shown)?;
     let title = mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned());
@@ -110,7 +150,42 @@ pub fn sheet(
         report.map(|report| state_line(&report.state, &mechanism.units)).into_iter().collect();
     lines.extend(report.map(answer));
     let description = described(&lines, &panels);
-    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines }.sheet(description))
+    let forces_on = forces_on(mechanism);
+    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
+}
+
+/// The forces (N) of which drawings tell the values.
+fn forces(mechanism: &Mechanism, configuration: &Configuration, report: Option<&SolveReport>) -> Vec<f64> {
+    let states =
+        report.into_iter().flat_map(|report| report.solutions.iter().chain(&report.preload_gap_states));
+    let of_state = |state: &Solution| -> Vec<f64> {
+        let contacts =
+            state.contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
+        contacts
+            .chain(state.drives.iter().filter(|drive| drive.unit == "N").map(|drive| drive.effort))
+            .collect()
+    };
+    let known = known_forces(mechanism, configuration);
+    known.into_iter().chain(states.flat_map(of_state)).filter(|force| *force != 0.0).collect()
+}
+
+/// The known loads and weights (N).
+fn known_forces(mechanism: &Mechanism, configuration: &Configuration) -> Vec<f64> {
+    let loads = mechanism.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Pad(pad) => configuration.pad_force(mechanism, pad),
+        _ => load_force(mechanism, configuration, load).map(|force| force.norm()),
+    });
+    loads.chain(mechanism.bodies.iter().map(|body| (mechanism.gravity * body.mass).norm())).collect()
+}
+
+/// On what the forces of contacts are drawn to act.
+pub(crate) fn forces_on(mechanism: &Mechanism) -> &'static str {
+    let grounded = |is: bool| sliders(mechanism).any(|(_, slider)| (slider.block == Frame::Ground) == is);
+    match (grounded(true), grounded(false)) {
+        (true, true) => "the block, or on the guide of a block that is ground",
+        (true, false) => "the guide",
+        _ => "the block",
+    }
 }
 
 struct Drawn<'a> {
@@ -196,13 +271,7 @@ impl Drawn<'_> {
 
     /// The greatest of the known loads and weights (N).
     fn greatest_load(&self) -> f64 {
-        let Self { mechanism, configuration, .. } = self;
-        let loads = mechanism.loads.iter().filter_map(|load| match &load.kind {
-            LoadKind::Pad(pad) => configuration.pad_force(mechanism, pad),
-            _ => load_force(mechanism, configuration, load).map(|force| force.norm()),
-        });
-        let weights = mechanism.bodies.iter().map(|body| (mechanism.gravity * body.mass).norm());
-        loads.chain(weights).fold(0.0, f64::max)
+        known_forces(self.mechanism, self.configuration).into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -241,6 +310,7 @@ struct Layout<'a> {
     panels: Vec<Panel>,
     title: String,
     lines: Vec<String>,
+    forces_on: &'static str,
 }
 
 impl Layout<'_> {
@@ -255,6 +325,7 @@ impl Layout<'_> {
         for line in &self.lines {
             y = paragraph(&mut scene, line, VALUE_SIZE, Point::new(0.0, y), row_width);
         }
+        let heading = (scene.elements.len(), y);
         let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
         for row in self.panels.chunks(columns) {
             let picture = bounds_of(row).map_or(picture, |bounds| picture.with_heights_of(&bounds));
@@ -281,9 +352,9 @@ impl Layout<'_> {
             }
             y = below + 8.0;
         }
-        y = key(&mut scene, y, row_width);
+        y = key(&mut scene, y, row_width, self.forces_on);
         let bounds = Bounds { least: Point::zeros(), greatest: Point::new(row_width, y) }.widened(MARGIN);
-        Sheet { scene, bounds, title: self.title, description }
+        Sheet { scene, bounds, title: self.title, description, heading }
     }
 
     /// Bars of a length and of a force.
@@ -367,13 +438,13 @@ fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
 }
 
 /// What the colours mean; the y below it.
-fn key(scene: &mut Scene, y: f64, most: f64) -> f64 {
+fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     let words = [
-        (Class::Reaction, "normal reaction on the block"),
-        (Class::Friction, "friction on the block"),
-        (Class::Load, "load, weight or drive"),
-        (Class::Drive, "drive, its size unknown"),
-        (Class::Velocity, "sliding velocity"),
+        (Class::Reaction, format!("normal reaction on {forces_on}")),
+        (Class::Friction, format!("friction on {forces_on}")),
+        (Class::Load, "load, weight or drive".to_owned()),
+        (Class::Drive, "drive, its size unknown".to_owned()),
+        (Class::Velocity, "sliding velocity".to_owned()),
     ];
     let used: Vec<_> = words
         .into_iter()

@@ -95,8 +95,7 @@ fn drawing(page: &Page<'_>) -> String {
         colours: Colours::Page,
     };
     format!(
-        "<section id=\"drawing\">\n<h2>Drawing</h2>\n<div class=\"drawing\">\n{}\n</div>\n<p class=\"quiet\">Play in the \
-         guides is exaggerated. Forces act on the block, at the place where it is pressed.</p>\n</section>\n",
+        "<section id=\"drawing\">\n<h2>Drawing</h2>\n<div class=\"drawing\">\n{}\n</div>\n</section>\n",
         svg::document(&page.sheet.scene, &frame)
     )
 }
