@@ -145,7 +145,9 @@ pub(super) fn is_belt(mechanism: &Mechanism, body: BodyId) -> bool {
 fn face_side(mechanism: &Mechanism, slider: &Slider) -> Option<f64> {
     let body = slider.block.body().filter(|_| slider.height == 0.0)?;
     let normal = rot90(slider.tangent);
-    let Some(corners) = corners(mechanism, body) else { return nut_side(mechanism, body, normal) };
+    let Some(corners) = corners(mechanism, body) else {
+        return (slider.kind == SliderKind::Guided).then(|| nut_side(mechanism, body, normal)).flatten();
+    };
     let across = corners.iter().map(|corner| (corner - slider.at).dot(&normal));
     let least = across.clone().fold(f64::INFINITY, f64::min);
     let greatest = across.fold(f64::NEG_INFINITY, f64::max);
@@ -157,7 +159,7 @@ fn face_side(mechanism: &Mechanism, slider: &Slider) -> Option<f64> {
     }
 }
 
-/// The upper side of a guide for a body that is nothing but its block, such as the nut of a screw.
+/// The upper side of a guide for a body that is nothing but its block and lies flat, such as the nut of a screw.
 fn nut_side(mechanism: &Mechanism, body: BodyId, normal: Vector2<f64>) -> Option<f64> {
     let frame = Frame::Body(body);
     let is_bare = mechanism.bodies[body.index()].shape.is_none() && normal.y.abs() > ON_LINE;

@@ -407,3 +407,13 @@ fn forces_are_told_in_the_unit_in_which_most_read_well() {
     assert!(texts.contains(&"gas = 1000 N".to_owned()), "{texts:?}");
     assert!(!texts.iter().any(|text| text.contains("kN")), "{texts:?}");
 }
+
+/// Only a body that always lies flat, as the nut of a screw does, is drawn as standing on a face: the rod of a cylinder,
+/// which may tip, has walls on both sides before a solution is known, too.
+#[test]
+fn what_may_tip_has_walls() {
+    let walls = |case: &Case| of_class(&overview(case).1, Class::Wall).len();
+    let text = slideway::template::find("cylinder").unwrap().text;
+    assert_eq!(walls(&Case::new(text, &Settings::default())), 2);
+    assert_eq!(walls(&Case::gallery("screw")), 1);
+}
