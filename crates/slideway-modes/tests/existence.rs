@@ -68,7 +68,7 @@ fn the_papers_closed_forms_to_machine_precision() -> Result<(), Box<dyn Error>> 
     assert_eq!(first.to.cause, EndCause::SideChange(vec![1, 2]));
     let locking = 2.0 * cotangent + 0.1;
     assert!((second.to.at - locking).abs() < 1e-14, "{:e}", second.to.at - locking);
-    assert_eq!(second.to.cause, EndCause::Locking);
+    assert_eq!(second.to.cause, EndCause::Singular);
     let limits = second.to.normal_force.as_deref().ok_or("limits")?;
     assert_eq!(limits, [Limit::Infinite(1.0), Limit::Infinite(-1.0), Limit::Infinite(1.0)]);
     assert_eq!(
@@ -119,7 +119,7 @@ fn up_to_infinity() -> Result<(), Box<dyn Error>> {
     let finite = |limit: &Limit| matches!(limit, Limit::Finite(_));
     assert!(first.to.normal_force.as_deref().ok_or("limits")?.iter().all(finite));
     assert!((second.from.at - 0.452_653_96).abs() < 1e-8);
-    assert_eq!(second.from.cause, EndCause::Locking);
+    assert_eq!(second.from.cause, EndCause::Singular);
     let counts: Vec<(f64, usize)> = counts(&line, &existence, [0.1, f64::INFINITY])
         .iter()
         .map(|interval| (interval.to, interval.solutions))
@@ -259,7 +259,7 @@ fn every_end_is_a_zero_of_what_it_names() {
                 ends_seen += 1;
                 match &end.cause {
                     EndCause::Range => assert!(end.at == 0.0 || end.at == 1.0),
-                    EndCause::Locking => {
+                    EndCause::Singular => {
                         let problem = on_line(&ends, end.at);
                         let columns: Vec<DVector<f64>> = mode
                             .pattern

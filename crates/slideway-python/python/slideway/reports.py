@@ -405,6 +405,7 @@ ModeEndCause = Literal[
     "nothing",
     "range",
     "locking",
+    "without_bound",
     "side_change",
     "gap_closes",
     "tipping",
@@ -416,7 +417,10 @@ ModeEndCause = Literal[
 
 - `"nothing"`: Nothing: it lasts however much friction grows.
 - `"range"`: The range that was looked at.
-- `"locking"`: Its determinant vanishes: normal forces grow without bound.
+- `"locking"`: Its determinant vanishes, so its normal forces grow without bound, and beyond there is no
+solution: friction locks the mechanism.
+- `"without_bound"`: Its determinant vanishes, so its normal forces grow without bound, but beyond there is
+another solution.
 - `"side_change"`: A normal force vanishes: a contact changes side.
 - `"gap_closes"`: A preload gap closes.
 - `"tipping"`: A guided slider tips.
