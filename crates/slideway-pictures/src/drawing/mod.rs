@@ -22,7 +22,7 @@ pub mod svg;
 mod view;
 
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
-pub use sheet::{Caption, Panel, Sheet, Shown, sheet};
+pub use sheet::{Caption, Panel, Sheet, Shown, pieces, sheet, title};
 pub use view::View;
 
 pub(crate) use sheet::{answer, nice};

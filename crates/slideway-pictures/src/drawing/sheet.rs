@@ -96,21 +96,45 @@ pub fn sheet(
     report: Option<&SolveReport>,
     shown: Shown,
 ) -> Option<Sheet> {
-    // The numbers of a report stand in its units.
-    let mut shown_in_units = mechanism.clone();
-    if let Some(report) = report {
-        shown_in_units.units = report.model.units.clone();
-    }
-    let mechanism = &shown_in_units;
+    let mechanism = &in_units_of(report, mechanism);
     let view = View::fitting(mechanism, &[configuration], PANEL);
     let drawn = Drawn { mechanism, configuration, report, view: &view };
     let panels = drawn.panels(shown)?;
-    let title = mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned());
+    let title = title(mechanism);
     let mut lines: Vec<String> =
         report.map(|report| state_line(&report.state, &mechanism.units)).into_iter().collect();
     lines.extend(report.map(answer));
     let description = described(&lines, &panels);
     Some(Layout { view: &view, units: &mechanism.units, panels, title, lines }.sheet(description))
+}
+
+/// The same drawings each by itself, with its caption, and at the end the key to their colours, for a page that has
+/// the title and the state itself.
+pub fn pieces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    report: Option<&SolveReport>,
+) -> Vec<Sheet> {
+    let mechanism = &in_units_of(report, mechanism);
+    let view = View::fitting(mechanism, &[configuration], PANEL);
+    let drawn = Drawn { mechanism, configuration, report, view: &view };
+    let panels = drawn.panels(Shown::All).unwrap_or_default();
+    let title = title(mechanism);
+    Layout { view: &view, units: &mechanism.units, panels, title, lines: Vec::new() }.pieces()
+}
+
+/// The mechanism in the units of a report, in which its numbers stand.
+fn in_units_of(report: Option<&SolveReport>, mechanism: &Mechanism) -> Mechanism {
+    let mut mechanism = mechanism.clone();
+    if let Some(report) = report {
+        mechanism.units = report.model.units.clone();
+    }
+    mechanism
+}
+
+/// The title of a mechanism, or what stands for it.
+pub fn title(mechanism: &Mechanism) -> String {
+    mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned())
 }
 
 struct Drawn<'a> {
@@ -228,11 +252,15 @@ pub(crate) fn answer(report: &SolveReport) -> String {
 }
 
 fn described(lines: &[String], panels: &[Panel]) -> String {
-    let captions = panels.iter().map(|panel| {
-        let Caption { heading, lines } = &panel.caption;
-        std::iter::once(heading).chain(lines).map(String::as_str).collect::<Vec<_>>().join(". ")
-    });
+    let captions = panels.iter().map(|panel| panel.caption.in_words());
     lines.iter().cloned().chain(captions).collect::<Vec<_>>().join(" ")
+}
+
+impl Caption {
+    fn in_words(&self) -> String {
+        let Self { heading, lines } = self;
+        std::iter::once(heading).chain(lines).map(String::as_str).collect::<Vec<_>>().join(". ")
+    }
 }
 
 struct Layout<'a> {
@@ -245,8 +273,7 @@ struct Layout<'a> {
 
 impl Layout<'_> {
     fn sheet(self, description: String) -> Sheet {
-        let picture = bounds_of(&self.panels)
-            .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::new(LEAST_WIDTH, LEAST_WIDTH) });
+        let picture = self.picture();
         let panel_width = picture.size().x.max(LEAST_WIDTH);
         let columns = columns(self.panels.len(), panel_width);
         let row_width = columns as f64 * (panel_width + SPACE) - SPACE;
@@ -255,35 +282,69 @@ impl Layout<'_> {
         for line in &self.lines {
             y = paragraph(&mut scene, line, VALUE_SIZE, Point::new(0.0, y), row_width);
         }
-        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
         for row in self.panels.chunks(columns) {
             let picture = bounds_of(row).map_or(picture, |bounds| picture.with_heights_of(&bounds));
             let mut below: f64 = 0.0;
             for (column, panel) in row.iter().enumerate() {
                 let corner = Point::new(column as f64 * (panel_width + SPACE), y + 14.0);
-                let free = 0.5 * (panel_width - picture.size().x);
-                let by = corner + Point::new(free, 0.0) - picture.least;
-                scene.elements.extend(panel.scene.clone().shifted(by).elements);
-                let mut foot = corner.y + picture.size().y + 26.0;
-                self.legend(&mut scene, panel, length, Point::new(corner.x, foot));
-                foot += 16.0;
-                foot = paragraph(
-                    &mut scene,
-                    &panel.caption.heading,
-                    NAME_SIZE + 1.0,
-                    Point::new(corner.x, foot),
-                    panel_width,
-                );
-                for line in &panel.caption.lines {
-                    foot = paragraph(&mut scene, line, VALUE_SIZE, Point::new(corner.x, foot), panel_width);
-                }
-                below = below.max(foot);
+                below = below.max(self.panel(&mut scene, panel, &picture, corner));
             }
             y = below + 8.0;
         }
         y = key(&mut scene, y, row_width);
         let bounds = Bounds { least: Point::zeros(), greatest: Point::new(row_width, y) }.widened(MARGIN);
         Sheet { scene, bounds, title: self.title, description }
+    }
+
+    /// Each panel by itself, and the key.
+    fn pieces(self) -> Vec<Sheet> {
+        let picture = self.picture();
+        let width = picture.size().x.max(LEAST_WIDTH);
+        let mut all = Scene::default();
+        let sheet = |scene: Scene, foot: f64, title: &str, description: String| {
+            let bounds = Bounds { least: Point::zeros(), greatest: Point::new(width, foot) };
+            Sheet { scene, bounds: bounds.widened(0.5 * SPACE), title: title.to_owned(), description }
+        };
+        let piece = |panel: &Panel| {
+            let own = bounds_of(std::slice::from_ref(panel));
+            let picture = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let mut scene = Scene::default();
+            let foot = self.panel(&mut scene, panel, &picture, Point::zeros());
+            all.elements.extend(scene.elements.iter().cloned());
+            sheet(scene, foot, &panel.caption.heading, panel.caption.in_words())
+        };
+        let mut pieces: Vec<Sheet> = self.panels.iter().map(piece).collect();
+        let drawn = all.elements.len();
+        let foot = key(&mut all, 0.0, width);
+        let key = Scene { elements: all.elements.split_off(drawn), ..Scene::default() };
+        if !key.elements.is_empty() {
+            pieces.push(sheet(key, foot, "Key", "What the colours of arrows mean".to_owned()));
+        }
+        pieces
+    }
+
+    /// The place that every picture has.
+    fn picture(&self) -> Bounds {
+        bounds_of(&self.panels)
+            .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::new(LEAST_WIDTH, LEAST_WIDTH) })
+    }
+
+    /// Adds a drawing with what stands below it; the y below that.
+    fn panel(&self, scene: &mut Scene, panel: &Panel, picture: &Bounds, corner: Point) -> f64 {
+        let width = picture.size().x.max(LEAST_WIDTH);
+        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
+        let free = 0.5 * (width - picture.size().x);
+        let by = corner + Point::new(free, 0.0) - picture.least;
+        scene.elements.extend(panel.scene.clone().shifted(by).elements);
+        let mut foot = corner.y + picture.size().y + 26.0;
+        self.legend(scene, panel, length, Point::new(corner.x, foot));
+        foot += 16.0;
+        let heading = &panel.caption.heading;
+        foot = paragraph(scene, heading, NAME_SIZE + 1.0, Point::new(corner.x, foot), width);
+        for line in &panel.caption.lines {
+            foot = paragraph(scene, line, VALUE_SIZE, Point::new(corner.x, foot), width);
+        }
+        foot
     }
 
     /// Bars of a length and of a force.
