@@ -546,9 +546,7 @@ impl FaultKind {
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction must be finite and not negative at every speed that occurs, including zero",
             ),
-            Self::PartsApart { .. } => {
-                Some("choose it, or the other sizes, so that the parts reach each other")
-            }
+            Self::PartsApart { .. } => Some("change it, or another size, so that the parts reach each other"),
             Self::StaticBelowKinetic { .. } => Some("omit `mu_static` to make it equal to `mu`"),
             Self::SeveralImpacts { .. } => {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
