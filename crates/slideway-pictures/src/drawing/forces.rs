@@ -1,12 +1,13 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
 use super::labels::{obstacles, reserve};
-use super::looks::Look;
+use super::looks::{Look, sliders};
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
 use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
+use slideway::mechanism::Mechanism;
 use slideway::model::{CarriedBy, SliderKind};
 
 /// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
@@ -26,6 +27,16 @@ const PLACES: [(f64, f64); 8] = [
 ];
 /// Length of the arrow of a velocity.
 const VELOCITY: f64 = 40.0;
+
+/// On what the forces of contacts are drawn to act.
+pub(crate) fn forces_on(mechanism: &Mechanism) -> &'static str {
+    let grounded = |is: bool| sliders(mechanism).any(|(_, slider)| (slider.block == Frame::Ground) == is);
+    match (grounded(true), grounded(false)) {
+        (true, true) => "the block, or on the guide of a block that is ground",
+        (true, false) => "the guide",
+        _ => "the block",
+    }
+}
 
 impl Slide {
     /// The sign of forces and velocities that are drawn, where those of the block against the guide are positive: they

@@ -14,18 +14,21 @@ mod labels;
 mod loads;
 mod looks;
 mod outline;
+mod paragraph;
 mod scene;
 mod sheet;
 mod sliders;
 mod stops;
 pub mod svg;
+mod units;
 mod view;
 
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
-pub use sheet::{Caption, Panel, Sheet, Shown, sheet};
+pub use sheet::{Caption, Panel, Sheet, Shown, pieces, sheet, title};
 pub use view::View;
 
-pub(crate) use sheet::{EXAGGERATED, answer, forces_on, nice};
+pub(crate) use forces::forces_on;
+pub(crate) use sheet::{EXAGGERATED, answer, nice};
 
 use labels::Label;
 use looks::{Look, looks};
