@@ -91,7 +91,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         .collect();
     let painted = Painted::new(history, &samples);
     let force_scale = painted.force_scale;
-    let Frames { shapes, frames, bounds, words, is_exaggerated } = painted.frames();
+    let Painting { shapes, frames, bounds, words, is_exaggerated } = painted.frames();
     Animation {
         title: history.mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned()),
         bounds,
@@ -111,7 +111,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
 }
 
 /// All that is painted of a motion.
-struct Frames {
+struct Painting {
     /// The shapes that occur.
     shapes: Vec<String>,
     /// The frames made of them.
@@ -152,7 +152,7 @@ impl<'h> Painted<'h> {
         Self { history, samples, view, options, force_scale }
     }
 
-    fn frames(&self) -> Frames {
+    fn frames(&self) -> Painting {
         let mut words: Vec<String> = Vec::new();
         let mut shapes: Vec<String> = Vec::new();
         let mut known = std::collections::HashMap::new();
@@ -183,7 +183,7 @@ impl<'h> Painted<'h> {
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
         let bounds = bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH);
-        Frames { shapes, frames, bounds, words, is_exaggerated }
+        Painting { shapes, frames, bounds, words, is_exaggerated }
     }
 
     fn words(&self, sample: &Sample) -> String {

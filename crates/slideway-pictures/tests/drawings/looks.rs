@@ -177,12 +177,8 @@ fn a_belt_runs_on_rollers() {
     }
     assert!(!solved(&moved("0 mm")).is_exaggerated);
     let marks = |scene: &Scene| -> Vec<f64> {
-        let edges = of_class(scene, Class::Edge).into_iter();
-        edges
-            .filter_map(|edge| {
-                matches!(edge, Shape::Line(ends) if ends[0].x == ends[1].x).then(|| start(edge))
-            })
-            .collect()
+        let upright = |edge: &&Shape| matches!(edge, Shape::Line(ends) if ends[0].x == ends[1].x);
+        of_class(scene, Class::Edge).into_iter().filter(upright).map(start).collect()
     };
     // Lines 30 units apart.
     let by = (2.01 * view.scale).rem_euclid(30.0);
