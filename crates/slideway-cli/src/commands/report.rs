@@ -15,7 +15,7 @@ use slideway::model::Model;
 use slideway::solve::{SolveOptions, solve_with};
 use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 use slideway_pictures::NotFinite;
-use slideway_pictures::drawing::{Shown, sheet};
+use slideway_pictures::drawing::{pieces, title};
 use slideway_pictures::page::{Figure, Page, to_html};
 use slideway_pictures::plot::{self, limits_figure, to_svg};
 use slideway_pictures::theme::{DARK, LIGHT};
@@ -37,9 +37,6 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let mut watch = Watch::new(arguments.time.time_limit);
     let answer = solve_with(&model, &SolveOptions::default(), &mut |progress| watch.look(progress))
         .map_err(|faults| reasons(&faults));
-    let Some(sheet) = sheet(&mechanism, &configuration, answer.as_ref().ok(), Shown::All) else {
-        return Err(Failure::NoSuchSolution { count: 0 });
-    };
     let wanted = arguments.vary.iter().map(|vary| input.vary(&model, vary)).collect::<Result<Vec<_>, _>>()?;
     let varied = varied(&model, wanted, &mut watch).map_err(|faults| input.refused(faults))?;
     let efficiency = efficiency(&model, &mut watch);
@@ -56,7 +53,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         name: &input.name,
         text: &input.text(),
         settings: &settings,
-        sheet: &sheet,
+        title: &title(&mechanism),
+        drawings: &pieces(&mechanism, &configuration, answer.as_ref().ok()),
         report: answer.as_ref().map_err(Vec::as_slice),
         efficiency: &efficiency,
         rest: rest.as_ref().map_err(Vec::as_slice),
@@ -78,7 +76,7 @@ fn be_a_page(path: &Path) -> Result<(), Failure> {
 }
 
 /// What keeps the kinetic problem from being solved, in words.
-fn reasons(faults: &Faults) -> Vec<String> {
+pub(super) fn reasons(faults: &Faults) -> Vec<String> {
     faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
 }
 
@@ -123,7 +121,10 @@ fn limits(
     let options = LimitsOptions::new(vary);
     let found = curves_with(model, &options, Quantity::NormalForce, &mut |progress| watch.look(progress))?;
     let Some((report, curves)) = found else { return Ok(None) };
-    let plot = limits_figure(&report, &curves);
+    // The page has the title of the model at its beginning.
+    let mut untitled = report.clone();
+    untitled.title = None;
+    let plot = limits_figure(&untitled, &curves);
     Ok(Some((report, plot)))
 }
 
