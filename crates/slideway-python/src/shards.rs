@@ -38,7 +38,7 @@ pub(crate) fn write_shard(
     Ok(shard_path(folder, shard))
 }
 
-/// One table of all shards in a folder.
+#[doc = include_str!("../docs/merge.txt")]
 #[pyfunction]
 #[pyo3(signature = (folder, *, time_limit = None, progress: "Progress | None" = None) -> "_sweep.Sweep")]
 pub(crate) fn merge(

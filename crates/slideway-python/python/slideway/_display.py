@@ -64,8 +64,8 @@ class Drawing:
         return f"<slideway.Drawing: {html.unescape(title[1]) if title else ''}>"
 
 
-class Animation:
-    """A mechanism that moves: it plays in a notebook, and can be saved as a page."""
+class Page:
+    """A page that needs no other file: it shows itself in a notebook, and can be saved."""
 
     def __init__(self, page: str, title: str) -> None:
         self.html = page
@@ -73,7 +73,7 @@ class Animation:
         self._title = title
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the page, which needs no other file."""
+        """Writes the page to a file, whose name ends in .html."""
         path = Path(path)
         if path.suffix.lower() not in (".html", ".htm"):
             raise ValueError(f"path must end in .html, not {path.suffix!r}")
@@ -83,7 +83,11 @@ class Animation:
         return _block(_frame(self.html, self._title))
 
     def __repr__(self) -> str:
-        return f"<slideway.Animation: {self._title}>"
+        return f"<slideway.{type(self).__name__}: {self._title}>"
+
+
+class Animation(Page):
+    """A mechanism that moves: it plays in a notebook, and can be saved as a page."""
 
 
 def model_html(model: _slideway.Model) -> str:
