@@ -39,8 +39,7 @@ use std::path::PathBuf;
 /// >>> import pathlib, slideway, tempfile
 /// >>> drawing = pathlib.Path(tempfile.mkdtemp(), "crank.dxf")
 /// >>> lines = "0 SECTION 2 ENTITIES 0 CIRCLE 8 crank 10 0 20 0 40 60 0 ENDSEC 0 EOF"
-/// >>> drawing.write_text("\n".join(lines.split()))
-/// 60
+/// >>> _ = drawing.write_text("\n".join(lines.split()))
 /// >>> "[bodies.crank]" in slideway.import_dxf(drawing, unit="mm")
 /// True
 #[pyfunction]

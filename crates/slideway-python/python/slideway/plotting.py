@@ -66,8 +66,26 @@ def plot_figure(
     *,
     theme: ThemeName = "light",
 ) -> Any:
-    """Draws a figure on Axes, or on those of a new figure of pyplot, and returns them: the Axes, or an array of them if
-    there are several panels. `drawn` says what its panels show in frames of a given width and height."""
+    """Draws a figure, as `plot()` of an answer does.
+
+    Parameters
+    ----------
+    figure : reports.Figure
+        The plot as plain data.
+    drawn : callable
+        Gives what its panels show in frames of a given width and height (px).
+    ax : Axes, optional
+        Where to draw; an array of them if there are several panels. Default: the Axes of a new figure of pyplot.
+    theme : {"light", "dark"}
+
+    Returns
+    -------
+    Axes or array of Axes
+
+    Examples
+    --------
+    See `slideway.reports.LimitsReport.plot`.
+    """
     pyplot = _pyplot()
     colours = _slideway.theme(theme)
     count = len(figure.panels)
@@ -421,8 +439,26 @@ def plot_map(
     *,
     theme: ThemeName = "light",
 ) -> Axes:
-    """Draws a map on Axes, or on those of a new figure of pyplot, and returns them. `pixels` has the class of each
-    pixel, a row for each row of the map from the bottom."""
+    """Draws a map, as `plot()` of a map does.
+
+    Parameters
+    ----------
+    shown : reports.DrawnMap
+        The map in words and colours.
+    pixels : array of int
+        The class of each pixel, a row for each row of the map from the bottom.
+    ax : Axes, optional
+        Where to draw. Default: the Axes of a new figure of pyplot.
+    theme : {"light", "dark"}
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    See `slideway.reports.MapReport.plot`.
+    """
     pyplot = _pyplot()
     colours = _slideway.theme(theme)
     if ax is None:
