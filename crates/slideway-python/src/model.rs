@@ -56,7 +56,10 @@ impl Model {
     ) -> PyResult<Self> {
         let settings = Settings::default();
         match py.detach(read) {
-            Ok(model) => Ok(Self { asked: Asked { model, text: Arc::from(text), settings }, units: None }),
+            Ok(model) => {
+                let (model, text) = (Arc::new(model), Arc::from(text));
+                Ok(Self { asked: Asked { model, text, settings }, units: None })
+            }
             Err(faults) => Err(Texts { model: text, settings: &settings }.error(py, &faults)),
         }
     }
@@ -85,12 +88,13 @@ impl Model {
         for setting in settings.entries() {
             all = all.with(setting.clone());
         }
-        Ok(Self { asked: Asked { model, settings: all, ..self.asked.clone() }, units: self.units })
+        let asked = Asked { model: Arc::new(model), text: self.asked.text.clone(), settings: all };
+        Ok(Self { asked, units: self.units })
     }
 
     fn in_system(&self, system: UnitSystem) -> Self {
-        let model = self.asked.model.clone().with_units(system);
-        Self { asked: Asked { model, ..self.asked.clone() }, units: Some(system) }
+        let model = slideway::Model::clone(&self.asked.model).with_units(system);
+        Self { asked: Asked { model: Arc::new(model), ..self.asked.clone() }, units: Some(system) }
     }
 
     /// Everything that makes two models the same.

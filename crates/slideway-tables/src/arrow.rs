@@ -128,11 +128,16 @@ impl Growing {
                 builder.extend(numbers.map(|number| (!number.is_nan()).then_some(number)));
             }
             Self::Words(length, builder) => {
+                // The same word stands in many rows, one behind the other.
+                let (mut last, mut text): (&[u8], _) = (&[], None);
                 for record in records.chunks_exact(size) {
                     let word = &record[start..start + *length];
-                    let end = word.iter().position(|byte| *byte == 0).unwrap_or(*length);
-                    let word = std::str::from_utf8(&word[..end]).ok();
-                    builder.append_option(word.filter(|word| !word.is_empty()));
+                    if word != last {
+                        let end = word.iter().position(|byte| *byte == 0).unwrap_or(*length);
+                        text = std::str::from_utf8(&word[..end]).ok().filter(|text| !text.is_empty());
+                        last = word;
+                    }
+                    builder.append_option(text);
                 }
             }
         }

@@ -223,6 +223,16 @@ class Mechanism:
         ------
         ModelError
             With everything that is wrong; lines and columns are those of `to_toml()`.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism("Drawer")
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        >>> x = m.slide("x", rail, rate=0.1)
+        >>> m.build()
+        <slideway.Model: Drawer>
         """
     def damper(self, /, name: str, first: End, second: End, *, damping: Value) -> str:
         """
@@ -240,6 +250,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.damper("damper", (drawer, (0, 0)), (GROUND, (1, 0)), damping="5 N s/m")
+        'damper'
         """
     def drive_by_force(self, /, name: str, coordinate: str, body: str, *, at: Pair, direction: Value, acceleration: Value | None = None, turning: bool = False, reaction: str | None = None) -> str:
         """
@@ -263,6 +281,16 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        >>> x = m.slide("x", rail, rate=0.1)
+        >>> m.drive_by_force("push", x, drawer, at=(-0.2, 0.1), direction=0)
+        'push'
         """
     def drive_by_torque(self, /, name: str, coordinate: str, body: str, *, acceleration: Value | None = None, reaction: str | None = None) -> str:
         """
@@ -280,6 +308,15 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> phi = m.rotation("phi", crank, rate=3)
+        >>> m.drive_by_torque("motor", phi, crank)
+        'motor'
         """
     def force(self, /, name: str, body: str, *, at: Pair, components: Pair | None = None, magnitude: Value | None = None, direction: Value | None = None, turning: bool = False, reaction: str | None = None) -> str:
         """
@@ -303,6 +340,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.force("push", drawer, at=(0, 0.1), components=("20 N", 0))
+        'push'
         """
     def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, pad: Pair | None = None) -> str:
         """
@@ -320,6 +365,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.guided_slider("runner", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        'runner'
         """
     def hinge(self, /, name: str, first: str, second: str, at: Pair) -> str:
         """
@@ -337,6 +390,15 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> pin = m.hinge("pin", GROUND, crank, at=(0, 0))
+        >>> pin
+        'pin'
         """
     def parameter(self, /, name: str, value: Value) -> str:
         """
@@ -378,6 +440,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.pin_in_slot("slot", drawer, GROUND, at=(0, 0), mu=0.2)
+        'slot'
         """
     def rotation(self, /, name: str, body: str, *, relative_to: str | None = None, drawn_at: Value | None = None, value: Value | None = None, rate: Value | None = None) -> str:
         """
@@ -397,6 +467,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> m.rotation("phi", crank, rate="3 rad/s")
+        'phi'
         """
     def slide(self, /, name: str, slider: str, *, drawn_at: Value | None = None, value: Value | None = None, rate: Value | None = None) -> str:
         """
@@ -416,6 +494,15 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        >>> m.slide("x", rail, rate="0.1 m/s")
+        'x'
         """
     def spring(self, /, name: str, first: End, second: End, *, stiffness: Value, free_length: Value | None = None) -> str:
         """
@@ -435,6 +522,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.spring("spring", (drawer, (0, 0)), (GROUND, (1, 0)), stiffness="10 N/m")
+        'spring'
         """
     def to_toml(self, /) -> str:
         """
@@ -469,6 +564,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.torque("twist", drawer, "3 N m")
+        'twist'
         """
     def torsional_damper(self, /, name: str, first: str, second: str, *, damping: Value) -> str:
         """
@@ -484,6 +587,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> m.torsional_damper("damper", GROUND, crank, damping="0.1 N m s/rad")
+        'damper'
         """
     def torsional_spring(self, /, name: str, first: str, second: str, *, stiffness: Value, free_angle: Value | None = None) -> str:
         """
@@ -502,6 +613,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> m.torsional_spring("spring", GROUND, crank, stiffness="2 N m/rad")
+        'spring'
         """
 
 @final
@@ -1379,8 +1498,7 @@ def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str
     >>> import pathlib, slideway, tempfile
     >>> drawing = pathlib.Path(tempfile.mkdtemp(), "crank.dxf")
     >>> lines = "0 SECTION 2 ENTITIES 0 CIRCLE 8 crank 10 0 20 0 40 60 0 ENDSEC 0 EOF"
-    >>> drawing.write_text("\\n".join(lines.split()))
-    60
+    >>> _ = drawing.write_text("\\n".join(lines.split()))
     >>> "[bodies.crank]" in slideway.import_dxf(drawing, unit="mm")
     True
     """
