@@ -182,7 +182,7 @@ fn a_browser_shows_and_prints_the_page_without_complaint() {
     let (dom, log) = (String::from_utf8_lossy(&shown.stdout), String::from_utf8_lossy(&shown.stderr));
     let complaints: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
     assert!(complaints.is_empty(), "{complaints:?}");
-    assert_eq!(dom.matches("<svg").count(), 1);
+    assert_eq!(dom.matches("<svg").count(), 6, "the mechanism, four states, the key to the colours");
     assert_eq!(dom.matches("<table class=\"contacts\"").count(), 4, "three solutions and a preload gap");
     // One plot, for light and for dark screens; paper gets the light one, whatever the screen.
     for class in ["on-light", "on-dark"] {

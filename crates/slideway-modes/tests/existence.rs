@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::certificate::{IntervalMatrix, IntervalModeProblem, proven_determinant_sign};
 use slideway_modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeInterval, ModeProblemLine, OutputBound,
-    counts,
+    counts, is_same_end, nothing_is_left,
 };
 use slideway_modes::{BySide, ContactState, Limits, ModeProblem, Side, enumerate};
 
@@ -68,7 +68,7 @@ fn the_papers_closed_forms_to_machine_precision() -> Result<(), Box<dyn Error>> 
     assert_eq!(first.to.cause, EndCause::SideChange(vec![1, 2]));
     let locking = 2.0 * cotangent + 0.1;
     assert!((second.to.at - locking).abs() < 1e-14, "{:e}", second.to.at - locking);
-    assert_eq!(second.to.cause, EndCause::Locking);
+    assert_eq!(second.to.cause, EndCause::Singular);
     let limits = second.to.normal_force.as_deref().ok_or("limits")?;
     assert_eq!(limits, [Limit::Infinite(1.0), Limit::Infinite(-1.0), Limit::Infinite(1.0)]);
     assert_eq!(
@@ -119,7 +119,7 @@ fn up_to_infinity() -> Result<(), Box<dyn Error>> {
     let finite = |limit: &Limit| matches!(limit, Limit::Finite(_));
     assert!(first.to.normal_force.as_deref().ok_or("limits")?.iter().all(finite));
     assert!((second.from.at - 0.452_653_96).abs() < 1e-8);
-    assert_eq!(second.from.cause, EndCause::Locking);
+    assert_eq!(second.from.cause, EndCause::Singular);
     let counts: Vec<(f64, usize)> = counts(&line, &existence, [0.1, f64::INFINITY])
         .iter()
         .map(|interval| (interval.to, interval.solutions))
@@ -259,7 +259,7 @@ fn every_end_is_a_zero_of_what_it_names() {
                 ends_seen += 1;
                 match &end.cause {
                     EndCause::Range => assert!(end.at == 0.0 || end.at == 1.0),
-                    EndCause::Locking => {
+                    EndCause::Singular => {
                         let problem = on_line(&ends, end.at);
                         let columns: Vec<DVector<f64>> = mode
                             .pattern
@@ -354,4 +354,29 @@ fn too_many_patterns_are_refused() -> Result<(), Box<dyn Error>> {
     assert_eq!((error.contacts, error.with_jump, error.limit), (3, 1, 11));
     assert!(line.existence(&ExistenceOptions { patterns: 12, ..options(0.0, 1.0) }).is_ok());
     Ok(())
+}
+
+/// One solution up to 1, none up to 2, two up to 3: modes that end at 1 or begin at 2 leave nothing behind, however
+/// their ends are rounded; those that begin or end elsewhere do.
+#[test]
+fn whether_anything_is_left_is_read_from_the_counts() {
+    let interval = |from, to, solutions| CountInterval { from, to, solutions, gap_states: 0 };
+    let counts = [interval(0.0, 1.0, 1), interval(1.0, 2.0, 0), interval(2.0, 3.0, 2)];
+    for (end, begins, expected) in [
+        (1.0, false, true),
+        (1.0 + 1e-12, false, true),
+        (2.0, true, true),
+        (2.0 + 1e-11, true, true),
+        (1.0, true, false),
+        (2.0, false, false),
+        (2.5, true, false),
+        (2.5, false, false),
+        (0.0, true, false),
+        (3.0, false, false),
+    ] {
+        assert_eq!(nothing_is_left(&counts, end, begins, is_same_end), expected, "{end} {begins}");
+    }
+    // A state in a preload gap is something to move in.
+    let gap = [interval(0.0, 1.0, 1), CountInterval { gap_states: 1, ..interval(1.0, 2.0, 0) }];
+    assert!(!nothing_is_left(&gap, 1.0, false, is_same_end));
 }

@@ -32,7 +32,7 @@ pub const DASHES: [&str; 4] = ["", "7 3", "2 3", "9 3 2 3"];
 pub const LIGHT: Theme = Theme {
     background: "#ffffff",
     ink: "#1b1f24",
-    muted: "#8b949e",
+    muted: "#626b76",
     body: "#e6edf5",
     reaction: "#0072b2",
     friction: "#d55e00",
@@ -44,10 +44,40 @@ pub const LIGHT: Theme = Theme {
 pub const DARK: Theme = Theme {
     background: "#0d1117",
     ink: "#e6edf3",
-    muted: "#7d8590",
+    muted: "#949da8",
     body: "#243447",
     reaction: "#56b4e9",
     friction: "#ff9a4d",
     warning: "#ff5a52",
     series: ["#56b4e9", "#ff9a4d", "#2fc79a", "#e79fc6", "#3a8fd0", "#e69f00", "#b0b0b0", "#f0e442"],
 };
+
+#[cfg(test)]
+mod tests {
+    use super::{DARK, LIGHT};
+
+    /// Relative luminance of a colour (WCAG 2.2).
+    fn luminance(colour: &str) -> f64 {
+        let channel = |from: usize| {
+            let part = u8::from_str_radix(&colour[from..from + 2], 16).expect("two digits");
+            let part = f64::from(part) / 255.0;
+            if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+    }
+
+    /// WCAG 2.2, success criterion 1.4.3: at least 4.5 for text; dimensions are muted, and stand over bodies, too.
+    #[test]
+    fn text_can_be_read() {
+        for theme in [LIGHT, DARK] {
+            for (text, behind) in [theme.ink, theme.muted]
+                .into_iter()
+                .flat_map(|text| [(text, theme.background), (text, theme.body)])
+            {
+                let [one, other] = [text, behind].map(luminance);
+                let contrast = (one.max(other) + 0.05) / (one.min(other) + 0.05);
+                assert!(contrast >= 4.5, "{text} on {behind}: {contrast}");
+            }
+        }
+    }
+}

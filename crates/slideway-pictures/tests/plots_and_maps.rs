@@ -88,6 +88,9 @@ fn the_paper_s_figures() {
         "threshold, not attainable",
         "excluded: no solution",
         "normal force in N",
+        // To the right another solution stays, to the left none is left.
+        "0.45265396: grows without bound",
+        "0.45265396: locking",
     ] {
         assert!(svg.contains(words), "{words}");
     }

@@ -79,6 +79,32 @@ fn forces_that_last_are_shown_and_the_greatest_is_named() {
     assert_eq!(points, [PointKind::Stop, PointKind::Start]);
 }
 
+/// The drawer jams once (`models/thrown-drawer.toml` says where); the bar that has stopped sticks in both of its
+/// guides, where statics leaves its forces open; the belt moves 0.2 m while its block swings by 0.05 m, the fourth
+/// part, in one second, and 0.4 m in two.
+#[test]
+fn motions_tell_where_they_jam_and_which_forces_are_open() {
+    let of = |name: &str, settings: &Settings, until: f64| {
+        let history = simulate(&model(name, settings), &SimulateOptions::new(until)).expect("a motion");
+        (motion_figure(&history), history)
+    };
+    let (jammed, history) = of("thrown-drawer", &Settings::default(), 0.6);
+    let at = history.events[1].time;
+    for panel in &jammed.panels {
+        let [jam] = &panel.marked[..] else { panic!("{:?}", panel.marked) };
+        assert!(jam.at == at && jam.label.ends_with(": jams"), "{jam:?}");
+        assert!(panel.zones.is_empty());
+    }
+    let (stuck, history) = of("klepp-2002-spring", &Settings::default().parameter("mu_1", "0.5"), 0.3);
+    let [zone] = &stuck.panels[1].zones[..] else { panic!("{:?}", stuck.panels[1].zones) };
+    assert!((zone.from - history.events[1].time).abs() < 1e-12 && (zone.to - 0.3).abs() < 1e-9, "{zone:?}");
+    assert!(texts(&svg(&stuck)).contains(&"sticks: statics leaves normal forces open".to_owned()));
+    assert!(stuck.panels.iter().all(|panel| panel.marked.is_empty()));
+    let (apart, _) = of("stick-slip", &Settings::default(), 2.0);
+    let axes: Vec<&str> = apart.panels.iter().map(|panel| &*panel.y.name).collect();
+    assert_eq!(axes[..2], ["belt", "x"]);
+}
+
 /// A block that slides without friction at 1 m/s against a stop of restitution 0.5 leaves it at -0.5 m/s, and one that
 /// jams loses m v^2/2. Elsewhere rates do not jump.
 #[test]
@@ -138,10 +164,12 @@ fn portraits_show_jumps_of_rates() {
     assert!(none.is_empty() && !picture.contains("jumps"), "{none:?}");
 }
 
-/// Both ends of the oscillating block carry m g / 2 all the time: one line in two colours, with both names.
+/// Both ends of the block on the line of its spring carry m g / 2 all the time: one line in two colours, with both names.
 #[test]
 fn what_coincides_is_one_line_with_both_names() {
-    let oscillator = model("frictional-oscillator", &Settings::default());
+    let text = slideway::gallery::find("frictional-oscillator").expect("in the gallery").text;
+    let text = text.replace("guided_slider", "block_slider").replace("at = \"sole\"", "at = \"S\"");
+    let oscillator = Model::parse(&text).expect("a sound model");
     let history = simulate(&oscillator, &SimulateOptions::new(0.5)).expect("a motion");
     let picture = svg(&motion_figure(&history));
     let forces = picture.split("class=\"panel\"").nth(2).expect("the panel of forces");
@@ -183,6 +211,8 @@ fn efforts_and_efficiency_over_friction() {
     let figure = drive_figure(&report).expect("a course");
     let titles: Vec<&str> = figure.panels.iter().map(|panel| &*panel.title).collect();
     assert_eq!(titles[..2], ["Moving as in the model: effort", "Moving as in the model: efficiency"]);
+    // Beyond 2/3 friction holds what the load would push, so there is no efficiency.
+    assert_eq!(titles[3], "Moving in the opposite direction: efficiency; \u{2212} +: held by friction");
     let of = |panel: usize, value: &dyn Fn(f64) -> f64| {
         let curve = &figure.panels[panel].curves[0];
         assert!(curve.points.len() > 20, "{curve:?}");

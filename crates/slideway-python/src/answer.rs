@@ -76,6 +76,7 @@ impl Asked {
             let message = format!("there is no solution of this number: {count} are listed");
             return Err(PyValueError::new_err(message));
         };
+        let sheet = sheet.changed_by(&self.settings);
         let frame = Frame {
             bounds: sheet.bounds,
             title: &sheet.title,

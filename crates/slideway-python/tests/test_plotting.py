@@ -48,8 +48,8 @@ def test_limits_are_drawn_on_one_axes_with_their_labels(figure_4):
     assert {"upper", "lower.front", "lower.rear"} <= set(texts)
     assert any("threshold, not attainable" in text for text in texts)
     # Klepp (2002): mu_1* = 2 cot(80 deg) + 0.1.
-    locking = 2.0 / np.tan(np.radians(80.0)) + 0.1
-    assert any(text.get_text() == f"{locking:.8f}: locking" for text in ax.texts)
+    unbounded = 2.0 / np.tan(np.radians(80.0)) + 0.1
+    assert any(text.get_text() == f"{unbounded:.8f}: grows without bound" for text in ax.texts)
     ax.figure.canvas.draw()
 
 

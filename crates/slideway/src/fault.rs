@@ -275,6 +275,8 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error("the parts do not meet with {name} = {value} ({meaning})")]
+    PartsApart { name: String, value: String, meaning: String },
     #[error(
         "the tolerance {tolerance:e} is finer than floating point resolves: positions of this mechanism are rounded to {least:.1e} of its size"
     )]
@@ -448,6 +450,11 @@ pub enum FaultKind {
 }
 
 impl FaultKind {
+    /// Whether a formula has no value at its arguments, as the root of a negative number.
+    pub(crate) fn is_without_value(&self) -> bool {
+        matches!(self, Self::Expression(ExpressionFaultKind::NotFinite { .. }))
+    }
+
     /// Whether something is said to be absent.
     fn is_absence(&self) -> bool {
         matches!(
@@ -539,6 +546,7 @@ impl FaultKind {
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction must be finite and not negative at every speed that occurs, including zero",
             ),
+            Self::PartsApart { .. } => Some("change it, or another size, so that the parts reach each other"),
             Self::StaticBelowKinetic { .. } => Some("omit `mu_static` to make it equal to `mu`"),
             Self::SeveralImpacts { .. } => {
                 Some("friction decides which stop pushes; change the travel of one of them a little")

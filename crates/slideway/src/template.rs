@@ -132,15 +132,25 @@ impl Template {
     }
 
     /// Faults that name the template's parameters instead of what its model makes of them: of a parameter that
-    /// must not have its value one, the strictest.
+    /// must not have its value one, the strictest; that a formula has no value says that the parts do not meet.
     fn in_its_words(&self, faults: &Faults, settings: &Settings) -> Faults {
         let named = |fault: &Fault| -> Option<Fault> {
-            let FaultKind::OutOfRange { wanted, value, .. } = fault.kind else { return None };
             let Source::Setting(index) = fault.place.as_ref()?.source else { return None };
             let setting = settings.entries().get(index)?;
-            let parameter = self.parameters().find(|parameter| parameter.name == setting.name)?;
-            let what = format!("{} ({})", parameter.name, parameter.meaning);
-            Some(Fault { kind: FaultKind::OutOfRange { what, wanted, value }, ..fault.clone() })
+            let TemplateParameter { name, meaning, .. } =
+                self.parameters().find(|parameter| parameter.name == setting.name)?;
+            let kind = match fault.kind {
+                FaultKind::OutOfRange { wanted, value, .. } => {
+                    FaultKind::OutOfRange { what: format!("{name} ({meaning})"), wanted, value }
+                }
+                ref kind if kind.is_without_value() => FaultKind::PartsApart {
+                    name: name.to_owned(),
+                    value: printable::line(&setting.value.to_string()).into_owned(),
+                    meaning: meaning.to_owned(),
+                },
+                _ => return None,
+            };
+            Some(Fault { kind, ..fault.clone() })
         };
         let told: Vec<Fault> =
             faults.sorted().into_iter().map(|fault| named(fault).unwrap_or_else(|| fault.clone())).collect();

@@ -91,7 +91,8 @@ fn wrong_units_unknown_names_and_what_cannot_be_assembled_are_faults() {
         ("drawer", "L", "400", "without a unit"),
         ("drawer", "length", "400 mm", "length"),
         ("wedge", "mu", "-0.1", "must be at least zero"),
-        ("slider-crank", "l", "10 mm", "sqrt"),
+        // The crank pin is 40 mm * sin(60 deg) = 34.6 mm beside the axis of the cylinder.
+        ("slider-crank", "l", "10 mm", "the parts do not meet with l = 10 mm (length of the connecting rod)"),
         ("peg", "l", "0 mm", "greater than zero"),
     ] {
         let settings = Settings::default().parameter(parameter, value);

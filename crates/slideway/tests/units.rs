@@ -203,6 +203,17 @@ fn simulate_shows_coordinates() {
     assert_shows(&text(&report), &["At the start: x = 0 mm, rate 100 mm/s"], &[" m, rate"]);
 }
 
+/// Times, too, are in the unit in which the model has them.
+#[test]
+fn simulate_shows_times() {
+    let released = drawer().split("[drives.push]").next().expect("the part before").to_owned();
+    let model = Model::parse(&released.replace("[parameters]", "[parameters]\nT = \"10 ms\""));
+    let (model, options) = (model.expect("a sound model"), SimulateOptions::new(0.01));
+    let report = slideway::motion::report(&simulate(&model, &options).expect("a motion"), &options);
+    let shown = text(&report);
+    assert_shows(&shown, &["; from 0 ms to 10 ms", "Energy (J)", "At 10 ms the end is reached"], &[" s\n"]);
+}
+
 #[test]
 fn maps_show_their_axes() {
     let options =

@@ -16,6 +16,7 @@ use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
+use slideway_pictures::page::reasons;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -27,7 +28,12 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
     let mut watch = Watch::new(arguments.time.time_limit);
-    let report = solutions(&model, arguments.solution, &mut watch).map_err(|faults| input.refused(faults))?;
+    let solved = solutions(&model, arguments.solution, &mut watch).map_err(|faults| input.refused(faults))?;
+    let (report, reasons) = match solved {
+        Some(Ok(report)) => (Some(report), Vec::new()),
+        Some(Err(faults)) => (None, reasons(&faults)),
+        None => (None, Vec::new()),
+    };
     let halt = watch.finish();
     let shown = match arguments.solution {
         None | Some(Which::All) => Shown::All,
@@ -41,6 +47,8 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         let count = report.map_or(0, |report| report.solutions.len());
         return Err(Failure::NoSuchSolution { count });
     };
+    let sheet = if reasons.is_empty() { sheet } else { sheet.unsolved(&reasons) };
+    let sheet = sheet.changed_by(&input.settings);
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
     picture.write_scaled(written(&sheet, arguments.theme, width), sharpness, &output)?;
@@ -48,14 +56,19 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     Ok(outcome(halt, if has_found || halt.is_none() { Outcome::Done } else { Outcome::Unknown }))
 }
 
-/// All solutions, if they are wanted. Where only the kinetic problem makes no sense (a mechanism at rest, a
-/// motion without inertia) the mechanism can be drawn all the same, unless solutions are asked for.
-fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<Option<SolveReport>, Faults> {
+/// All solutions, or why there is no answer; nothing if they are not wanted. Where only the kinetic problem makes no
+/// sense (a mechanism at rest, a motion without inertia) the mechanism can be drawn all the same, unless solutions are
+/// asked for.
+fn solutions(
+    model: &Model,
+    which: Option<Which>,
+    watch: &mut Watch,
+) -> Result<Option<Result<SolveReport, Faults>>, Faults> {
     let mut solve = || solve_with(model, &SolveOptions::default(), &mut |progress| watch.look(progress));
     match which {
         Some(Which::None) => Ok(None),
-        None => Ok(solve().ok()),
-        Some(_) => solve().map(Some),
+        None => Ok(Some(solve())),
+        Some(_) => solve().map(|report| Some(Ok(report))),
     }
 }
 

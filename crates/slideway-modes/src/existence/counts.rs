@@ -71,6 +71,26 @@ pub fn cells(places: impl Iterator<Item = f64>, same: impl Fn(f64, f64) -> bool)
     places.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
+/// Whether there is neither a solution nor a gap state just beyond an end of a mode: below it where the mode
+/// begins there, else above it. `intervals` are those of [`counts_in`]; `false` where they do not tell of the
+/// other side. `same` says whether an end of a mode coincides with the one before it.
+pub fn nothing_is_left(
+    intervals: &[CountInterval],
+    end: f64,
+    begins: bool,
+    same: impl Fn(f64, f64) -> bool,
+) -> bool {
+    let above = intervals.partition_point(|interval| interval.to <= end);
+    let Some(upper) = intervals.get(above).filter(|interval| interval.from <= end) else { return false };
+    let beyond = if begins {
+        let lower = above.checked_sub(1).map(|below| &intervals[below]);
+        lower.filter(|lower| lower.to == upper.from && same(end, upper.from))
+    } else {
+        Some(upper)
+    };
+    beyond.is_some_and(|interval| interval.solutions + interval.gap_states == 0)
+}
+
 /// A place inside a cell.
 fn middle([from, to]: [f64; 2]) -> f64 {
     if to.is_infinite() { 2.0 * from } else { f64::midpoint(from, to) }

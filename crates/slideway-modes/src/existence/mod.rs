@@ -33,7 +33,7 @@ use extent::Extent;
 use line::{Cause, Condition, End, Line, Part, Value};
 
 pub use counts::is_same_end;
-pub use counts::{CountInterval, cells, counts, counts_in};
+pub use counts::{CountInterval, cells, counts, counts_in, nothing_is_left};
 pub use line::Limit;
 
 /// Mode problems whose numbers are affine in a parameter `t`: index 0 contains the values at `t = 0`, and
@@ -83,8 +83,8 @@ pub struct ExistenceOptions {
 pub enum EndCause {
     /// The range of the parameter ends.
     Range,
-    /// Its determinant vanishes: locking of the mode.
-    Locking,
+    /// Its determinant vanishes: normal forces grow without bound.
+    Singular,
     /// These contacts have `y_k = 0`: they change sides.
     SideChange(Vec<usize>),
     /// The preload friction of these contacts has moved to one face: the gap closes.
@@ -211,7 +211,7 @@ impl ModeProblemLine {
     /// assert_eq!(existence.modes.len(), 1);
     /// assert_eq!(existence.modes[0].pattern, [ContactState::Positive]);
     /// assert_eq!(existence.modes[0].to.at, 2.0);
-    /// assert_eq!(existence.modes[0].to.cause, EndCause::Locking);
+    /// assert_eq!(existence.modes[0].to.cause, EndCause::Singular);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn existence(&self, options: &ExistenceOptions) -> Result<Existence, TooManyModes> {
@@ -355,7 +355,7 @@ impl ModeProblemLine {
         options: &ExistenceOptions,
     ) -> Option<f64> {
         let mode = self.mode(pattern, options);
-        if *cause == EndCause::Locking {
+        if *cause == EndCause::Singular {
             return Some(mode.line.matrix_at(0.0).determinant());
         }
         let unknowns = mode.line.solution(0.0)?;
@@ -559,7 +559,7 @@ impl Mode<'_> {
     fn cause(&self, cause: &Cause) -> EndCause {
         let conditions = match cause {
             Cause::Range => return EndCause::Range,
-            Cause::Singular => return EndCause::Locking,
+            Cause::Singular => return EndCause::Singular,
             Cause::Conditions(conditions) => conditions,
         };
         let list = |pick: fn(Meaning) -> Option<usize>| {

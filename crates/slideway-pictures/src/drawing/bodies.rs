@@ -4,17 +4,19 @@ use super::Painter;
 use super::looks::{self, Look, sliders};
 use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
-use super::sliders::{BELT, Slide};
+use super::sliders::Slide;
 use nalgebra::Vector2;
-use slideway::ids::{BodyId, Frame};
+use slideway::ids::{BodyId, Frame, JointId};
 use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Shape, Slider};
 use slideway::model::SliderKind;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Half the width of a bar of no particular width.
 const BAR: f64 = 5.0;
+/// Height of a pedestal.
+pub(super) const SUPPORT: f64 = 17.0;
 /// Radius of a hinge.
-pub(super) const HINGE: f64 = 5.0;
+const HINGE: f64 = 5.0;
 
 impl Painter<'_> {
     /// Plates first, then ground, then blocks and bars, each guide before what slides in it; wedges in front
@@ -42,8 +44,8 @@ impl Painter<'_> {
 
     /// The plate of a body with its slots, if it has one.
     fn plates(&mut self, body: BodyId) {
-        let mut parts = self.drawn_plates(body);
-        if !parts.is_empty() {
+        if let Some(plate) = self.drawn_plate(body) {
+            let mut parts = vec![plate];
             parts.extend(self.housings(body));
             self.union(&parts);
             self.channels(body);
@@ -58,7 +60,7 @@ impl Painter<'_> {
 
     /// Whether the outline of a body, or a plate that rests on its face, shows what the block looks like.
     fn shows_block(&self, slide: &Slide, body: BodyId) -> bool {
-        if !self.mechanism.bodies[body.index()].outline.is_empty() || slide.look == Look::Rollers {
+        if !self.mechanism.bodies[body.index()].outline.is_empty() {
             return true;
         }
         let Look::Face(side) = slide.look else { return false };
@@ -90,6 +92,12 @@ impl Painter<'_> {
             self.channels(body);
         }
         self.sleeves(body);
+        let mechanism = self.mechanism;
+        for (joint, slider) in sliders(mechanism).filter(|(_, slider)| slider.block == frame) {
+            if let Some(belt) = self.slide(joint).filter(|slide| slide.look == Look::Rollers) {
+                self.marks(&belt, slider);
+            }
+        }
     }
 
     /// One area made of several.
@@ -104,7 +112,7 @@ impl Painter<'_> {
     /// Walls around the slots of a body, and what carries the faces of one that has no plate.
     fn housings(&self, body: BodyId) -> Vec<Vec<Point>> {
         let properties = &self.mechanism.bodies[body.index()];
-        if !properties.outline.is_empty() {
+        if !properties.outline.is_empty() || looks::is_belt(self.mechanism, body) {
             return Vec::new();
         }
         let is_bare = properties.shape.is_none();
@@ -145,7 +153,10 @@ impl Painter<'_> {
             let (rod, half) = (slide.guide, 0.5 * slide.height);
             let shift = (slide.block.origin - rod.origin).dot(&rod.along);
             let reach = slide.block_reach.map(|end| end + shift);
-            let reach = [reach[0].max(slide.guide_reach[0]) - 2.5, reach[1].min(slide.guide_reach[1]) + 2.5];
+            // It hides the ends of the free space, also where the sleeve is tipped.
+            let over = 2.5 + slide.half_channel() * slide.block.along.perp(&rod.along).abs();
+            let reach =
+                [reach[0].max(slide.guide_reach[0]) - over, reach[1].min(slide.guide_reach[1]) + over];
             let class = if slide.guide_frame == Frame::Ground { Class::Paper } else { Class::Body };
             self.area(class, rod.rectangle(reach, [-half, half]));
             for side in [-half, half] {
@@ -198,24 +209,7 @@ impl Painter<'_> {
     /// The outline of a body as it is drawn: a far end of a rectangle is torn off.
     pub(super) fn drawn_plate(&self, body: BodyId) -> Option<Vec<Point>> {
         let Some(torn) = self.torn_plate(body) else { return self.plate(body) };
-        Some(torn.part([-torn.half, torn.half]))
-    }
-
-    /// The same in parts: of a belt its two runs.
-    fn drawn_plates(&self, body: BodyId) -> Vec<Vec<Point>> {
-        let frame = Frame::Body(body);
-        let is_belt = self
-            .sliders
-            .iter()
-            .flatten()
-            .any(|slide| slide.block_frame == frame && slide.look == Look::Rollers);
-        match self.torn_plate(body) {
-            Some(torn) if is_belt => {
-                let inside = (torn.half - BELT).max(0.0);
-                [[-torn.half, -inside], [inside, torn.half]].map(|run| torn.part(run)).to_vec()
-            }
-            _ => self.drawn_plate(body).into_iter().collect(),
-        }
+        Some(torn.outline())
     }
 
     /// A rectangle with a torn end.
@@ -243,7 +237,7 @@ impl Painter<'_> {
 
     /// Bars of a body: its shape, or what joins its places.
     fn bars(&self, body: BodyId) -> Vec<Vec<Point>> {
-        if !self.mechanism.bodies[body.index()].outline.is_empty() {
+        if !self.mechanism.bodies[body.index()].outline.is_empty() || looks::is_belt(self.mechanism, body) {
             return Vec::new();
         }
         let frame = Frame::Body(body);
@@ -331,7 +325,7 @@ impl Painter<'_> {
             if let JointKind::Hinge(ends) = &joint.kind {
                 let place = self.attached(&ends[0]);
                 if ends.iter().any(|end| end.frame == Frame::Ground) {
-                    self.support(place);
+                    self.support(place, Point::y());
                 }
                 self.circle(Class::Hinge, place, HINGE);
             }
@@ -344,6 +338,10 @@ impl Painter<'_> {
                 }
                 JointKind::Slider(_) => {
                     let Some(slide) = self.sliders[index] else { continue };
+                    // The arrow of its velocity names it.
+                    if self.options.values && self.velocity(JointId(index)).is_some() {
+                        continue;
+                    }
                     let across = slide.guide.across * upper_side(slide.guide.across);
                     let edge = slide.half_channel() + 8.0;
                     self.name(&joint.name, slide.block.origin + across * edge, across);
@@ -352,12 +350,13 @@ impl Painter<'_> {
         }
     }
 
-    /// A hinge's pedestal on ground.
-    fn support(&mut self, place: Point) {
-        let foot = Point::new(0.0, 17.0);
-        let side = Point::new(10.0, 0.0);
+    /// The pedestal of a hinge or a roller on ground, which is in a direction from it.
+    pub(super) fn support(&mut self, place: Point, away: Point) {
+        let foot = away * SUPPORT;
+        let along = Point::new(away.y, -away.x);
+        let side = along * 10.0;
         self.area(Class::Fixed, vec![place, place + foot + side, place + foot - side]);
-        let wide = Point::new(15.0, 0.0);
+        let wide = along * 15.0;
         self.line(Class::Wall, vec![place + foot - wide, place + foot + wide]);
         self.hatching(place + foot + wide, place + foot - wide);
     }
@@ -401,14 +400,10 @@ struct TornPlate {
 }
 
 impl TornPlate {
-    /// The part between two lines along it.
-    fn part(&self, [least, greatest]: [f64; 2]) -> Vec<Point> {
-        let middle = self.local.across * (0.5 * (least + greatest));
-        let local = Local { origin: self.local.origin + middle, ..self.local };
-        let half = 0.5 * (greatest - least);
-        let mut outline = edge(&local, self.ends[0], self.torn[0], half);
+    fn outline(&self) -> Vec<Point> {
+        let mut outline = edge(&self.local, self.ends[0], self.torn[0], self.half);
         outline.reverse();
-        outline.extend(edge(&local, self.ends[1], self.torn[1], half));
+        outline.extend(edge(&self.local, self.ends[1], self.torn[1], self.half));
         outline
     }
 }

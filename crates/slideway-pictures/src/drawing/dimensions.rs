@@ -38,7 +38,7 @@ impl Painter<'_> {
                 (middle - half, middle + half)
             };
             let downwards = -upper_side(slide.guide.across);
-            let edge = downwards * slide.half_channel();
+            let edge = downwards * slide.half_foot();
             self.dimension(
                 &slide.guide,
                 [from, to],

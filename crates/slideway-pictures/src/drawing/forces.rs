@@ -1,12 +1,13 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
 use super::labels::{obstacles, reserve};
-use super::looks::Look;
+use super::looks::{Look, sliders};
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
 use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
+use slideway::mechanism::Mechanism;
 use slideway::model::{CarriedBy, SliderKind};
 
 /// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
@@ -27,9 +28,27 @@ const PLACES: [(f64, f64); 8] = [
 /// Length of the arrow of a velocity.
 const VELOCITY: f64 = 40.0;
 
+/// On what the forces of contacts are drawn to act.
+pub(crate) fn forces_on(mechanism: &Mechanism) -> &'static str {
+    let grounded = |is: bool| sliders(mechanism).any(|(_, slider)| (slider.block == Frame::Ground) == is);
+    match (grounded(true), grounded(false)) {
+        (true, true) => "the block, or on the guide of a block that is ground",
+        (true, false) => "the guide",
+        _ => "the block",
+    }
+}
+
+impl Slide {
+    /// The sign of forces and velocities that are drawn, where those of the block against the guide are positive: they
+    /// are those of the guide where the block is ground.
+    fn action(&self) -> f64 {
+        if self.block_frame == Frame::Ground { -1.0 } else { 1.0 }
+    }
+}
+
 impl Painter<'_> {
     /// The forces of every contact on its block, at the pressed face `P - sign(N) (h/2) n` (theory, section
-    /// 1).
+    /// 1); on its guide where the block is ground, as it is the guide that moves.
     pub(super) fn contact_forces(&mut self) {
         let Some(scale) = self.options.force_scale else { return };
         for index in 0..self.mechanism.contacts.len() {
@@ -66,9 +85,11 @@ impl Painter<'_> {
         // The resultant of the pressure: C = x N about the middle of the face.
         let lever = if slide.kind == SliderKind::Guided { forces.couple / forces.normal } else { 0.0 };
         let face = face + slide.guide.along * (lever * self.view.scale);
-        let direction = slide.guide.across * forces.normal.signum();
+        let direction = slide.guide.across * (forces.normal.signum() * slide.action());
         let length = forces.normal.abs() * scale;
-        let from = if slide.around { face } else { face - direction * length.max(super::loads::LEAST_ARROW) };
+        // It presses from outside what it acts on if that is the inner part, else from inside.
+        let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
+        let from = if is_on_inner { face - direction * length.max(super::loads::LEAST_ARROW) } else { face };
         self.arrow(Class::Reaction, from, from + direction * length, self.shown(forces.normal.abs(), "N"));
     }
 
@@ -77,33 +98,39 @@ impl Painter<'_> {
             return;
         }
         let from = self.face(slide, contact, side);
-        let direction = -slide.guide.along * forces.friction.signum();
+        let direction = -slide.guide.along * (forces.friction.signum() * slide.action());
         let length = forces.friction.abs() * scale;
         self.arrow(Class::Friction, from, from + direction * length, self.shown(forces.friction.abs(), "N"));
     }
 
-    /// The velocity of what moves: the block, or the guide past a block on ground.
+    /// The velocity of what moves in a joint (m/s), if it has an arrow: of the block, or of the guide past a block on
+    /// ground.
+    pub(super) fn velocity(&self, joint: JointId) -> Option<f64> {
+        let (slide, slider) = (self.slide(joint)?, self.mechanism.slider(joint)?);
+        let contact = self.actual.contact(self.mechanism, *slider.contacts.first()?);
+        let velocity = slide.action() * contact.sliding_velocity;
+        let is_other_shoe = slide.look == Look::Shoe { is_first: false };
+        // The velocity of a joint that sticks is rounding.
+        let is_shown =
+            self.options.velocities && !is_other_shoe && velocity.abs() > AT_REST * self.mechanism.size;
+        is_shown.then_some(velocity)
+    }
+
+    /// The velocities of all joints; each with the name of its joint, unless there is only one and no names are
+    /// wanted.
     pub(super) fn velocities(&mut self) {
-        let mechanism = self.mechanism;
-        for index in 0..mechanism.joints.len() {
-            let (Some(slide), Some(slider)) = (self.slide(JointId(index)), mechanism.slider(JointId(index)))
-            else {
-                continue;
-            };
-            let Some(contact) = slider.contacts.first() else { continue };
-            if slide.look == (Look::Shoe { is_first: false }) {
-                continue;
-            }
-            let velocity = self.actual.contact(mechanism, *contact).sliding_velocity;
-            let velocity = if slide.block_frame == Frame::Ground { -velocity } else { velocity };
-            // The velocity of a joint that sticks is rounding.
-            if velocity.abs() <= AT_REST * mechanism.size {
-                continue;
-            }
+        let joints = (0..self.mechanism.joints.len()).map(JointId);
+        let moving: Vec<(JointId, f64)> =
+            joints.filter_map(|joint| Some((joint, self.velocity(joint)?))).collect();
+        let has_names = self.options.names || moving.len() > 1;
+        for (joint, velocity) in moving {
+            let Some(slide) = self.slide(joint) else { continue };
             let half = slide.guide.along * (0.5 * VELOCITY * velocity.signum());
             let (middle, side) = self.free_place(&slide, half);
             self.scene.add(Class::Velocity, Shape::Arrow { from: middle - half, to: middle + half });
-            let text = self.shown(velocity.abs(), "m/s");
+            let value = self.shown(velocity.abs(), "m/s");
+            let name = &self.mechanism.joints[joint.index()].name;
+            let text = if has_names { format!("{name} {value}") } else { value };
             let ends = [middle - half, middle + half];
             self.value_along(Class::Velocity, text, ends, slide.guide.across * side);
         }
@@ -117,6 +144,8 @@ impl Painter<'_> {
             .filter(|label| label.class == Class::Dimension)
             .for_each(|label| reserve(label, &mut obstacles));
         let edge = slide.half_channel() + ASIDE;
+        // A belt moves all along: its arrow keeps clear of what it carries.
+        let along = if slide.look == Look::Rollers { 0.7 * slide.block_reach[1] } else { 0.0 };
         let mut best: Option<(f64, Point, f64)> = None;
         for (side, aversion) in
             [(upper_side(slide.guide.across), 0.0), (-upper_side(slide.guide.across), 4.0)]
@@ -124,7 +153,7 @@ impl Painter<'_> {
             for (shift, further) in PLACES {
                 let middle = slide.block.origin
                     + slide.guide.across * ((edge + further) * side)
-                    + slide.guide.along * shift;
+                    + slide.guide.along * (along + shift);
                 let covered = obstacles
                     .iter()
                     .filter(|(place, _)| nearest_on_line(*place, [middle - half, middle + half]).0 < 6.0);

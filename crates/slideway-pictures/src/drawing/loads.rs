@@ -1,8 +1,10 @@
 //! Springs and dampers, loads, weights and the efforts of drives.
 
 use super::Painter;
+use super::looks::Look;
 use super::outline::{turned, unit};
 use super::scene::{Class, Point, Shape};
+use super::sliders::Slide;
 use super::view::is_zero;
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
@@ -17,6 +19,9 @@ const ARROW: f64 = 46.0;
 const LONGEST_LOAD: f64 = 110.0;
 /// Below this length an arrow to scale is a head alone.
 pub(super) const LEAST_ARROW: f64 = 9.0;
+/// A force whose part along a belt is smaller than itself by at most this part of it is along the belt, as rounding
+/// goes.
+const ALONG: f64 = 1e-9;
 /// Radius of the arrow of a torque.
 const TORQUE: f64 = 21.0;
 
@@ -201,7 +206,17 @@ impl Painter<'_> {
     fn force(&mut self, class: Class, at: Attachment, force: Vector2<f64>, text: String) {
         let place = self.attached(&at);
         let centre = at.frame.body().map_or(place, |body| self.centre(body));
-        self.force_at(class, [place, centre], force, text);
+        let places = self.end_of_belt(at, force).map_or([place, centre], |end| [end; 2]);
+        self.force_at(class, places, force, text);
+    }
+
+    /// Where a force along a belt is drawn, wherever on its line it acts: at the end to which it pulls.
+    fn end_of_belt(&self, at: Attachment, force: Vector2<f64>) -> Option<Point> {
+        let is_belt = |slide: &&Slide| slide.look == Look::Rollers && slide.block_frame == at.frame;
+        let belt = self.sliders.iter().flatten().find(is_belt)?;
+        let pull = self.view.direction(force).dot(&belt.guide.along);
+        let is_along = (force.norm() - pull.abs()) <= ALONG * force.norm();
+        is_along.then(|| belt.guide.at(belt.block_reach[usize::from(pull > 0.0)], 0.0))
     }
 
     /// An arrow that ends or begins where its force acts, so that it lies outside of the body with this centre; none
@@ -296,13 +311,15 @@ impl Painter<'_> {
         value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", self.shown(value, si)))
     }
 
+    /// Weights; of gravity that does not act downwards, as in a slope or seen from above, only a part may be given.
     fn weights(&mut self) {
         let mechanism = self.mechanism;
+        let name = if mechanism.gravity.x == 0.0 { "weight" } else { "gravity" };
         for (index, body) in mechanism.bodies.iter().enumerate() {
             let weight = mechanism.gravity * body.mass;
             if weight.norm() > 0.0 {
                 let at = Attachment { frame: Frame::Body(BodyId(index)), position: body.centre_of_mass };
-                self.force(Class::Load, at, weight, format!("weight {}", self.shown(weight.norm(), "N")));
+                self.force(Class::Load, at, weight, format!("{name} {}", self.shown(weight.norm(), "N")));
             }
         }
     }

@@ -6,7 +6,8 @@
 //! - a guide without height whose block lies on one side of it is a face on which the block rests;
 //! - a body that slides along one face and has a slot at less than half a right angle to it is a wedge, and
 //!   the slot its flank;
-//! - a long plate that runs in a joint without friction is a belt on rollers;
+//! - a massless body that runs over contacts of ground without friction, and only carries what slides on it, is a
+//!   belt on rollers;
 //! - two pins of a body in one slot are the shoes of a carriage.
 //!
 //! A face is drawn as one only where the contact does not pull at it.
@@ -16,8 +17,8 @@ use super::bodies::lean;
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
 use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
-use slideway::model::SliderKind;
 use slideway::model::outline::polygon;
+use slideway::model::{CarriedBy, SliderKind};
 
 /// Places nearer to a line than this part of the size of the mechanism lie on it, as rounding goes.
 const ON_LINE: f64 = 1e-9;
@@ -34,7 +35,7 @@ pub(super) enum Look {
     Face(f64),
     /// The flank of a wedge, likewise.
     Flank(f64),
-    /// Rollers that carry a belt.
+    /// Rollers of ground over which a belt runs.
     Rollers,
     /// A shoe on a rail; the rail is drawn with the first of its shoes.
     Shoe {
@@ -78,12 +79,11 @@ pub(super) fn corners(mechanism: &Mechanism, id: BodyId) -> Option<Vec<Vector2<f
     }
 }
 
-/// The look of every joint; a contact that pulls at what would be a face has walls on both sides. `cuts` says
-/// which plates are drawn torn off.
-pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates, cuts: &[Option<[f64; 2]>]) -> Vec<Look> {
+/// The look of every joint; a contact that pulls at what would be a face has walls on both sides.
+pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> {
     let mut looks = vec![Look::Walls; mechanism.joints.len()];
     for (id, slider) in sliders(mechanism) {
-        let look = of_geometry(mechanism, slider, cuts);
+        let look = of_geometry(mechanism, slider);
         let pulls =
             |side: f64| slider.contacts.iter().any(|contact| side * states.side(contact.index()) < 0.0);
         looks[id.index()] = match look {
@@ -102,7 +102,7 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates, cuts: &[Optio
     looks
 }
 
-fn of_geometry(mechanism: &Mechanism, slider: &Slider, cuts: &[Option<[f64; 2]>]) -> Look {
+fn of_geometry(mechanism: &Mechanism, slider: &Slider) -> Look {
     if slider.kind == SliderKind::Pin {
         let flank = slider.guide.body().and_then(|guide| flank_of(mechanism, guide));
         return match flank {
@@ -110,19 +110,44 @@ fn of_geometry(mechanism: &Mechanism, slider: &Slider, cuts: &[Option<[f64; 2]>]
             _ => Look::Walls,
         };
     }
-    let is_torn = slider.block.body().is_some_and(|body| cuts[body.index()].is_some());
-    let mut contacts = slider.contacts.iter().map(|id| &mechanism.contacts[id.index()]);
-    if is_torn && slider.guide == Frame::Ground && contacts.all(Contact::is_frictionless) {
+    if slider.block.body().is_some_and(|body| is_belt(mechanism, body)) && slider.guide == Frame::Ground {
         return Look::Rollers;
     }
     face_side(mechanism, slider).map_or(Look::Walls, Look::Face)
+}
+
+/// Whether a body is a belt: nothing but what runs over two contacts that stay where they are, without friction, and
+/// carries what slides on it. Then no place on it differs from another, and only the part between its rollers is
+/// drawn.
+pub(super) fn is_belt(mechanism: &Mechanism, body: BodyId) -> bool {
+    let frame = Frame::Body(body);
+    let properties = &mechanism.bodies[body.index()];
+    let is_roller = |contact: &Contact| contact.carried_by == CarriedBy::Guide && contact.is_frictionless();
+    let runs = |slider: &Slider| {
+        let mut contacts = slider.contacts.iter().map(|id| &mechanism.contacts[id.index()]);
+        slider.kind == SliderKind::Block
+            && slider.guide == Frame::Ground
+            && !slider.around
+            && contacts.all(is_roller)
+    };
+    let fits = |kind: &JointKind| match kind {
+        JointKind::Hinge(ends) => ends.iter().all(|end| end.frame != frame),
+        JointKind::Slider(slider) => slider.block != frame || runs(slider),
+    };
+    properties.mass == 0.0
+        && properties.shape.is_none()
+        && properties.outline.is_empty()
+        && sliders(mechanism).any(|(_, slider)| slider.block == frame)
+        && mechanism.joints.iter().all(|joint| fits(&joint.kind))
 }
 
 /// On which side of its guide a block lies, if the guide has no height and the block lies on one side.
 fn face_side(mechanism: &Mechanism, slider: &Slider) -> Option<f64> {
     let body = slider.block.body().filter(|_| slider.height == 0.0)?;
     let normal = rot90(slider.tangent);
-    let Some(corners) = corners(mechanism, body) else { return nut_side(mechanism, body, normal) };
+    let Some(corners) = corners(mechanism, body) else {
+        return (slider.kind == SliderKind::Guided).then(|| nut_side(mechanism, body, normal)).flatten();
+    };
     let across = corners.iter().map(|corner| (corner - slider.at).dot(&normal));
     let least = across.clone().fold(f64::INFINITY, f64::min);
     let greatest = across.fold(f64::NEG_INFINITY, f64::max);
@@ -134,7 +159,7 @@ fn face_side(mechanism: &Mechanism, slider: &Slider) -> Option<f64> {
     }
 }
 
-/// The upper side of a guide for a body that is nothing but its block, such as the nut of a screw.
+/// The upper side of a guide for a body that is nothing but its block and lies flat, such as the nut of a screw.
 fn nut_side(mechanism: &Mechanism, body: BodyId, normal: Vector2<f64>) -> Option<f64> {
     let frame = Frame::Body(body);
     let is_bare = mechanism.bodies[body.index()].shape.is_none() && normal.y.abs() > ON_LINE;

@@ -1,16 +1,22 @@
 //! A sheet: the mechanism, and beside it each of its solutions.
 
-use super::loads::load_force;
-use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
+use super::forces::forces_on;
+use super::paragraph::{LINE, beside, paragraph};
+use super::scene::{Bounds, Class, Point, Scene, Shape};
+use super::units::{in_units_of, known_forces};
 use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene, signs};
+use crate::plot::figure::changes;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
-use slideway::mechanism::{LoadKind, Mechanism};
+use slideway::mechanism::Mechanism;
+use slideway::model::Settings;
 use slideway::report::{CoordinateState, Solution, SolveReport, Status};
 use slideway::units::{Unit, Units};
 
-/// Width and height for the mechanism itself in each panel.
+/// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
+/// larger in proportion, up to twice that, as each contact has its forces with their values.
 const PANEL: [f64; 2] = [440.0, 320.0];
+const CONTACTS: f64 = 4.0;
 /// Least width of a panel, for its caption.
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels does not exceed if it has several.
@@ -22,8 +28,6 @@ const LONGEST_FORCE: f64 = 76.0;
 /// Space between panels, and around the sheet.
 const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
-/// Distance of lines of text, in sizes.
-const LINE: f64 = 1.4;
 
 /// What is said of a picture whose guides have play that can be seen.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
@@ -72,6 +76,37 @@ pub struct Sheet {
     pub title: String,
     /// What it shows, in words.
     pub description: String,
+    /// How many of the elements belong to the heading, and where that ends.
+    heading: (usize, f64),
+}
+
+impl Sheet {
+    /// The same, with what settings changed in its model below the title.
+    #[must_use]
+    pub fn changed_by(self, settings: &Settings) -> Self {
+        let changes = changes(settings);
+        if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
+    }
+
+    /// The same, with the reasons below the title why it shows no contact mode.
+    #[must_use]
+    pub fn unsolved(self, reasons: &[String]) -> Self {
+        self.headed(&format!("Without forces of contacts: {}.", reasons.join("; ")))
+    }
+
+    /// The same, with a further paragraph at the end of the heading.
+    fn headed(mut self, text: &str) -> Self {
+        let (count, foot) = self.heading;
+        let drawings = Scene { elements: self.scene.elements.split_off(count), ..Scene::default() };
+        let width = self.bounds.size().x - 2.0 * MARGIN;
+        let below = paragraph(&mut self.scene, text, VALUE_SIZE, Point::new(0.0, foot), width);
+        self.heading = (self.scene.elements.len(), below);
+        let by = Point::new(0.0, below - foot);
+        self.scene.elements.extend(drawings.shifted(by).elements);
+        self.bounds.greatest += by;
+        self.description = format!("{text} {}", self.description);
+        self
+    }
 }
 
 /// Drawings of a mechanism and, if they were found, of its solutions, side by side; none if there is no
@@ -96,21 +131,44 @@ pub fn sheet(
     report: Option<&SolveReport>,
     shown: Shown,
 ) -> Option<Sheet> {
-    // The numbers of a report stand in its units.
-    let mut shown_in_units = mechanism.clone();
-    if let Some(report) = report {
-        shown_in_units.units = report.model.units.clone();
-    }
-    let mechanism = &shown_in_units;
-    let view = View::fitting(mechanism, &[configuration], PANEL);
+    let mechanism = &in_units_of(report, mechanism, configuration);
+    let view = view(mechanism, configuration);
     let drawn = Drawn { mechanism, configuration, report, view: &view };
     let panels = drawn.panels(shown)?;
-    let title = mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned());
+    let title = title(mechanism);
     let mut lines: Vec<String> =
         report.map(|report| state_line(&report.state, &mechanism.units)).into_iter().collect();
     lines.extend(report.map(answer));
     let description = described(&lines, &panels);
-    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines }.sheet(description))
+    let forces_on = forces_on(mechanism);
+    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
+}
+
+/// The same drawings each by itself, with its caption, and at the end the key to their colours, for a page that has
+/// the title and the state itself.
+pub fn pieces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    report: Option<&SolveReport>,
+) -> Vec<Sheet> {
+    let mechanism = &in_units_of(report, mechanism, configuration);
+    let view = view(mechanism, configuration);
+    let drawn = Drawn { mechanism, configuration, report, view: &view };
+    let panels = drawn.panels(Shown::All).unwrap_or_default();
+    let title = title(mechanism);
+    let (lines, forces_on) = (Vec::new(), forces_on(mechanism));
+    Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces()
+}
+
+/// A view with room for what each contact needs.
+fn view(mechanism: &Mechanism, configuration: &Configuration) -> View {
+    let part = (mechanism.contacts.len() as f64 / CONTACTS).clamp(1.0, 2.0);
+    View::fitting(mechanism, &[configuration], PANEL.map(|side| part * side))
+}
+
+/// The title of a mechanism, or what stands for it.
+pub fn title(mechanism: &Mechanism) -> String {
+    mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned())
 }
 
 struct Drawn<'a> {
@@ -196,13 +254,7 @@ impl Drawn<'_> {
 
     /// The greatest of the known loads and weights (N).
     fn greatest_load(&self) -> f64 {
-        let Self { mechanism, configuration, .. } = self;
-        let loads = mechanism.loads.iter().filter_map(|load| match &load.kind {
-            LoadKind::Pad(pad) => configuration.pad_force(mechanism, pad),
-            _ => load_force(mechanism, configuration, load).map(|force| force.norm()),
-        });
-        let weights = mechanism.bodies.iter().map(|body| (mechanism.gravity * body.mass).norm());
-        loads.chain(weights).fold(0.0, f64::max)
+        known_forces(self.mechanism, self.configuration).into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -228,11 +280,15 @@ pub(crate) fn answer(report: &SolveReport) -> String {
 }
 
 fn described(lines: &[String], panels: &[Panel]) -> String {
-    let captions = panels.iter().map(|panel| {
-        let Caption { heading, lines } = &panel.caption;
-        std::iter::once(heading).chain(lines).map(String::as_str).collect::<Vec<_>>().join(". ")
-    });
+    let captions = panels.iter().map(|panel| panel.caption.in_words());
     lines.iter().cloned().chain(captions).collect::<Vec<_>>().join(" ")
+}
+
+impl Caption {
+    fn in_words(&self) -> String {
+        let Self { heading, lines } = self;
+        std::iter::once(heading).chain(lines).map(String::as_str).collect::<Vec<_>>().join(". ")
+    }
 }
 
 struct Layout<'a> {
@@ -241,12 +297,12 @@ struct Layout<'a> {
     panels: Vec<Panel>,
     title: String,
     lines: Vec<String>,
+    forces_on: &'static str,
 }
 
 impl Layout<'_> {
     fn sheet(self, description: String) -> Sheet {
-        let picture = bounds_of(&self.panels)
-            .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::new(LEAST_WIDTH, LEAST_WIDTH) });
+        let picture = self.picture();
         let panel_width = picture.size().x.max(LEAST_WIDTH);
         let columns = columns(self.panels.len(), panel_width);
         let row_width = columns as f64 * (panel_width + SPACE) - SPACE;
@@ -255,35 +311,71 @@ impl Layout<'_> {
         for line in &self.lines {
             y = paragraph(&mut scene, line, VALUE_SIZE, Point::new(0.0, y), row_width);
         }
-        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
+        let heading = (scene.elements.len(), y);
         for row in self.panels.chunks(columns) {
             let picture = bounds_of(row).map_or(picture, |bounds| picture.with_heights_of(&bounds));
             let mut below: f64 = 0.0;
             for (column, panel) in row.iter().enumerate() {
                 let corner = Point::new(column as f64 * (panel_width + SPACE), y + 14.0);
-                let free = 0.5 * (panel_width - picture.size().x);
-                let by = corner + Point::new(free, 0.0) - picture.least;
-                scene.elements.extend(panel.scene.clone().shifted(by).elements);
-                let mut foot = corner.y + picture.size().y + 26.0;
-                self.legend(&mut scene, panel, length, Point::new(corner.x, foot));
-                foot += 16.0;
-                foot = paragraph(
-                    &mut scene,
-                    &panel.caption.heading,
-                    NAME_SIZE + 1.0,
-                    Point::new(corner.x, foot),
-                    panel_width,
-                );
-                for line in &panel.caption.lines {
-                    foot = paragraph(&mut scene, line, VALUE_SIZE, Point::new(corner.x, foot), panel_width);
-                }
-                below = below.max(foot);
+                below = below.max(self.panel(&mut scene, panel, &picture, corner));
             }
             y = below + 8.0;
         }
-        y = key(&mut scene, y, row_width);
+        y = key(&mut scene, y, row_width, self.forces_on);
         let bounds = Bounds { least: Point::zeros(), greatest: Point::new(row_width, y) }.widened(MARGIN);
-        Sheet { scene, bounds, title: self.title, description }
+        Sheet { scene, bounds, title: self.title, description, heading }
+    }
+
+    /// Each panel by itself, and the key.
+    fn pieces(self) -> Vec<Sheet> {
+        let picture = self.picture();
+        let width = picture.size().x.max(LEAST_WIDTH);
+        let mut all = Scene::default();
+        let sheet = |scene: Scene, foot: f64, title: &str, description: String| {
+            let bounds = Bounds { least: Point::zeros(), greatest: Point::new(width, foot) };
+            let (bounds, title) = (bounds.widened(0.5 * SPACE), title.to_owned());
+            Sheet { scene, bounds, title, description, heading: (0, 0.0) }
+        };
+        let piece = |panel: &Panel| {
+            let own = bounds_of(std::slice::from_ref(panel));
+            let picture = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let mut scene = Scene::default();
+            let foot = self.panel(&mut scene, panel, &picture, Point::zeros());
+            all.elements.extend(scene.elements.iter().cloned());
+            sheet(scene, foot, &panel.caption.heading, panel.caption.in_words())
+        };
+        let mut pieces: Vec<Sheet> = self.panels.iter().map(piece).collect();
+        let drawn = all.elements.len();
+        let foot = key(&mut all, 0.0, width, self.forces_on);
+        let key = Scene { elements: all.elements.split_off(drawn), ..Scene::default() };
+        if !key.elements.is_empty() {
+            pieces.push(sheet(key, foot, "Key", "What the colours of arrows mean".to_owned()));
+        }
+        pieces
+    }
+
+    /// The place that every picture has.
+    fn picture(&self) -> Bounds {
+        bounds_of(&self.panels)
+            .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::new(LEAST_WIDTH, LEAST_WIDTH) })
+    }
+
+    /// Adds a drawing with what stands below it; the y below that.
+    fn panel(&self, scene: &mut Scene, panel: &Panel, picture: &Bounds, corner: Point) -> f64 {
+        let width = picture.size().x.max(LEAST_WIDTH);
+        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
+        let free = 0.5 * (width - picture.size().x);
+        let by = corner + Point::new(free, 0.0) - picture.least;
+        scene.elements.extend(panel.scene.clone().shifted(by).elements);
+        let mut foot = corner.y + picture.size().y + 26.0;
+        self.legend(scene, panel, length, Point::new(corner.x, foot));
+        foot += 16.0;
+        let heading = &panel.caption.heading;
+        foot = paragraph(scene, heading, NAME_SIZE + 1.0, Point::new(corner.x, foot), width);
+        for line in &panel.caption.lines {
+            foot = paragraph(scene, line, VALUE_SIZE, Point::new(corner.x, foot), width);
+        }
+        foot
     }
 
     /// Bars of a length and of a force.
@@ -312,14 +404,6 @@ fn bounds_of(panels: &[Panel]) -> Option<Bounds> {
     panels.iter().filter_map(|panel| panel.scene.bounds()).reduce(Bounds::with)
 }
 
-/// A value to the right of a place; the x of its end.
-fn beside(scene: &mut Scene, place: Point, text: String) -> f64 {
-    let at = place + Point::new(9.0, 5.0);
-    let end = at.x + width(&text, VALUE_SIZE);
-    scene.write(Class::Words, Text { text, at, anchor: Anchor::Start, size: VALUE_SIZE });
-    end
-}
-
 /// So many columns that rows are not too long, and about equally filled.
 fn columns(count: usize, width: f64) -> usize {
     let mut columns = 1;
@@ -330,50 +414,14 @@ fn columns(count: usize, width: f64) -> usize {
     count.div_ceil(rows).max(1)
 }
 
-/// Writes a text in lines of at most this width below a place; the y below it.
-fn paragraph(scene: &mut Scene, text: &str, size: f64, corner: Point, most: f64) -> f64 {
-    let mut y = corner.y;
-    for line in wrapped(text, size, most) {
-        y += LINE * size;
-        let at = Point::new(corner.x, y);
-        scene.write(Class::Words, Text { text: line, at, anchor: Anchor::Start, size });
-    }
-    y
-}
-
-/// Lines of at most a width, broken between words, or within a word that is longer than a line.
-fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
-    let mut lines: Vec<String> = vec![String::new()];
-    for word in text.split(' ') {
-        let Some(line) = lines.last_mut() else { continue };
-        let joined = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
-        if width(&joined, size) <= most {
-            *line = joined;
-            continue;
-        }
-        if !line.is_empty() {
-            lines.push(String::new());
-        }
-        for character in word.chars() {
-            let Some(line) = lines.last_mut() else { continue };
-            line.push(character);
-            if width(line, size) > most && line.chars().count() > 1 {
-                line.pop();
-                lines.push(character.to_string());
-            }
-        }
-    }
-    lines
-}
-
 /// What the colours mean; the y below it.
-fn key(scene: &mut Scene, y: f64, most: f64) -> f64 {
+fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     let words = [
-        (Class::Reaction, "normal reaction on the block"),
-        (Class::Friction, "friction on the block"),
-        (Class::Load, "load, weight or drive"),
-        (Class::Drive, "drive, its size unknown"),
-        (Class::Velocity, "sliding velocity"),
+        (Class::Reaction, format!("normal reaction on {forces_on}")),
+        (Class::Friction, format!("friction on {forces_on}")),
+        (Class::Load, "load, weight or drive".to_owned()),
+        (Class::Drive, "drive, its size unknown".to_owned()),
+        (Class::Velocity, "sliding velocity".to_owned()),
     ];
     let used: Vec<_> = words
         .into_iter()

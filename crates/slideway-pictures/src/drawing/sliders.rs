@@ -1,11 +1,12 @@
 //! Sliding joints: walls, slots, rods, blocks and pins.
 
+use super::bodies::SUPPORT;
 use super::bodies::edge;
 use super::looks::{Look, corners, on_rail_of, sliders};
-use super::outline::{Local, capsule, turned};
+use super::outline::{Local, capsule, turned, upper_side};
 use super::scene::{Class, Point};
 use super::stops::{EndStop, reach_along};
-use super::{HINGE, Painter, View};
+use super::{Painter, View};
 use slideway::configuration::Configuration;
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::mechanism::{Attachment, JointKind, Mechanism, Shape, Slider, rot90};
@@ -23,9 +24,9 @@ const HIGHEST_NUT: f64 = 60.0;
 /// Half the length of a shoe, and the radius of the foot on a flank.
 const SHOE: f64 = 12.0;
 const FOOT: f64 = 8.0;
-/// Thickness of a belt, and the least radius of its rollers.
-pub(super) const BELT: f64 = 5.0;
-const LEAST_ROLLER: f64 = 3.0;
+/// Radius of the rollers of a belt, and the distance of the lines across it that show how it moves.
+const ROLLER: f64 = 9.0;
+const MARK: f64 = 30.0;
 /// Thickness of the walls of a slot in a body.
 pub(super) const WALL: f64 = 6.0;
 
@@ -81,6 +82,12 @@ impl Slide {
         0.5 * self.height + self.gap
     }
 
+    /// How far what stands below the outer part reaches from it: the rollers of a belt with their supports.
+    pub(super) fn half_foot(&self) -> f64 {
+        let rollers = if self.look == Look::Rollers { ROLLER + SUPPORT } else { 0.0 };
+        self.half_channel() + rollers
+    }
+
     /// Half the width of what stands across the guide at its ends.
     pub(super) fn half_end(&self) -> f64 {
         if self.around { 0.5 * self.height + 9.0 } else { self.half_channel() }
@@ -122,6 +129,36 @@ impl Slide {
         outline.reverse();
         outline.extend(edge(&local, to, torn[1], half));
         outline
+    }
+
+    /// The face of ground on which the block rests, if there is one.
+    fn floor(&self) -> Option<[Point; 2]> {
+        let Look::Face(side) = self.look else { return None };
+        let across = -side * self.half_channel();
+        (self.guide_frame == Frame::Ground).then(|| self.guide_reach.map(|end| self.guide.at(end, across)))
+    }
+
+    /// Guides of ground do not run on through its faces: what is spare of them beyond the block ends there.
+    fn end_at(&mut self, floors: &[[Point; 2]]) {
+        if self.guide_frame != Frame::Ground || !self.has_walls() {
+            return;
+        }
+        let shift = (self.block.origin - self.guide.origin).dot(&self.guide.along);
+        for [from, to] in floors {
+            let (normal, way) = (turned(to - from), to - from);
+            let slope = self.guide.along.dot(&normal);
+            let at = (from - self.guide.origin).dot(&normal) / slope;
+            let on_floor = (self.guide.at(at, 0.0) - from).dot(&way) / way.norm_squared();
+            if !at.is_finite() || !(0.0..=1.0).contains(&on_floor) {
+                continue;
+            }
+            let [rear, front] = self.block_reach.map(|end| end + shift);
+            if at <= rear {
+                self.guide_reach[0] = self.guide_reach[0].max(at);
+            } else if at >= front {
+                self.guide_reach[1] = self.guide_reach[1].min(at);
+            }
+        }
     }
 
     /// Whether the guide has walls that are drawn with this joint.
@@ -166,6 +203,8 @@ impl Painter<'_> {
                 slide.guide_reach = reach;
             }
         }
+        let floors: Vec<[Point; 2]> = slides.iter().flatten().filter_map(Slide::floor).collect();
+        slides.iter_mut().flatten().for_each(|slide| slide.end_at(&floors));
         slides
     }
 
@@ -183,11 +222,18 @@ impl Painter<'_> {
         let height = self.drawn_height(slider, look);
         let lift = if let Look::Face(side) = look { 0.5 * side * height } else { 0.0 };
         let [block, guide] = [slider.block, slider.guide].map(|frame| self.local(frame, slider, lift));
+        let is_belt = look == Look::Rollers;
+        // What is seen of a belt stays where its rollers are.
+        let block = if is_belt { guide } else { block };
         let is_pin = slider.kind == SliderKind::Pin;
         let scale = self.view.scale;
         let half = 0.5 * slider.length * scale;
         let beyond = if is_pin { 32.0 } else { (0.9 * half).clamp(22.0, 44.0) };
-        let [least, greatest] = self.view.slides[joint.index()].map(|displacement| displacement * scale);
+        let [least, greatest] = if is_belt {
+            [0.0; 2]
+        } else {
+            self.view.slides[joint.index()].map(|displacement| displacement * scale)
+        };
         let open = [1, 0].map(|end| {
             let contact = slider.contacts.get(end).map(|id| &self.mechanism.contacts[id.index()]);
             contact.is_some_and(|contact| contact.carried_by == CarriedBy::Guide)
@@ -370,17 +416,31 @@ impl Painter<'_> {
         }
     }
 
-    /// The rollers of a belt, where its contacts with ground are.
+    /// The rollers of a belt at its contacts with ground: on the side on which they press, below where none is known.
     fn rollers(&mut self, slide: &Slide, contacts: &[ContactId]) {
-        let Some(body) = slide.block_frame.body() else { return };
-        let plate = self.plate(body).unwrap_or_default();
-        let across = |corner: &Point| (corner - slide.guide.origin).dot(&slide.guide.across).abs();
-        let half = plate.iter().map(across).fold(f64::INFINITY, f64::min);
-        let radius = (half - BELT).max(LEAST_ROLLER);
         for contact in contacts {
             let place = self.view.place(self.configuration.contact(self.mechanism, *contact).point);
-            self.circle(Class::Fixed, place, radius);
-            self.circle(Class::Hinge, place, HINGE.min(0.5 * radius));
+            let away = slide.guide.across
+                * match self.states.side(contact.index()) {
+                    0.0 => -upper_side(slide.guide.across),
+                    side => -side.signum(),
+                };
+            let centre = place + away * (0.5 * slide.height + ROLLER);
+            self.support(centre, away);
+            self.circle(Class::Fixed, centre, ROLLER);
+            self.circle(Class::Hinge, centre, 0.4 * ROLLER);
+        }
+    }
+
+    /// Lines across a belt, which move with it.
+    pub(super) fn marks(&mut self, slide: &Slide, slider: &Slider) {
+        let half = 0.5 * slide.height;
+        let moved = self.local(slider.block, slider, 0.0).origin - slide.guide.origin;
+        let [from, to] = slide.block_reach;
+        let mut at = from + (moved.dot(&slide.guide.along) - from).rem_euclid(MARK);
+        while at < to {
+            self.line(Class::Edge, vec![slide.guide.at(at, -half), slide.guide.at(at, half)]);
+            at += MARK;
         }
     }
 

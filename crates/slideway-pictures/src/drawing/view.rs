@@ -1,7 +1,7 @@
 //! From metres to drawing units, and how far guides reach.
 
 use super::bodies::lean;
-use super::looks::corners;
+use super::looks::{corners, is_belt};
 use super::scene::{Bounds, Point};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
@@ -118,6 +118,9 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
     let mut places = Vec::new();
     for (index, body) in mechanism.bodies.iter().enumerate() {
         let frame = Frame::Body(BodyId(index));
+        if is_belt(mechanism, BodyId(index)) {
+            continue;
+        }
         let centre = configuration.poses[index].position;
         let place = |position| configuration.position(mechanism, &Attachment { frame, position });
         if body.shape.is_none() || !body.outline.is_empty() {
@@ -164,7 +167,8 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
         }
     }
     for drive in &mechanism.drives {
-        if let Effort::Force { at, .. } = &drive.effort {
+        let Effort::Force { at, .. } = &drive.effort else { continue };
+        if !at.frame.body().is_some_and(|body| is_belt(mechanism, body)) {
             places.push(configuration.position(mechanism, at));
         }
     }
@@ -178,6 +182,9 @@ fn slider_places(mechanism: &Mechanism, configuration: &Configuration, slider: &
     let across = Vector2::new(-tangent.y, tangent.x) * (0.5 * slider.height);
     let half = tangent * (0.5 * slider.length);
     let contacts = slider.contacts.iter().map(|id: &ContactId| configuration.contact(mechanism, *id).point);
+    if slider.block.body().is_some_and(|body| is_belt(mechanism, body)) {
+        return contacts.collect();
+    }
     [middle + half + across, middle - half + across, middle + half - across, middle - half - across]
         .into_iter()
         .chain(contacts)

@@ -1,8 +1,8 @@
 //! The mechanism moving: one drawing for each frame, contact modes exaggerated.
 
-use crate::drawing::signs;
 use crate::drawing::svg::markup;
 use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
+use crate::drawing::{forces_on, signs};
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample, phase_in_words};
@@ -55,6 +55,10 @@ pub struct Animation {
     pub(super) force_unit: Unit,
     /// What the modes that occur are, in words, each once.
     pub(super) words: Vec<String>,
+    /// Whether the play of guides is drawn greater than it is.
+    pub(super) is_exaggerated: bool,
+    /// On what the forces of contacts act.
+    pub(super) forces_on: &'static str,
     pub(super) theme: Theme,
 }
 
@@ -87,7 +91,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         .collect();
     let painted = Painted::new(history, &samples);
     let force_scale = painted.force_scale;
-    let (shapes, frames, bounds, words) = painted.frames();
+    let Painting { shapes, frames, bounds, words, is_exaggerated } = painted.frames();
     Animation {
         title: history.mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned()),
         bounds,
@@ -100,8 +104,24 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         force_scale,
         force_unit: history.mechanism.units.of("N"),
         words,
+        is_exaggerated,
+        forces_on: forces_on(&history.mechanism),
         theme: *theme,
     }
+}
+
+/// All that is painted of a motion.
+struct Painting {
+    /// The shapes that occur.
+    shapes: Vec<String>,
+    /// The frames made of them.
+    frames: Vec<FrameOf>,
+    /// What they need of the drawing.
+    bounds: Bounds,
+    /// Words of the modes.
+    words: Vec<String>,
+    /// Whether any frame shows more play than there is.
+    is_exaggerated: bool,
 }
 
 struct Painted<'h> {
@@ -132,15 +152,16 @@ impl<'h> Painted<'h> {
         Self { history, samples, view, options, force_scale }
     }
 
-    /// The shapes that occur, the frames made of them, what they need of the drawing, and words of the modes.
-    fn frames(&self) -> (Vec<String>, Vec<FrameOf>, Bounds, Vec<String>) {
+    fn frames(&self) -> Painting {
         let mut words: Vec<String> = Vec::new();
         let mut shapes: Vec<String> = Vec::new();
         let mut known = std::collections::HashMap::new();
         let mut frames = Vec::with_capacity(self.samples.len());
         let mut bounds: Option<Bounds> = None;
+        let mut is_exaggerated = false;
         for sample in self.samples {
             let scene = self.scene(sample);
+            is_exaggerated |= scene.is_exaggerated;
             bounds = bounds.into_iter().chain(scene.bounds()).reduce(Bounds::with);
             let mut indices = Vec::with_capacity(scene.elements.len());
             for element in &scene.elements {
@@ -162,7 +183,7 @@ impl<'h> Painted<'h> {
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
         let bounds = bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH);
-        (shapes, frames, bounds, words)
+        Painting { shapes, frames, bounds, words, is_exaggerated }
     }
 
     fn words(&self, sample: &Sample) -> String {

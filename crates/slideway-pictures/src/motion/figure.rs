@@ -3,9 +3,12 @@
 use crate::drawing::signs;
 use crate::plot::figure::headline;
 use crate::plot::scale::{extent, range_that_shows};
-use crate::plot::{Axis, Band, Branch, Curve, Figure, MarkedPoint, Panel, PointKind, Stroke};
+use crate::plot::{
+    Axis, Band, Branch, Curve, Figure, Hatching, MarkedPoint, MarkedValue, Panel, PointKind, Stroke, Zone,
+};
 use crate::theme::LIGHT;
 use slideway::motion::{Cause, History, PhaseInterval, Series, modes_in_words};
+use slideway::report::precise;
 use slideway::units::{Unit, Units};
 
 /// Points of a curve, shared among the phases.
@@ -20,9 +23,11 @@ const BEFORE_END: f64 = 1e-9;
 const POINT: f64 = 1e-6;
 /// Forces that last only for this share of the time are left out, if they grow to so many times the others.
 const RARE: f64 = 0.05;
+/// Beside what is so many times as large a curve is too flat to be read.
 const MANY: f64 = 4.0;
 
-/// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, energies.
+/// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, energies. Lines
+/// mark where it jams; where joints stick and statics leaves normal forces open the panel is hatched.
 ///
 /// Where normal forces grow for a short time to many times what they are else, as before a jam, the axis shows
 /// the rest, and the legend tells what they reach.
@@ -34,13 +39,13 @@ pub fn motion_figure(history: &History) -> Figure {
     for (angles, unit) in [(false, "m"), (true, "rad")] {
         let coordinates =
             mechanism.coordinates.iter().filter(|coordinate| coordinate.kind.is_angle() == angles);
-        let curves: Vec<(String, String)> = coordinates
-            .map(|coordinate| (coordinate.name.to_string(), coordinate.name.to_string()))
-            .collect();
-        match &curves[..] {
-            [] => {}
-            [(name, _)] => panels.push(builder.panel("Coordinate", (name, unit), &curves)),
-            _ => panels.push(builder.panel("Coordinates", ("coordinate", unit), &curves)),
+        for together in samples.that_move_as_far(coordinates.map(|coordinate| coordinate.name.to_string())) {
+            let curves: Vec<(String, String)> =
+                together.into_iter().map(|name| (name.clone(), name)).collect();
+            panels.push(match &curves[..] {
+                [(name, _)] => builder.panel("Coordinate", (name, unit), &curves),
+                _ => builder.panel("Coordinates", ("coordinate", unit), &curves),
+            });
         }
     }
     let contacts = mechanism.contacts.iter();
@@ -50,6 +55,7 @@ pub fn motion_figure(history: &History) -> Figure {
     let mut panel = builder.panel("Normal forces and contact modes", ("normal force", "N"), &forces);
     panel.bands = bands(history, forces.len());
     panel.y.range = range_of_what_lasts(&panel.curves);
+    panel.zones = samples.left_open(&forces, &mechanism.units.of("s"));
     panels.push(panel);
     let energies = [
         ("kinetic energy", "energy.kinetic"),
@@ -65,6 +71,8 @@ pub fn motion_figure(history: &History) -> Figure {
         .map(|(name, column)| ((*name).to_owned(), (*column).to_owned()))
         .collect();
     panels.push(builder.panel("Energy", ("energy", "J"), &energies));
+    let jams = jams(history);
+    panels.iter_mut().for_each(|panel| panel.marked.clone_from(&jams));
     Figure {
         title: headline(mechanism.title.as_deref(), "motion over time"),
         subtitle: format!(
@@ -149,6 +157,19 @@ fn points(history: &History, curves: &[Curve]) -> Vec<MarkedPoint> {
         add(last.points.last(), PointKind::End);
     }
     points
+}
+
+/// Where a motion jams; of jams that are drawn as one piece, the last.
+fn jams(history: &History) -> Vec<MarkedValue> {
+    let seconds = history.mechanism.units.of("s");
+    let ends = groups(history).into_iter().filter_map(|group| group.last().copied());
+    let jams = ends.filter(|phase| ends_by(history, phase, |cause| matches!(cause, Cause::Jams { .. })));
+    jams.map(|phase| {
+        let at = seconds.number_of(phase.to);
+        let label = format!("{}: jams", precise(at).replace('-', "\u{2212}"));
+        MarkedValue { at, label, asymptote: false }
+    })
+    .collect()
 }
 
 /// What an impulse changes in the portrait of a coordinate: from the end of one piece to the beginning of the next,
@@ -245,6 +266,43 @@ impl Samples {
         Self { pieces: groups.iter().map(piece).collect(), range }
     }
 
+    /// Coordinates in groups that can be seen in one panel: no extent is more than [`MANY`] times that of the
+    /// first of its group. What does not move is seen in every panel.
+    fn that_move_as_far(&self, coordinates: impl Iterator<Item = String>) -> Vec<Vec<String>> {
+        let mut together: Vec<(f64, Vec<String>)> = Vec::new();
+        for name in coordinates {
+            let columns = self.pieces.iter().filter_map(|piece| piece.column(&name));
+            let moves = extent(columns.flat_map(|column| column.values.iter().copied().flatten()))
+                .map_or(0.0, |[least, greatest]| greatest - least);
+            let is_alike = |other: f64| moves <= MANY * other && other <= MANY * moves;
+            let group =
+                together.iter_mut().find(|(other, _)| moves == 0.0 || *other == 0.0 || is_alike(*other));
+            match group {
+                Some((other, names)) => {
+                    *other = other.max(moves);
+                    names.push(name);
+                }
+                None => together.push((moves, vec![name])),
+            }
+        }
+        together.into_iter().map(|(_, names)| names).collect()
+    }
+
+    /// The times in which one of these forces, given by name and column, is not determined.
+    fn left_open(&self, forces: &[(String, String)], seconds: &Unit) -> Vec<Zone> {
+        let is_open = |piece: &&Series| {
+            let columns = forces.iter().filter_map(|(_, column)| piece.column(column));
+            columns.flat_map(|column| &column.values).any(Option::is_none)
+        };
+        let zone = |piece: &Series| {
+            let times = &piece.column("t")?.values;
+            let [from, to] = extent(times.iter().copied().flatten())?.map(|time| seconds.number_of(time));
+            let meaning = "sticks: statics leaves normal forces open".to_owned();
+            Some(Zone { from, to, hatching: Hatching::Falling, meaning })
+        };
+        self.pieces.iter().filter(is_open).filter_map(zone).collect()
+    }
+
     /// Whether a column has another number than zero.
     fn is_used(&self, name: &str) -> bool {
         let columns = self.pieces.iter().filter_map(|piece| piece.column(name));
@@ -278,7 +336,7 @@ impl Builder<'_> {
     /// A panel with the time as its axis; curves are given by their names and columns.
     fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[(String, String)]) -> Panel {
         let mut drawn = Vec::new();
-        let shown_in = [Unit::si_unit("s"), self.units.of(unit)];
+        let shown_in = [self.units.of("s"), self.units.of(unit)];
         for (colour, (name, column)) in curves.iter().enumerate() {
             let index = self.branches.len();
             self.branches.push(branch(name, colour));
@@ -289,8 +347,8 @@ impl Builder<'_> {
             title: title.to_owned(),
             x: Axis {
                 name: "t".to_owned(),
-                unit: "s".to_owned(),
-                range: Some(self.samples.range),
+                unit: shown_in[0].name().to_owned(),
+                range: Some(self.samples.range.map(|end| shown_in[0].number_of(end))),
                 ..Axis::default()
             },
             y: Axis { name: name.to_owned(), unit: shown_in[1].name().to_owned(), ..Axis::default() },
@@ -313,6 +371,7 @@ fn curve(series: &Series, [x, y]: [&str; 2], [x_unit, y_unit]: &[Unit; 2], branc
 /// panel. Words are those of the first time.
 fn bands(history: &History, first: usize) -> Vec<Band> {
     let mechanism = &history.mechanism;
+    let seconds = mechanism.units.of("s");
     let mut reader = history.reader();
     let mut meanings: Vec<(String, String)> = Vec::new();
     let mut bands: Vec<Band> = Vec::new();
@@ -331,10 +390,10 @@ fn bands(history: &History, first: usize) -> Vec<Band> {
             meanings.len() - 1
         });
         let (colour, meaning) = (first + place, meanings[place].1.clone());
-        let to = group[group.len() - 1].to;
+        let [from, to] = [group[0].from, group[group.len() - 1].to].map(|time| seconds.number_of(time));
         match bands.last_mut() {
             Some(last) if last.colour == colour => last.to = to,
-            _ => bands.push(Band { from: group[0].from, to, colour, meaning }),
+            _ => bands.push(Band { from, to, colour, meaning }),
         }
     }
     bands

@@ -3,7 +3,7 @@
 use super::animation::{Animation, FrameOf};
 use crate::coordinate::{NotFinite, coordinate, exact, finished, finished_parts, tenths, thousandths};
 use crate::drawing::svg::{Colour, markup, rules};
-use crate::drawing::{Class, Element, Point, Shape, nice, quantity};
+use crate::drawing::{Class, EXAGGERATED, Element, Point, Shape, nice, quantity};
 use crate::escaped;
 use crate::plot::svg::wrapped;
 use crate::typeface::{STACK, width};
@@ -92,12 +92,14 @@ fn html(animation: &Animation) -> String {
          <button id=\"on\" aria-label=\"one frame on\">&#9654;</button> <input id=\"time\" type=\"range\" min=\"0\" \
          max=\"{}\" value=\"0\" aria-label=\"time\"> <span id=\"clock\"></span></p>\n\
          <p id=\"state\">Mode <span class=\"mode\" id=\"mode\"></span>: <span id=\"words\"></span></p>\n\
-         <p>{}. Guides are widened so that the contact modes can be seen. Arrows: normal reactions and friction on the blocks, \
+         <p>{}.{} Arrows: normal reactions and friction on {}, \
          loads, and sliding velocities. Keys: <kbd>space</kbd> plays and pauses, <kbd>&#8592;</kbd> and <kbd>&#8594;</kbd> go one \
          frame, <kbd>Home</kbd> and <kbd>End</kbd> to the ends.</p>\n\
          <ol id=\"log\"></ol>",
         animation.frames.len().saturating_sub(1),
-        speed(animation)
+        speed(animation),
+        if animation.is_exaggerated { format!(" {EXAGGERATED}") } else { String::new() },
+        animation.forces_on,
     );
     out.push_str("<script>\n\"use strict\";\nconst shapes = [");
     list(&mut out, animation.shapes.iter().map(|shape| literal(shape.trim_end())));

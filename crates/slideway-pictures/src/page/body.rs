@@ -3,7 +3,7 @@
 use super::summary::summary;
 use super::{Figure, Page, all, text};
 use crate::drawing::svg::{self, Colours, Frame};
-use crate::drawing::{number, quantity, signs};
+use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::limits::{LimitsReport, ModeLimits};
 use slideway::report::{JointMode, Proof, Solution, SolveReport, followed, precise};
 use slideway::units::{Unit, Units};
@@ -47,7 +47,7 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
     format!(
         "<header>\n<h1>{}</h1>\n{answer}<nav><a href=\"#drawing\">Drawing</a>{margins}{solutions}{limits}\
          <a href=\"#model\">Model</a></nav>\n</header>\n",
-        text(&page.sheet.title)
+        text(page.title)
     )
 }
 
@@ -87,17 +87,14 @@ pub(super) fn answer(report: &SolveReport) -> String {
 }
 
 fn drawing(page: &Page<'_>) -> String {
-    let frame = Frame {
-        bounds: page.sheet.bounds,
-        title: &page.sheet.title,
-        description: &page.sheet.description,
-        width: None,
-        colours: Colours::Page,
+    let drawing = |sheet: &Sheet| {
+        let (title, description) = (&*sheet.title, &*sheet.description);
+        let frame = Frame { bounds: sheet.bounds, title, description, width: None, colours: Colours::Page };
+        svg::document(&sheet.scene, &frame)
     };
     format!(
-        "<section id=\"drawing\">\n<h2>Drawing</h2>\n<div class=\"drawing\">\n{}\n</div>\n<p class=\"quiet\">Play in the \
-         guides is exaggerated. Forces act on the block, at the place where it is pressed.</p>\n</section>\n",
-        svg::document(&page.sheet.scene, &frame)
+        "<section id=\"drawing\">\n<h2>Drawing</h2>\n<div class=\"drawing\">\n{}\n</div>\n</section>\n",
+        all(page.drawings, drawing)
     )
 }
 
@@ -260,7 +257,7 @@ fn figure(figure: &Figure) -> String {
     let [light, dark] = [&figure.light, &figure.dark].map(|svg| address(svg));
     format!(
         "<figure>\n<img class=\"on-light\" src=\"{light}\" alt=\"{caption}\">\n\
-         <img class=\"on-dark\" src=\"{dark}\" alt=\"{caption}\">\n<figcaption>{caption}</figcaption>\n</figure>\n"
+         <img class=\"on-dark\" src=\"{dark}\" alt=\"{caption}\">\n</figure>\n"
     )
 }
 

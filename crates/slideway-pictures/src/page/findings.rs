@@ -2,7 +2,7 @@
 
 use super::{Figure, Page, to_html};
 use crate::coordinate::NotFinite;
-use crate::drawing::{Sheet, Shown, sheet};
+use crate::drawing::{Sheet, pieces, title};
 use crate::plot::{self, limits_figure, to_svg};
 use crate::theme::{DARK, LIGHT};
 use slideway::configuration::Configuration;
@@ -19,7 +19,8 @@ use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 /// What a page tells of a model.
 #[derive(Debug, Clone)]
 pub struct Findings {
-    sheet: Sheet,
+    title: String,
+    drawings: Vec<Sheet>,
     answer: Result<SolveReport, Vec<String>>,
     efficiency: Vec<String>,
     rest: Result<HoldReport, Vec<String>>,
@@ -57,14 +58,12 @@ impl Findings {
         };
         let answer =
             solve_with(model, &SolveOptions::default(), &mut look).map_err(|faults| reasons(&faults));
-        let Some(sheet) = sheet(&mechanism, &configuration, answer.as_ref().ok(), Shown::All) else {
-            unreachable!("all solutions are there, whatever their number")
-        };
+        let (title, drawings) = (title(&mechanism), pieces(&mechanism, &configuration, answer.as_ref().ok()));
         let limits = varied(model, wanted, &mut look)?;
         let efficiency = efficiency(model, &mut look);
         let rest = rest(model, &mut look);
         let limits = limits.filter(|_| is_whole);
-        Ok(limits.map(|limits| Self { sheet, answer, efficiency, rest, limits }))
+        Ok(limits.map(|limits| Self { title, drawings, answer, efficiency, rest, limits }))
     }
 
     /// The page as HTML.
@@ -85,7 +84,8 @@ impl Findings {
             name: origin.name,
             text: origin.text,
             settings: &settings,
-            sheet: &self.sheet,
+            title: &self.title,
+            drawings: &self.drawings,
             report: self.answer.as_ref().map_err(Vec::as_slice),
             efficiency: &self.efficiency,
             rest: self.rest.as_ref().map_err(Vec::as_slice),
@@ -95,8 +95,8 @@ impl Findings {
     }
 }
 
-/// What keeps a question from being answered, in words.
-fn reasons(faults: &Faults) -> Vec<String> {
+/// What keeps a question from being answered, in words: a line for each fault.
+pub fn reasons(faults: &Faults) -> Vec<String> {
     faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
 }
 
@@ -140,7 +140,10 @@ fn limits(
 ) -> Result<Option<(LimitsReport, plot::Figure)>, Faults> {
     let found = curves_with(model, &LimitsOptions::new(vary), Quantity::NormalForce, callback)?;
     Ok(found.map(|(report, curves)| {
-        let plot = limits_figure(&report, &curves);
+        // The page has the title of the model at its beginning.
+        let mut untitled = report.clone();
+        untitled.title = None;
+        let plot = limits_figure(&untitled, &curves);
         (report, plot)
     }))
 }

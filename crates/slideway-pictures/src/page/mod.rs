@@ -12,7 +12,7 @@ mod body;
 mod findings;
 mod summary;
 
-pub use findings::{Findings, Origin};
+pub use findings::{Findings, Origin, reasons};
 
 use crate::coordinate::{NotFinite, finished};
 use crate::drawing::Sheet;
@@ -37,8 +37,10 @@ pub struct Page<'a> {
     pub text: &'a str,
     /// What was changed in it, one line each.
     pub settings: &'a [String],
-    /// The drawing of the mechanism and its solutions.
-    pub sheet: &'a Sheet,
+    /// The title of the mechanism.
+    pub title: &'a str,
+    /// The drawings of the mechanism and its solutions.
+    pub drawings: &'a [Sheet],
     /// All solutions, or why there is no answer.
     pub report: Result<&'a SolveReport, &'a [String]>,
     /// Which efforts the drives need, and the efficiency, in sentences; empty without drives.
@@ -68,7 +70,7 @@ pub struct Figure {
 /// # Errors
 /// If a place or a size in its drawing is infinite or undefined.
 pub fn to_html(page: &Page<'_>) -> Result<String, NotFinite> {
-    finished(format!("{}<body>\n{}</body>\n</html>", head(&page.sheet.title), body::body(page)))
+    finished(format!("{}<body>\n{}</body>\n</html>", head(page.title), body::body(page)))
 }
 
 /// What a page says of an answer: the state that was solved with the number of solutions and the margins, then a

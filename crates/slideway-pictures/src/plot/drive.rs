@@ -83,7 +83,11 @@ impl Builder<'_> {
             curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
         }
         let y = Axis { name: "efficiency".to_owned(), unit: "%".to_owned(), ..Axis::default() };
-        Panel { curves, ..self.panel(direction, "efficiency", y) }
+        let without: Vec<String> = without_efficiency(direction)
+            .into_iter()
+            .map(|(pattern, why)| format!("; {}: {why}", signs(pattern)))
+            .collect();
+        Panel { curves, ..self.panel(direction, &format!("efficiency{}", without.concat()), y) }
     }
 
     fn panel(&self, direction: &CourseDirection, what: &str, y: Axis) -> Panel {
@@ -177,6 +181,17 @@ impl Builder<'_> {
         }));
         zones
     }
+}
+
+/// The modes that have no efficiency at some value, and why, each once.
+fn without_efficiency(direction: &CourseDirection) -> Vec<(&str, &'static str)> {
+    let mut without: Vec<(&str, &'static str)> = Vec::new();
+    for row in &direction.rows {
+        let why = row.efficiency.filter(|efficiency| efficiency.value.is_none()).map(|one| one.is.in_words());
+        let found = row.pattern.as_deref().zip(why).filter(|one| !without.contains(one));
+        without.extend(found);
+    }
+    without
 }
 
 /// The rows of each mode, cut where it is missing at a value and where its efforts grow without bound.

@@ -17,7 +17,7 @@ const NEAR: f64 = 1e-3;
 /// The figure of [`slideway::limits::limits_with_curves`]: a panel for each direction and unit.
 ///
 /// Each mode is a branch: a colour, and a stroke that says whether a mechanism with slightly elastic guides
-/// settles on it. Locking values are asymptotes, values where contacts change side are marked, intervals
+/// settles on it. Values at which forces grow without bound are asymptotes, values where contacts change side are marked, intervals
 /// without a solution are hatched. Dots cover what was found at single values and is not proven between them.
 pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
     let mut units: Vec<&str> = curves.series.iter().map(|series| series.unit).collect();
@@ -236,9 +236,14 @@ fn stroke_of(verdict: Verdict) -> Stroke {
 fn end_of(cause: ModeEndCause) -> End {
     match cause {
         ModeEndCause::Range => End::Plain,
-        ModeEndCause::Locking => End::Diverges,
+        cause if grows(cause) => End::Diverges,
         _ => End::Marked,
     }
+}
+
+/// Whether normal forces grow without bound there.
+fn grows(cause: ModeEndCause) -> bool {
+    matches!(cause, ModeEndCause::Locking | ModeEndCause::WithoutBound)
 }
 
 /// The values at which modes end; those that cannot be told apart in a plot share a label.
@@ -247,9 +252,7 @@ fn marked(modes: &[ModeLimits], [from, to]: [f64; 2], scale: f64) -> Vec<MarkedV
         .iter()
         .flat_map(|mode| [(mode.from, mode.from_is, &mode.from_at), (mode.to, mode.to_is, &mode.to_at)]);
     let mut found: Vec<(f64, String, bool)> = ends
-        .filter_map(|(at, cause, contacts)| {
-            Some((at?, cause_in_words(cause, contacts)?, cause == ModeEndCause::Locking))
-        })
+        .filter_map(|(at, cause, contacts)| Some((at?, cause_in_words(cause, contacts)?, grows(cause))))
         .collect();
     found.extend(modes.iter().flat_map(turns));
     found.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -285,7 +288,7 @@ fn cause_in_words(cause: ModeEndCause, contacts: &[String]) -> Option<String> {
     let at = contacts.join(", ");
     let plural = contacts.len() > 1;
     Some(match cause {
-        ModeEndCause::Locking => "locking".to_owned(),
+        ModeEndCause::Locking | ModeEndCause::WithoutBound => cause.in_words().to_owned(),
         ModeEndCause::SideChange if plural => format!("{at} change side"),
         ModeEndCause::SideChange => format!("{at} changes side"),
         ModeEndCause::GapCloses => format!("gap of {at} closes"),

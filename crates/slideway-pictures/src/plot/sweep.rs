@@ -362,7 +362,7 @@ impl SweepPlot {
         let beyond = if is_last { point.checked_add(1) } else { point.checked_sub(1) };
         let mark = |point: Option<u64>| self.marks.iter().find(|mark| Some(mark.point) == point);
         match (mark(beyond), mark(Some(point))) {
-            (Some(mark), _) if mark.breakpoint == Breakpoint::Locking => End::Diverges,
+            (Some(mark), _) if grows(mark.breakpoint) => End::Diverges,
             (_, Some(_)) => End::Marked,
             _ => End::Plain,
         }
@@ -400,15 +400,21 @@ impl SweepPlot {
         let first = marks.first().map_or(0.0, |mark| mark.at);
         let at = if first.abs() <= near { 0.0 } else { first / self.line.shown_in.scale() };
         let number = precise(at).replace('-', "\u{2212}");
-        let asymptote = marks.iter().any(|mark| mark.breakpoint == Breakpoint::Locking);
+        let asymptote = marks.iter().any(|mark| grows(mark.breakpoint));
         MarkedValue { at, label: format!("{number}: {}", words.join("; ")), asymptote }
     }
+}
+
+/// Whether normal forces grow without bound there.
+fn grows(breakpoint: Breakpoint) -> bool {
+    matches!(breakpoint, Breakpoint::Locking | Breakpoint::WithoutBound)
 }
 
 fn in_words(breakpoint: Breakpoint) -> &'static str {
     match breakpoint {
         Breakpoint::No => "",
         Breakpoint::Locking => "locking",
+        Breakpoint::WithoutBound => "grows without bound",
         Breakpoint::SideChange => "side change",
         Breakpoint::GapCloses => "gap closes",
         Breakpoint::Tipping => "tipping",

@@ -311,7 +311,16 @@ EveryAnswer = Literal["one", "not_one", "singular", "in_doubt", "not_computed", 
 - `"not_computed"`: Not decided within the limits.
 - `"jumps"`: Not decided: preloads jump with the sign."""
 
-FromRest = Literal["rests", "rests_or_moves", "moves_on", "moves_back", "moves", "neither"]
+FromRest = Literal[
+    "rests",
+    "rests_or_moves",
+    "moves_on",
+    "moves_back",
+    "moves",
+    "neither",
+    "undecided",
+    "not_examined",
+]
 """What the loads do with a mechanism that has stopped, as standstill in the same position tells.
 
 - `"rests"`: It stays at rest.
@@ -319,7 +328,9 @@ FromRest = Literal["rests", "rests_or_moves", "moves_on", "moves_back", "moves",
 - `"moves_on"`: It begins to move in the direction of its rate.
 - `"moves_back"`: It begins to move against its rate.
 - `"moves"`: It begins to move; in which direction is not one answer.
-- `"neither"`: It can neither stay at rest nor begin to move with finite accelerations."""
+- `"neither"`: It can neither stay at rest nor begin to move with finite accelerations.
+- `"undecided"`: Rounding leaves some states of rest open.
+- `"not_examined"`: It has more states of joints and contacts than modes for which margins are computed."""
 
 Hatching = Literal["rising", "falling", "dotted"]
 """How an interval is hatched.
@@ -405,6 +416,7 @@ ModeEndCause = Literal[
     "nothing",
     "range",
     "locking",
+    "without_bound",
     "side_change",
     "gap_closes",
     "tipping",
@@ -416,7 +428,10 @@ ModeEndCause = Literal[
 
 - `"nothing"`: Nothing: it lasts however much friction grows.
 - `"range"`: The range that was looked at.
-- `"locking"`: Its determinant vanishes: normal forces grow without bound.
+- `"locking"`: Its determinant vanishes, so its normal forces grow without bound, and beyond there is no
+solution: friction locks the mechanism.
+- `"without_bound"`: Its determinant vanishes, so its normal forces grow without bound, but beyond there is
+another solution.
 - `"side_change"`: A normal force vanishes: a contact changes side.
 - `"gap_closes"`: A preload gap closes.
 - `"tipping"`: A guided slider tips.
@@ -2417,7 +2432,7 @@ class SolveReport(_mixins.SolveReport, Report):
     """Why there are no margins; absent where there are, and where they were not asked for."""
     from_rest: FromRest | None
     """Where some coordinate slows down: what the same loads do from rest in the same position; absent where it
-    was not asked (margins are not, drives prescribe the motion, there are many states of rest)."""
+    was not asked (margins are not, drives prescribe the motion)."""
     uncertainty: Uncertainty | None
     """What parameters known within bounds leave certain; absent if there are none. Everything else in the report
     holds for the middle of their ranges."""

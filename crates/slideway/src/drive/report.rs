@@ -139,6 +139,19 @@ pub enum EfficiencyKind {
     Undefined,
 }
 
+impl EfficiencyKind {
+    /// What it is where it has no value, in few words: "held by friction".
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Driving => "driving",
+            Self::Braking => "braking",
+            Self::HeldByFriction => "held by friction",
+            Self::NoPower => "no power",
+            Self::Undefined => "none",
+        }
+    }
+}
+
 /// A value at which efforts grow without bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]

@@ -233,9 +233,7 @@ fn share(efficiency: Efficiency) -> String {
     match (efficiency.is, efficiency.value) {
         (EfficiencyKind::Driving, Some(value)) => percent(value),
         (EfficiencyKind::Braking, Some(value)) => format!("{} braking", percent(value)),
-        (EfficiencyKind::HeldByFriction, _) => "held by friction".to_owned(),
-        (EfficiencyKind::NoPower, _) => "no power".to_owned(),
-        _ => "none".to_owned(),
+        (is, _) => is.in_words().to_owned(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! From what was found to what is told.
 
 use super::conclusion::conclusion;
-use super::found::{Elsewhere, Knowledge, Method, ModesFound, SameEnds};
+use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::guarantee::guarantee;
 use super::report::{
     CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
@@ -15,7 +15,7 @@ use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{JointMode, locked};
+use crate::report::{JointMode, ModeEndCause, locked};
 use crate::solve::{mode_in_words, pattern, signs};
 
 impl VariedQuantity {
@@ -89,7 +89,8 @@ impl Naming {
         bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
     }
 
-    fn mode(&self, mode: &ModeInterval, speeds: &[SpeedLimits], same_ends: SameEnds) -> ModeLimits {
+    fn mode(&self, mode: &ModeInterval, speeds: &[SpeedLimits], found: &ModesFound) -> ModeLimits {
+        let same_ends = found.same_ends;
         let end = |at: f64| finite(at).map(|at| same_ends.told(at));
         let speed = |speed: &SpeedLimits| SpeedLimits {
             from: same_ends.told(speed.from),
@@ -108,8 +109,8 @@ impl Naming {
             signs,
             from: end(mode.from.at),
             to: end(mode.to.at),
-            from_is: (&mode.from.cause).into(),
-            to_is: (&mode.to.cause).into(),
+            from_is: ModeEndCause::new(&mode.from.cause, found.nothing_is_left(mode.from.at, true)),
+            to_is: ModeEndCause::new(&mode.to.cause, found.nothing_is_left(mode.to.at, false)),
             from_at: self.ends_at(&mode.from.cause),
             to_at: self.ends_at(&mode.to.cause),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
@@ -124,7 +125,7 @@ impl Naming {
             | EndCause::GapCloses(contacts)
             | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
             EndCause::OutputBound(bounds) => self.guided(bounds),
-            EndCause::Range | EndCause::Locking | EndCause::Reversal | EndCause::NoProblem => Vec::new(),
+            EndCause::Range | EndCause::Singular | EndCause::Reversal | EndCause::NoProblem => Vec::new(),
         }
     }
 
@@ -149,7 +150,7 @@ impl Naming {
                 .modes
                 .iter()
                 .zip(speeds)
-                .map(|(mode, speeds)| self.mode(mode, speeds, found.same_ends))
+                .map(|(mode, speeds)| self.mode(mode, speeds, found))
                 .collect(),
             counts: found.counts.iter().zip(&found.known).map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),

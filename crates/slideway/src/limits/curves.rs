@@ -202,7 +202,7 @@ fn curve(varied: &Varied, mode: &ModeInterval, quantity: Quantity, work: Work<'_
 /// Where a mode is sampled.
 fn places(mode: &ModeInterval) -> Vec<f64> {
     let (from, to) = (mode.from.at, mode.to.at);
-    let locks = [&mode.from, &mode.to].map(|end| end.cause == EndCause::Locking);
+    let locks = [&mode.from, &mode.to].map(|end| end.cause == EndCause::Singular);
     let even = (0..=STEPS).map(|step| step as f64 / STEPS as f64);
     let closer =
         (1..=STEPS_TO_LOCKING).map(|step| 10_f64.powf(-DECADES * step as f64 / STEPS_TO_LOCKING as f64));

@@ -68,16 +68,19 @@ impl<'v> Examiner<'v> {
         cells.iter_mut().for_each(|cell| self.check(cell));
         for (index, interval) in found.counts.iter().enumerate() {
             let own = || cells.iter().filter(|cell| cell.interval == index);
+            let same_ends = found.same_ends;
+            let told = |at: f64| same_ends.told(at);
+            let proven = stretches(own(), told);
+            let is_whole = proven == [[told(interval.from), told(interval.to)]];
             let elsewhere = if own().any(|cell| cell.contradicted.is_some()) {
                 Elsewhere::Contradicted
-            } else if own().all(|cell| cell.open.is_empty()) {
+            } else if is_whole || own().all(|cell| cell.open.is_empty()) {
                 Elsewhere::Nothing
             } else if found.method == Method::Bracketing {
                 Elsewhere::Sampled(spacing(&found.tried, [interval.from, interval.to]))
             } else {
                 Elsewhere::ClosedForm
             };
-            let proven = stretches(own());
             found.known[index] = Knowledge { proven, elsewhere };
         }
         cells.iter().filter_map(|cell| cell.contradicted).collect()
@@ -171,14 +174,16 @@ impl<'v> Examiner<'v> {
     }
 }
 
-/// The proven stretches of some cells in their order; parts that touch are one.
-fn stretches<'c>(cells: impl Iterator<Item = &'c Cell>) -> Vec<[f64; 2]> {
-    let mut parts: Vec<[f64; 2]> = cells.flat_map(|cell| cell.proven.iter().copied()).collect();
+/// The proven stretches of some cells in their order, with ends as they are `told`: what lies between ends that
+/// are one is no gap. Parts that touch are one.
+fn stretches<'c>(cells: impl Iterator<Item = &'c Cell>, told: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let mut parts: Vec<[f64; 2]> =
+        cells.flat_map(|cell| cell.proven.iter().map(|part| part.map(&told))).collect();
     parts.sort_by(|one, other| one[0].total_cmp(&other[0]));
     let mut stretches: Vec<[f64; 2]> = Vec::new();
     for part in parts {
         match stretches.last_mut() {
-            Some(last) if last[1] == part[0] => last[1] = part[1],
+            Some(last) if last[1] >= part[0] => last[1] = last[1].max(part[1]),
             _ => stretches.push(part),
         }
     }

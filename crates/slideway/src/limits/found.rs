@@ -2,7 +2,7 @@
 
 use super::scan::HALVINGS;
 use crate::fault::Faults;
-use crate::modes::existence::{CountInterval, Existence};
+use crate::modes::existence::{CountInterval, Existence, is_same_end, nothing_is_left};
 
 /// Bisected ends nearer to each other than this share of the range are one.
 const SAME: f64 = 1e-9;
@@ -22,6 +22,14 @@ pub(crate) struct ModesFound {
     pub(crate) same_ends: SameEnds,
     /// The states with a guided slider between its faces at single values.
     pub(crate) between_faces: SingleValues,
+}
+
+impl ModesFound {
+    /// Whether there is no solution just beyond the end of a mode, as far as numbers of solutions are known.
+    pub(super) fn nothing_is_left(&self, end: f64, begins: bool) -> bool {
+        let same = |next: f64, kept: f64| is_same_end(next, kept) || !self.same_ends.are_two(kept, next);
+        nothing_is_left(&self.counts, end, begins, same)
+    }
 }
 
 /// Which ends in a range were taken for one.

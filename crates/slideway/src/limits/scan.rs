@@ -241,7 +241,7 @@ impl Scanner<'_> {
         if self.line(further).is_none() {
             return self.lost(near, further);
         }
-        let cause = line.cause(&next, pattern, &self.options).unwrap_or(EndCause::Locking);
+        let cause = line.cause(&next, pattern, &self.options).unwrap_or(EndCause::Singular);
         // Rounding counts for the mode: what vanishes is followed without tolerance.
         let slack = |at: f64| self.line(at).and_then(|line| line.slack(pattern, &cause, &self.options));
         let at = match (slack(inside), slack(outside)) {
@@ -252,7 +252,7 @@ impl Scanner<'_> {
         };
         let force = self.line(at).and_then(|line| line.normal_force(pattern, 0.0));
         let limit = |&n: &f64| {
-            if cause == EndCause::Locking { Limit::Infinite(n.signum()) } else { Limit::Finite(n) }
+            if cause == EndCause::Singular { Limit::Infinite(n.signum()) } else { Limit::Finite(n) }
         };
         let normal_force = force.map(|force| force.iter().map(limit).collect());
         ModeEnd { at, cause, normal_force }

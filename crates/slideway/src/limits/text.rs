@@ -139,11 +139,12 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
     let at = at.join(", ");
     match is {
         ModeEndCause::Range => "the range".to_owned(),
-        ModeEndCause::Locking => {
+        ModeEndCause::Locking | ModeEndCause::WithoutBound => {
             let growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
-            match growing.as_slice() {
-                [] => "locking".to_owned(),
-                list => format!("locking: {} without bound", list.join(", ")),
+            match (growing.as_slice(), is) {
+                ([], is) => is.in_words().to_owned(),
+                (list, ModeEndCause::Locking) => format!("locking: {} without bound", list.join(", ")),
+                (list, _) => format!("{} without bound", list.join(", ")),
             }
         }
         ModeEndCause::SideChange if several => format!("{at} change side"),

@@ -163,6 +163,16 @@ impl Model {
             .any(|used| used == wanted || self.uses(self.parameters[used].value, wanted))
     }
 
+    /// The place of the setting (`--set`, `--at`) on which these formulas depend, of several the last one; nothing
+    /// if they depend on the file alone.
+    pub(crate) fn setting_of(&self, formulas: &[FormulaId]) -> Option<Place> {
+        let parameters = self.parameters.iter().enumerate();
+        let used = parameters.filter(|(index, _)| formulas.iter().any(|&id| self.uses(id, *index)));
+        let ids = used.map(|(_, parameter)| parameter.value).chain(formulas.iter().copied());
+        let places = ids.map(|id| self.formula(id).origin.place());
+        places.filter(|place| place.source != Source::Model).max_by_key(|place| place.source)
+    }
+
     fn used_parameters(&self, formula: FormulaId) -> impl Iterator<Item = usize> + '_ {
         self.formula(formula).expression.symbols().filter_map(|(symbol, _)| match symbol {
             Symbol::Parameter(index) => Some(index),
@@ -380,7 +390,9 @@ impl Model {
                 if mu_static < mu {
                     let kind =
                         FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
-                    let place = self.formula(contact.mu_static[side]).origin.place();
+                    let formulas = [contact.mu[side], contact.mu_static[side]];
+                    let in_file = || self.formula(contact.mu_static[side]).origin.place();
+                    let place = self.setting_of(&formulas).unwrap_or_else(in_file);
                     if reported.contains(&place) {
                         continue;
                     }

@@ -12,8 +12,11 @@ pub enum ModeEndCause {
     Nothing,
     /// The range that was looked at.
     Range,
-    /// Its determinant vanishes: normal forces grow without bound.
+    /// Its determinant vanishes, so its normal forces grow without bound, and beyond there is no solution:
+    /// friction locks the mechanism.
     Locking,
+    /// Its determinant vanishes, so its normal forces grow without bound, but beyond there is another solution.
+    WithoutBound,
     /// A normal force vanishes: a contact changes side.
     SideChange,
     /// A preload gap closes.
@@ -36,6 +39,7 @@ impl ModeEndCause {
             Self::Nothing => "nothing",
             Self::Range => "range",
             Self::Locking => "locking",
+            Self::WithoutBound => "grows without bound",
             Self::SideChange => "side change",
             Self::GapCloses => "gap closes",
             Self::Tipping => "tipping",
@@ -46,11 +50,13 @@ impl ModeEndCause {
     }
 }
 
-impl From<&EndCause> for ModeEndCause {
-    fn from(cause: &EndCause) -> Self {
+impl ModeEndCause {
+    /// The cause of an end beyond which there is no solution at all, or another one.
+    pub(crate) fn new(cause: &EndCause, nothing_is_left: bool) -> Self {
         match cause {
             EndCause::Range => Self::Range,
-            EndCause::Locking => Self::Locking,
+            EndCause::Singular if nothing_is_left => Self::Locking,
+            EndCause::Singular => Self::WithoutBound,
             EndCause::SideChange(_) => Self::SideChange,
             EndCause::GapCloses(_) => Self::GapCloses,
             EndCause::OutputBound(_) => Self::Tipping,

@@ -121,7 +121,7 @@ pub struct SolveReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins_missing: Option<MarginsMissing>,
     /// Where some coordinate slows down: what the same loads do from rest in the same position; absent where
-    /// it was not asked (margins are not, drives prescribe the motion, there are many states of rest).
+    /// it was not asked (margins are not, drives prescribe the motion).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_rest: Option<FromRest>,
     /// What parameters known within bounds leave certain; absent if there are none. Everything else in the

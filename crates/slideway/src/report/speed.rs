@@ -95,6 +95,10 @@ pub enum FromRest {
     Moves,
     /// It can neither stay at rest nor begin to move with finite accelerations.
     Neither,
+    /// Rounding leaves some states of rest open.
+    Undecided,
+    /// It has more states of joints and contacts than modes for which margins are computed.
+    NotExamined,
 }
 
 impl FromRest {
@@ -107,6 +111,11 @@ impl FromRest {
             Self::MovesBack => "these loads would move it back",
             Self::Moves => "these loads would move it again",
             Self::Neither => "it could neither stay so nor begin to move",
+            Self::Undecided => "it is not decided whether these loads would move it again",
+            Self::NotExamined => {
+                "these loads may move it again or not: of so many states of joints and contacts only `slideway hold` \
+                 examines all"
+            }
         }
     }
 }

@@ -115,7 +115,7 @@ impl Text<'_> {
             self.line(&state.in_words(&self.report.model.units));
         }
         if self.report.time != 0.0 {
-            self.line(&format!("t = {} s", number(self.report.time)));
+            self.line(&format!("t = {}", model.units.of("s").show(self.report.time)));
         }
         if let Some(steps) = self.report.steps_from_drawing {
             self.line(&followed(steps));
@@ -429,6 +429,7 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {
         ModeEndCause::Locking => "locking".to_owned(),
+        ModeEndCause::WithoutBound => "its forces grow without bound".to_owned(),
         ModeEndCause::SideChange => format!("{contacts} changes side"),
         ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
         _ => "a guided slider tips".to_owned(),

@@ -1,14 +1,15 @@
 //! What the loads do with a mechanism that has slowed down and stopped.
 
 use super::margins::PATTERNS;
+use crate::fault::{Fault, FaultKind};
 use crate::model::Model;
 use crate::progress::{Callback, watched};
 use crate::report::{FromRest, SolveReport, SpeedChange};
 use crate::standstill::{HoldOptions, HoldReport, HoldVerdict, hold_within};
 
-/// Adds what the same loads do from rest, if some coordinate slows down, no drive prescribes a motion, and
-/// there are no more states of joints and contacts than modes for which margins are computed; not if the callback
-/// breaks.
+/// Adds what the same loads do from rest, if some coordinate slows down and no drive prescribes a motion; that it
+/// was not examined, if there are more states of joints and contacts than modes for which margins are computed.
+/// Not if the callback breaks.
 pub(super) fn add(report: &mut SolveReport, model: &Model, progress: &mut Callback<'_>) {
     let mut coordinates = report.solutions.iter().flat_map(|solution| &solution.coordinates);
     if coordinates.all(|coordinate| coordinate.speed != Some(SpeedChange::SlowsDown)) {
@@ -18,11 +19,19 @@ pub(super) fn add(report: &mut SolveReport, model: &Model, progress: &mut Callba
         return;
     }
     let hold = watched(progress, |work| hold_within(model, &HoldOptions::default(), PATTERNS, work));
-    let hold = hold.ok().flatten().filter(|hold| hold.undecided == 0);
-    report.from_rest = hold.map(|hold| from_rest(report, &hold));
+    report.from_rest = match hold {
+        Ok(hold) => hold.map(|hold| from_rest(report, &hold)),
+        Err(faults) => {
+            let is_too_many = |fault: &Fault| matches!(fault.kind, FaultKind::TooManyStates { .. });
+            faults.sorted().into_iter().any(is_too_many).then_some(FromRest::NotExamined)
+        }
+    };
 }
 
 fn from_rest(report: &SolveReport, hold: &HoldReport) -> FromRest {
+    if hold.undecided > 0 {
+        return FromRest::Undecided;
+    }
     match hold.verdict {
         HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed | HoldVerdict::MayHold => FromRest::Rests,
         HoldVerdict::HoldsOrSlips => FromRest::RestsOrMoves,

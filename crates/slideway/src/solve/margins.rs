@@ -10,7 +10,8 @@ use crate::modes::certificate::{
     IntervalInfluence, IntervalMatrix, IntervalModeProblem, proven_determinant_sign,
 };
 use crate::modes::existence::{
-    CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
+    CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts, is_same_end,
+    nothing_is_left,
 };
 use crate::modes::{BySide, ContactState};
 use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport};
@@ -48,7 +49,11 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         return;
     }
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {
-        solution.margin = all.end_of(&solution.pattern).map(|mode| mode_margin(mechanism, mode));
+        let margin = |mode: &ModeInterval| {
+            let nothing_is_left = nothing_is_left(&all.counts, mode.to.at, false, is_same_end);
+            mode_margin(mechanism, mode, nothing_is_left)
+        };
+        solution.margin = all.end_of(&solution.pattern).map(margin);
     }
     report.margins = Some(Margins {
         another_count: all.another_count(),
@@ -144,14 +149,14 @@ fn is_jammed(count: &CountInterval) -> bool {
     count.solutions + count.gap_states == 0
 }
 
-fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval) -> report::ModeMargin {
+fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval, nothing_is_left: bool) -> report::ModeMargin {
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
     let cause = &mode.to.cause;
     let ends_with = match cause {
         EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
-        cause => cause.into(),
+        cause => report::ModeEndCause::new(cause, nothing_is_left),
     };
     let contacts = match cause {
         EndCause::SideChange(contacts)

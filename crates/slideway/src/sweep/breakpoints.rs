@@ -85,6 +85,7 @@ pub(super) fn between(model: &Model, axis: &Axis, callback: &mut Callback<'_>) -
 fn ends(mode: &ModeLimits) -> impl Iterator<Item = (f64, Breakpoint)> {
     let cause = |cause: ModeEndCause| match cause {
         ModeEndCause::Locking => Some(Breakpoint::Locking),
+        ModeEndCause::WithoutBound => Some(Breakpoint::WithoutBound),
         ModeEndCause::SideChange => Some(Breakpoint::SideChange),
         ModeEndCause::GapCloses => Some(Breakpoint::GapCloses),
         ModeEndCause::Tipping => Some(Breakpoint::Tipping),

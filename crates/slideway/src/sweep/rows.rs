@@ -109,8 +109,11 @@ pub enum Breakpoint {
     /// An ordinary point.
     #[default]
     No,
-    /// A determinant vanishes.
+    /// A determinant vanishes, and no solution is left on the other side: friction locks the mechanism.
     Locking,
+    /// A determinant vanishes, so normal forces of a mode grow without bound; there are other solutions on
+    /// both sides.
+    WithoutBound,
     /// A normal force vanishes.
     SideChange,
     /// The preload friction has moved to one face.
@@ -123,14 +126,22 @@ pub enum Breakpoint {
 
 impl Breakpoint {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::No, Self::Locking, Self::SideChange, Self::GapCloses, Self::Tipping, Self::NotSolved];
+    pub const ALL: [Self; 7] = [
+        Self::No,
+        Self::Locking,
+        Self::WithoutBound,
+        Self::SideChange,
+        Self::GapCloses,
+        Self::Tipping,
+        Self::NotSolved,
+    ];
 
     /// Its word in tables; nothing for an ordinary point.
     pub fn word(self) -> &'static str {
         match self {
             Self::No => "",
             Self::Locking => "locking",
+            Self::WithoutBound => "without_bound",
             Self::SideChange => "side_change",
             Self::GapCloses => "gap_closes",
             Self::Tipping => "tipping",

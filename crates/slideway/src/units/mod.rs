@@ -93,12 +93,15 @@ impl TypedUnits {
     /// The unit in place of that in which most were typed, if the greatest value does not read well in that one
     /// but does in this: another that was typed, or the SI unit if it is a smaller one.
     fn suiting(&self, si: &str, greatest: f64) -> Option<Unit> {
-        let reads_well = |unit: &Unit| (LEAST..=GREATEST).contains(&unit.number_of(greatest));
-        let most = self.most(si).filter(|most| !reads_well(most))?;
+        let most = self.most(si).filter(|most| !reads_well(most, greatest))?;
         let typed = self.counts.iter().map(|(unit, _)| unit.clone()).filter(|unit| unit.si() == si);
         let smaller = (most.scale() > 1.0).then(|| Unit::si_unit(si));
-        typed.chain(smaller).find(reads_well)
+        typed.chain(smaller).find(|unit| reads_well(unit, greatest))
     }
+}
+
+fn reads_well(unit: &Unit, size: f64) -> bool {
+    (LEAST..=GREATEST).contains(&unit.number_of(size))
 }
 
 impl Units {
@@ -116,6 +119,23 @@ impl Units {
             *known = known.max(value.abs());
         }
         self.suited = greatest.into_iter().filter_map(|(si, value)| self.typed.suiting(si, value)).collect();
+        self
+    }
+
+    /// The same for a picture that shows these values of one kind: in the unit in which most of them read well, of the
+    /// present one, the others that were typed and, if it is smaller, the SI unit; of as many in the first of these.
+    #[must_use]
+    pub fn suited_to_most(mut self, si: &str, values: &[f64]) -> Self {
+        let present = self.of(si);
+        let typed = self.typed.counts.iter().map(|(unit, _)| unit.clone()).filter(|unit| unit.si() == si);
+        let smaller = (present.scale() > 1.0).then(|| Unit::si_unit(si));
+        let count = |unit: &Unit| values.iter().filter(|value| reads_well(unit, value.abs())).count();
+        let units: Vec<Unit> = std::iter::once(present).chain(typed).chain(smaller).collect();
+        // Of as many the first: `max_by_key` would give the last.
+        if let Some(best) = units.into_iter().rev().max_by_key(count) {
+            self.suited.retain(|unit| unit.si() != si);
+            self.suited.push(best);
+        }
         self
     }
 
@@ -239,6 +259,21 @@ mod tests {
         assert_eq!(si.of("N").show(5e3), "5000 N");
         // Other kinds and parameters stay as they were typed.
         assert_eq!(units(&["kN", "mm"]).suited_to([("N", 5.9)]).of("m").name(), "mm");
+    }
+
+    #[test]
+    fn pictures_have_the_unit_in_which_most_values_read_well() {
+        let unit = |typed: &[&str], values: &[f64]| {
+            units(typed).suited_to_most("N", values).of("N").name().to_owned()
+        };
+        assert_eq!(unit(&["kN"], &[1000.0, 52.3, 40.0, 7.8]), "N");
+        assert_eq!(unit(&["kN"], &[12e3, 15e3, 7.8]), "kN");
+        assert_eq!(unit(&["kN"], &[120.0, 150.0]), "kN", "of as many the present one");
+        assert_eq!(unit(&["N", "N", "kN"], &[12e3, 15e3, 7.8]), "kN");
+        assert_eq!(unit(&["N"], &[12e3]), "N", "what was not typed is no choice");
+        assert_eq!(unit(&["kN"], &[]), "kN");
+        let system = units(&["kN"]).in_system(UnitSystem::Millimetres).suited_to_most("N", &[12e3]);
+        assert_eq!(system.of("N").name(), "N");
     }
 
     #[test]

@@ -122,16 +122,6 @@ fn warning(doubt: Doubt, place: Place) -> Fault {
     Fault::new(FaultKind::Doubt(doubt), place)
 }
 
-/// The place of the setting (`--set`, `--at`) on which these formulas depend, of several the last one; nothing if
-/// they depend on the file alone.
-fn setting_of(model: &Model, formulas: &[FormulaId]) -> Option<Place> {
-    let parameters = model.parameters.iter().enumerate();
-    let used = parameters.filter(|(index, _)| formulas.iter().any(|&id| model.uses(id, *index)));
-    let ids = used.map(|(_, parameter)| parameter.value).chain(formulas.iter().copied());
-    let places = ids.map(|id| model.formula(id).origin.place());
-    places.filter(|place| place.source != Source::Model).max_by_key(|place| place.source)
-}
-
 /// The formulas that are angles.
 fn angles(model: &Model) -> Vec<FormulaId> {
     let of_along = |along: &Along| if let Along::Angle(angle) = along { Some(*angle) } else { None };
@@ -194,7 +184,7 @@ fn great_friction(model: &Model) -> Vec<Fault> {
     let one = |id: FormulaId| {
         let formula = model.formula(model.source_of(id));
         let what = formula.what.to_string();
-        let place = setting_of(model, &[id]).unwrap_or_else(|| formula.origin.place());
+        let place = model.setting_of(&[id]).unwrap_or_else(|| formula.origin.place());
         warning(Doubt::GreatFriction { what, value: number(values[id.index()]) }, place)
     };
     great.map(one).collect()
@@ -212,7 +202,7 @@ fn gap_closed(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
         JointKind::Hinge(points) => points.iter().flat_map(|point| point.position).collect(),
         JointKind::Slider(_) => Vec::new(),
     };
-    Some(warning(doubt, setting_of(model, &points).unwrap_or_else(|| joint.place.clone())))
+    Some(warning(doubt, model.setting_of(&points).unwrap_or_else(|| joint.place.clone())))
 }
 
 /// The body that is farthest from its place in the drawing, if that is far; the place is that of the coordinate
@@ -238,7 +228,7 @@ fn far_from_drawing(model: &Model, mechanism: &Mechanism, state: &State<'_>) -> 
     let distance = mechanism.units.of("m").show(distance(index));
     let doubt = Doubt::FarFromDrawing { body, distance, sizes: number(sizes) };
     let value = model.coordinates[farthest].value;
-    let place = value.map(|id| setting_of(model, &[id]).unwrap_or_else(|| model.formula(id).origin.place()));
+    let place = value.map(|id| model.setting_of(&[id]).unwrap_or_else(|| model.formula(id).origin.place()));
     let fault = |place: Option<Place>| match place {
         Some(place) => warning(doubt, place),
         None => Fault::general(FaultKind::Doubt(doubt)),

@@ -2,7 +2,7 @@
 //! ranges, and words that are true.
 
 use crate::answers::{model, parameters};
-use slideway::fault::{AxisProblem, FaultKind};
+use slideway::fault::{AxisProblem, FaultKind, Source};
 use slideway::gallery;
 use slideway::limits::{CountLimits, Known, LimitsMethod, LimitsOptions, LimitsReport, Vary, limits};
 use slideway::model::{Model, Settings};
@@ -204,6 +204,27 @@ fn rates_are_varied_in_both_directions() {
         let count = reversed.counts.iter().find(|count| count.from < expected && expected < count.to);
         assert_eq!(count.expect("an interval").solutions, solved.solutions.len());
     }
+}
+
+/// Pushed to one side of its middle line or the other the drawer has one solution. Searches leave open what is
+/// next to the line, to 1e-15 m and less, which is told as the line itself.
+#[test]
+fn what_is_told_as_one_value_is_no_gap() {
+    for (range, ends) in [("a=-0.6..0.6", [-0.6, 0.6]), ("a=0..0.6", [0.0, 0.6])] {
+        let report = with_effort(&model("drawer"), range, 800);
+        let [count] = &report.counts[..] else { panic!("{:?}", report.counts) };
+        assert_eq!((count.solutions, count.known), (1, Known::Proven));
+        assert_eq!((&count.proven[..], count.left_out()), (&[ends][..], 0.0));
+    }
+}
+
+/// Kinetic friction beyond the static one of the file is a fault of the setting that made it so.
+#[test]
+fn a_fault_that_a_setting_makes_is_placed_there() {
+    let settings = Settings::default().parameter("mu_s", "0.7").parameter("mu", "30");
+    let faults = file("sash").with(&settings).expect_err("static friction is at least kinetic friction");
+    let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
+    assert_eq!(fault.place.as_ref().expect("a place").source, Source::Setting(1));
 }
 
 #[test]

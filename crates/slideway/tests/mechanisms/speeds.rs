@@ -180,6 +180,15 @@ fn a_block_that_moves_up_an_incline_stops_and_slides_back_or_stays(
     assert!(!only(&report).friction_exceeds_loads);
 }
 
+/// Three tubes stick or slide in two directions, with two sides at each of six contacts: 27 * 64 states.
+#[test]
+fn of_many_states_of_rest_it_is_told_that_they_are_not_examined() {
+    let boom = crate::answers::report("telescopic-boom", &[("F", "0 N")]);
+    assert_eq!(boom.from_rest, Some(FromRest::NotExamined));
+    let text = boom.text(Style::Plain);
+    assert!(text.contains("only `slideway hold` examines all."), "{text}");
+}
+
 /// Moving down at mu = 0.6 > tan(30 deg) its weight pushes it, and friction takes more.
 #[test]
 fn a_block_that_moves_down_a_rough_incline_is_braked_by_friction() {

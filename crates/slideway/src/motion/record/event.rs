@@ -7,7 +7,6 @@ use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
 use crate::motion::moving::cause::Cause;
 use crate::pattern::phase::{ContactPhase, JointPhase, Phase, sliding_joints};
-use crate::report::number::number;
 use crate::solve::mode_in_words;
 use nalgebra::Vector2;
 
@@ -80,6 +79,10 @@ impl Words<'_> {
         if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
     }
 
+    fn energy(&self, energy: f64) -> String {
+        self.mechanism.units.of("J").show(energy)
+    }
+
     fn cause(&self, cause: &Cause, after: Option<&Phase>) -> Option<String> {
         let told = match cause {
             Cause::Start | Cause::PreloadGapEnds(..) => return None,
@@ -109,7 +112,7 @@ impl Words<'_> {
                 let hits =
                     format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
                 match energy_lost {
-                    Some(energy) => format!("{hits}, which dissipates {} J", number(*energy)),
+                    Some(energy) => format!("{hits}, which dissipates {}", self.energy(*energy)),
                     None => format!("{hits} in the same impact"),
                 }
             }
@@ -122,7 +125,7 @@ impl Words<'_> {
             Cause::LoadJumps(name) => format!("{name} jumps"),
             Cause::User(_, name) => format!("{name} passes zero"),
             Cause::Jams { energy_lost } => {
-                format!("it jams: an impulse stops it and dissipates {} J", number(*energy_lost))
+                format!("it jams: an impulse stops it and dissipates {}", self.energy(*energy_lost))
             }
         };
         Some(told)

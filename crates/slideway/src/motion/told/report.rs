@@ -9,7 +9,6 @@ use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, NOTHING};
 use crate::motion::record::history::{End, Energy, History, PhaseInterval};
 use crate::pattern::phase::JointPhase;
-use crate::report::number::number;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
 
@@ -393,73 +392,71 @@ fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
 /// The kind of the end for reports, and a sentence.
 fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, String) {
     let mechanism = &history.mechanism;
-    let time = number(history.stop());
+    let time = history.mechanism.units.of("s").show(history.stop());
     let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => (EndKind::Finished, finished(history, &time)),
         End::TravelLimit(id) => (
             EndKind::TravelLimit,
-            format!("It ends at {time} s, where {} reaches a limit of its travel.", joint(id)),
+            format!("It ends at {time}, where {} reaches a limit of its travel.", joint(id)),
         ),
         End::OverlapVanished(id) => {
-            (EndKind::OverlapVanished, format!("It ends at {time} s, where {} leaves its guide.", joint(id)))
+            (EndKind::OverlapVanished, format!("It ends at {time}, where {} leaves its guide.", joint(id)))
         }
         End::ReactionLimit(id) => {
             let contact = &mechanism.contacts[id.index()].name;
             let words = format!(
-                "It ends at {time} s: the normal force of {contact} has reached its limit, so the mechanism counts as locked."
+                "It ends at {time}: the normal force of {contact} has reached its limit, so the mechanism counts as locked."
             );
             (EndKind::ReactionLimit, words)
         }
         End::UserEvent(_) => (
             EndKind::UserEvent,
-            format!("It ends at {time} s, at an event that stops it: {}.", last_words(history)),
+            format!("It ends at {time}, at an event that stops it: {}.", last_words(history)),
         ),
         End::NoSuchBranch { branching } => (
             EndKind::NoSuchBranch,
-            format!(
-                "It ends at {time} s: the branch requested at decision {branching} does not exist there."
-            ),
+            format!("It ends at {time}: the branch requested at decision {branching} does not exist there."),
         ),
         End::Tips(id) => (
             EndKind::Tips,
             format!(
-                "It ends at {time} s: {} tips in its guide, which a guided slider cannot represent.",
+                "It ends at {time}: {} tips in its guide, which a guided slider cannot represent.",
                 joint(id)
             ),
         ),
         End::NoContinuation => (
             EndKind::NoContinuation,
-            format!("It ends at {time} s: at rest neither sticking nor sliding is possible."),
+            format!("It ends at {time}: at rest neither sticking nor sliding is possible."),
         ),
         End::Jammed => {
             let words = format!(
-                "It ends at {time} s: it jams, and no impulse leads to a state in which it can continue."
+                "It ends at {time}: it jams, and no impulse leads to a state in which it can continue."
             );
             (EndKind::Jammed, words)
         }
         End::Accumulation => {
-            let words = format!("It ends at {time} s, where events come closer and closer together.");
+            let words = format!("It ends at {time}, where events come closer and closer together.");
             (EndKind::Accumulation, words)
         }
         End::StepLimit => {
             let words = format!(
-                "It ends at {time} s, after the {} steps that were permitted: the equations are stiff there, or the tolerance is small.",
+                "It ends at {time}, after the {} steps that were permitted: the equations are stiff there, or the tolerance is small.",
                 options.most_steps
             );
             (EndKind::StepLimit, words)
         }
         End::EventLimit => {
             let words =
-                format!("It ends at {time} s, after the {} events that were permitted.", options.most_events);
+                format!("It ends at {time}, after the {} events that were permitted.", options.most_events);
             (EndKind::EventLimit, words)
         }
-        End::NoValue(faults) => (EndKind::NoValue, format!("It ends at {time} s: {}.", first(faults))),
+        End::NoValue(faults) => (EndKind::NoValue, format!("It ends at {time}: {}.", first(faults))),
         End::Undecided(faults) => (
             EndKind::Undecided,
-            format!("It ends at {time} s: what follows cannot be decided: {}.", first(faults)),
+            format!("It ends at {time}: what follows cannot be decided: {}.", first(faults)),
         ),
-        End::Interrupted => (EndKind::Interrupted, format!("It was interrupted at {time} s.")),
+        End::Interrupted => (EndKind::Interrupted, format!("It was interrupted at {time}.")),
     }
 }
 
@@ -477,16 +474,14 @@ fn finished(history: &History, time: &str) -> String {
     };
     match history.phases.last() {
         Some(interval) if at_rest(interval) => {
-            let from = number(interval.from);
-            format!(
-                "At {time} s the end is reached; all sliding joints have been sticking since {from} s.{jams}"
-            )
+            let from = history.mechanism.units.of("s").show(interval.from);
+            format!("At {time} the end is reached; all sliding joints have been sticking since {from}.{jams}")
         }
         _ => {
             let bodies = 3 * history.mechanism.bodies.len();
             let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
             let told = if moves { "it is still moving" } else { "nothing moves" };
-            format!("At {time} s the end is reached; {told}.{jams}")
+            format!("At {time} the end is reached; {told}.{jams}")
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use super::report::{EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
-use crate::report::number::{against, number, precise};
+use crate::report::number::{against, number};
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Report, Style, Verdict, count, followed, spaced};
+use crate::units::Unit;
 
 /// Energies below this fraction of the greatest are rounding.
 const LITTLE: f64 = 1e-13;
@@ -98,8 +99,8 @@ impl Page<'_, SimulateReport> {
             count(model.bodies, "body", "bodies"),
             count(model.contacts, "contact", "contacts"),
         ];
-        let [start, until] = [report.start, report.until].map(number);
-        self.line(&format!("{}; from {start} s to {until} s", parts.join(", ")));
+        let [start, until] = [report.start, report.until].map(|time| self.seconds().show(time));
+        self.line(&format!("{}; from {start} to {until}", parts.join(", ")));
         self.line("");
         self.state("At the start", &report.initial);
         if let Some(steps) = report.steps_from_drawing {
@@ -132,7 +133,10 @@ impl Page<'_, SimulateReport> {
         let (first, last) = if all { (events.len(), events.len()) } else { (FIRST, events.len() - LAST) };
         let shown = || events[..first].iter().chain(&events[last..]);
         let modes = shown().filter_map(|event| event.mode.as_ref()).map(|mode| spaced(mode).len());
-        let widths = (shown().map(|event| when(event).len()).max().unwrap_or(0), modes.max().unwrap_or(0));
+        let widths = (
+            shown().map(|event| when(event, &self.seconds()).len()).max().unwrap_or(0),
+            modes.max().unwrap_or(0),
+        );
         events[..first].iter().for_each(|event| self.event(event, widths));
         if !all {
             let left_out = count(last - first, "event is", "events are");
@@ -141,9 +145,14 @@ impl Page<'_, SimulateReport> {
         }
     }
 
+    /// The unit of times.
+    fn seconds(&self) -> Unit {
+        self.report.model.units.of("s")
+    }
+
     fn event(&mut self, event: &EventReport, (time, mode): (usize, usize)) {
         let pattern = event.mode.as_deref().map(spaced).unwrap_or_default();
-        self.line(&format!("  {:>time$}   {pattern:mode$}   {}", when(event), event.words));
+        self.line(&format!("  {:>time$}   {pattern:mode$}   {}", when(event, &self.seconds()), event.words));
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
             let jump = if branch.continues { "" } else { ", with a jump" };
             let text = format!(
@@ -164,22 +173,23 @@ impl Page<'_, SimulateReport> {
     fn energy(&mut self) {
         let energy = &self.report.energy;
         self.line("");
-        self.headline("Energy (J)");
+        let unit = self.report.model.units.of("J");
+        self.headline(&format!("Energy ({})", unit.name()));
         let greatest = energy.kinetic.iter().chain(&energy.potential).fold(0.0_f64, |a, b| a.max(b.abs()));
-        let shown = |value: f64| against(value, greatest);
+        let shown = |value: f64| unit.against(value, greatest);
         let [kinetic, potential] =
             [energy.kinetic, energy.potential].map(|[start, stop]| vec![shown(start), shown(stop)]);
         let mut rows = vec![row("kinetic", kinetic), row("potential", potential)];
         let mut add = |what: &str, list: &[Named]| {
             for Named { name, value } in list.iter().filter(|named| named.value.abs() > LITTLE * greatest) {
-                rows.push(row(&format!("{what} {name}"), vec![String::new(), number(*value)]));
+                rows.push(row(&format!("{what} {name}"), vec![String::new(), unit.number(*value)]));
             }
         };
         add("dissipated by friction at", &energy.friction);
         add("work of", &energy.loads);
         add("work of", &energy.drives);
         if energy.impulses != 0.0 {
-            rows.push(row("lost in impulses", vec![String::new(), number(energy.impulses)]));
+            rows.push(row("lost in impulses", vec![String::new(), unit.number(energy.impulses)]));
         }
         self.lines(&table(&["", "start", "end"], &rows, 1));
     }
@@ -187,13 +197,12 @@ impl Page<'_, SimulateReport> {
     fn quality(&mut self) {
         let report = self.report;
         self.line("");
-        let (error, part) = (report.energy.error, report.energy.relative_error);
+        let (unit, part) = (report.model.units.of("J"), report.energy.relative_error);
+        let error = unit.with(&format!("{:.1e}", unit.number_of(report.energy.error)));
         self.line(&match part {
-            _ if error == 0.0 => "The energy balance closes.".to_owned(),
-            Some(part) => {
-                format!("The energy balance closes to {error:.1e} J, {part:.1e} of the greatest term.")
-            }
-            None => format!("The energy balance closes to {error:.1e} J."),
+            _ if report.energy.error == 0.0 => "The energy balance closes.".to_owned(),
+            Some(part) => format!("The energy balance closes to {error}, {part:.1e} of the greatest term."),
+            None => format!("The energy balance closes to {error}."),
         });
         self.line(&format!(
             "Joints had drifted by at most {:.1e} of the size of the mechanism before each correction.",
@@ -202,10 +211,10 @@ impl Page<'_, SimulateReport> {
         let statistics = &report.statistics;
         if let Some(sampled) = &statistics.sampled {
             self.line(&format!(
-                "For a total of {} s joints stuck under loads that change with time without a proof that they can: this was checked four \
-                 times in each step, the longest of {} s.",
-                number(sampled.time),
-                number(sampled.longest_step)
+                "For a total of {} joints stuck under loads that change with time without a proof that they can: this was checked four \
+                 times in each step, the longest of {}.",
+                self.seconds().show(sampled.time),
+                self.seconds().show(sampled.longest_step)
             ));
         }
         self.line(&format!(
@@ -219,8 +228,8 @@ impl Page<'_, SimulateReport> {
     }
 }
 
-fn when(event: &EventReport) -> String {
-    format!("{} s", precise(event.time))
+fn when(event: &EventReport, unit: &Unit) -> String {
+    unit.precise(event.time)
 }
 
 fn row(name: &str, mut values: Vec<String>) -> Vec<String> {
