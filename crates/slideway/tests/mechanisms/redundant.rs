@@ -5,7 +5,7 @@ use crate::random_mechanisms::cases;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use serde::Deserialize;
-use slideway::report::{Proof, Report, SolveReport, Style, Verdict};
+use slideway::report::{Fate, Proof, Report, SolveReport, Style, Verdict};
 use std::fmt::Write as _;
 
 const REFERENCE: &str = include_str!("../../../../reference/redundant.toml");
@@ -275,6 +275,33 @@ fn the_reference_cases_have_their_solutions() {
     {
         check(case);
     }
+}
+
+/// Theory of redundant guides, section 4: left rail tight, mu = 1. A stiff simulation returned from 0.95 of the tilt
+/// of the wedged state, and jammed from 1.05.
+#[test]
+fn the_wedged_state_is_the_threshold_to_jamming() {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    let case = reference.case.iter().find(|case| case.name == "drawer_left_rail_tight").unwrap();
+    let report = report_on(&case.text());
+    let wedged = report.solutions.iter().find(|solution| !solution.pattern.contains('0')).unwrap();
+    let sliding = report.solutions.iter().position(|solution| solution.pattern.contains('0')).unwrap();
+    let mut fates = wedged.attainability.separates.unwrap();
+    fates.sort_by_key(|fate| *fate == Fate::Jamming);
+    assert_eq!(fates, [Fate::Solution(sliding + 1), Fate::Jamming]);
+}
+
+/// Nothing presses: the block floats.
+#[test]
+fn an_unloaded_block_floats_in_one_state() {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    let mut case = reference.case.into_iter().find(|case| case.name == "drawer_left_rail_tight").unwrap();
+    case.drives[0].at[1] = 0.0;
+    let report = report_on(&case.text());
+    assert_eq!(report.solutions.len(), 1, "{}", text(&report));
+    assert_eq!(report.solutions[0].floating.len(), 4);
+    assert!(report.solutions[0].contacts.iter().all(|contact| contact.deflection.is_none()));
+    assert!(text(&report).contains("Floats within its play"));
 }
 
 /// A rigid body that slides along x on rails along x: contacts at (x, y) with their law.
