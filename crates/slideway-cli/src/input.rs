@@ -11,7 +11,7 @@ use slideway::gallery;
 use slideway::limits::Vary;
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
 use slideway::units::UnitSystem;
-use slideway::warning::warnings;
+use slideway::warning::{ranges_at_middle, warnings};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -56,6 +56,18 @@ impl Input {
     /// # Errors
     /// All faults of both; the warnings if they are to be errors.
     pub(crate) fn model(&self) -> Result<Model, Failure> {
+        let model = self.model_without_warnings()?;
+        let mut all = warnings(&model);
+        all.append(ranges_at_middle(&model));
+        self.warn(all)?;
+        Ok(model)
+    }
+
+    /// The same for who answers for whole ranges of parameters.
+    ///
+    /// # Errors
+    /// As [`Input::model`].
+    pub(crate) fn model_within_bounds(&self) -> Result<Model, Failure> {
         let model = self.model_without_warnings()?;
         self.warn(warnings(&model))?;
         Ok(model)

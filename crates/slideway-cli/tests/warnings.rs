@@ -42,6 +42,7 @@ told! {
     far_from_drawing: 0 ["solve", LONG, "--at", "out=100 m"];
     great_friction: 1 ["solve", DRAWER, "--set", "mu=30"];
     nothing_presses: 0 ["size", "models/drawer.toml", "--set", "Q=0 N", "--vary", "L=200 mm..400 mm", "--margin", "2"];
+    range_at_middle: 0 ["limits", DRAWER, "--set", "mu=0.14..0.26", "--vary", "a=100 mm..200 mm"];
     strict: 2 ["solve", DRAWER, "--set", "depth=450", "--strict"];
     strict_range: 2 ["limits", DRAWER, "--vary", "depth=0.2..450 mm", "--strict"];
     strict_without_warnings: 0 ["solve", DRAWER, "--strict"];

@@ -13,7 +13,7 @@ use slideway::solve::{SolveOptions, solve_with};
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model, output.color())?;
-    let model = input.model()?;
+    let model = input.model_within_bounds()?;
     let search = &arguments.search;
     let options = SolveOptions::default().search(search.options()).most(search.max_solutions);
     let mut watch = Watch::new(arguments.search.time.time_limit);

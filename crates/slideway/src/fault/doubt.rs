@@ -23,6 +23,10 @@ pub enum Doubt {
     GreatFriction { what: String, value: String },
     #[error("nothing presses any guide: all contact forces are zero, and friction has nothing to act on")]
     NothingPresses,
+    #[error(
+        "{name} is known from {from} to {to}: where one value is needed, this takes the middle, {middle}"
+    )]
+    RangeAtMiddle { name: String, from: String, to: String, middle: String },
 }
 
 impl Doubt {
@@ -36,6 +40,7 @@ impl Doubt {
             Self::FarFromDrawing { .. } => "far_from_drawing",
             Self::GreatFriction { .. } => "great_friction",
             Self::NothingPresses => "nothing_presses",
+            Self::RangeAtMiddle { .. } => "range_at_middle",
         }
     }
 
@@ -56,6 +61,9 @@ impl Doubt {
             Self::GreatFriction { .. } => {
                 "if a percentage is meant, write its sign: `30 %` is 0.3".to_owned()
             }
+            Self::RangeAtMiddle { name, from, to, .. } => format!(
+                "`slideway solve` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`"
+            ),
             Self::NothingPresses => {
                 "whether it jams can only be told under a load: add the resistance, the weight \
                 or the acceleration that the drive works against"

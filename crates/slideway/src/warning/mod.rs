@@ -103,6 +103,21 @@ pub fn warnings(model: &Model) -> Faults {
     found
 }
 
+/// A warning for each parameter that is known within bounds: only [`crate::solve`] tells what holds for all of
+/// them, other questions take their middle.
+pub fn ranges_at_middle(model: &Model) -> Faults {
+    let mut found = Faults::default();
+    for range in model.ranges().unwrap_or_default() {
+        let Some(parameter) = model.parameters.iter().find(|parameter| *parameter.name == *range.name) else {
+            continue;
+        };
+        let [from, to, middle] = [range.from, range.to, range.middle].map(|value| range.shown_in.show(value));
+        let place = model.formula(parameter.value).origin.place();
+        found.push(warning(Doubt::RangeAtMiddle { name: range.name, from, to, middle }, place));
+    }
+    found
+}
+
 /// A driven mechanism without any contact force: whatever the friction, it seems to move. The forces are exactly
 /// zero, as nothing on the right-hand side of the equations is not.
 fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {

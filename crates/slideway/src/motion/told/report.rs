@@ -508,9 +508,11 @@ fn energy(history: &History) -> EnergyReport {
     let contacts = mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect();
     let loads = mechanism.loads.iter().map(|load| load.name.to_string()).collect();
     let drives = mechanism.drives.iter().map(|drive| drive.name.to_string()).collect();
+    // A motion that ends where it begins has no sample: nothing has changed.
+    let from = |start: f64, of: fn(&Energy) -> f64| [start, stop.as_ref().map_or(start, of)];
     EnergyReport {
-        kinetic: [kinetic(mechanism, initial), last(|energy| energy.kinetic)],
-        potential: [potential(mechanism, initial), last(|energy| energy.potential)],
+        kinetic: from(kinetic(mechanism, initial), |energy| energy.kinetic),
+        potential: from(potential(mechanism, initial), |energy| energy.potential),
         friction: named(contacts, |energy| &energy.friction),
         loads: named(loads, |energy| &energy.loads),
         drives: named(drives, |energy| &energy.drives),
