@@ -120,7 +120,7 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &
         };
         let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
         let verdict = match (one, other) {
-            (true, true) => "it can move in both directions, so it can oscillate".to_owned(),
+            (true, true) => "it can move in both directions".to_owned(),
             (true, false) => format!("it can only move as in the model; in the opposite direction {locked}"),
             (false, true) => {
                 format!(

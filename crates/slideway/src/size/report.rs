@@ -223,7 +223,8 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         guarantee: words::guarantee(*range, *steps, against, &question.varied.shown_in),
         conclusion: Vec::new(),
     };
-    report.conclusion = Words { report: &report, places: &found.places }.conclusion();
+    report.conclusion =
+        Words { report: &report, places: &found.places, driven: !model.drives.is_empty() }.conclusion();
     report
 }
 

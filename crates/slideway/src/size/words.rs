@@ -14,7 +14,12 @@ const SAME: f64 = 1e-9;
 pub(super) struct Words<'r> {
     pub(super) report: &'r SizeReport,
     pub(super) places: &'r [Tried],
+    /// Whether a drive prescribes the motion.
+    pub(super) driven: bool,
 }
+
+/// What a margin against locking does not count.
+const ONLY_SLOWS: &str = "No drive prescribes the motion: where friction takes more than the loads give, it slows the motion down to a stop, which is no locking. To ask whether it jams under a push, prescribe the motion (a drive) or see `slideway hold`.";
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
     let (wanted, level) =
@@ -32,6 +37,9 @@ impl Words<'_> {
         let mut sentences = vec![self.answer()];
         sentences.push(self.present());
         sentences.extend(self.constant());
+        if !self.driven && self.report.against == MarginKind::Locking {
+            sentences.push(ONLY_SLOWS.to_owned());
+        }
         let report = self.report;
         for gap in &report.without_position {
             let told = no_answer([gap.from, gap.to], &report.vary.shown_in, &gap.reason);
