@@ -590,7 +590,9 @@ impl FaultKind {
             Self::NotFollowed { .. } => Some(
                 "this is a dead centre of the coordinates or a point where branches meet: draw the mechanism beyond it, or choose coordinates that continue there",
             ),
-            Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
+            Self::NoFreedom => Some(
+                "a mechanism needs at least one motion; remove a joint or constraint, or draw guides parallel that are meant to be: how far they are off is their `misalignment`",
+            ),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
