@@ -17,6 +17,7 @@
 use crate::answers::{assert_close, contact, model, only, parameters, report, report_with};
 use nalgebra::{matrix, vector};
 use rstest::rstest;
+use slideway::fault::FaultKind;
 use slideway::gallery;
 use slideway::limits::{CountLimits, LimitsOptions, limits};
 use slideway::model::{Model, Settings};
@@ -138,6 +139,24 @@ fn rails_that_converge_brake(#[case] bend: &str, #[case] excess: f64) {
     assert!(!report.solutions.is_empty());
     for solution in &report.solutions {
         assert_close(effort(solution), Q + 2.0 * MU * 50e3 * excess, Q, 1e-12);
+    }
+}
+
+/// The self-stress of both rear contacts, and of both front ones, is (1, -1): rigid rails can be assembled as long as
+/// `2 eps <= delta_L + delta_R`.
+#[test]
+fn rigid_rails_that_converge_by_more_than_their_play_cannot_be_assembled() {
+    let solved = |bend: &str| solve(&set(&rigid(), &[&[("eps", bend)]]));
+    assert_eq!(only(&solved("0.1999 mm").unwrap()).pattern, "+-00");
+    // Without a load the drawer floats.
+    assert!(solve(&set(&rigid(), &[&[("eps", "0.1 mm"), ("Q", "0 N")]])).is_ok());
+    for bend in ["0.2001 mm", "1 mm", "-1 mm"] {
+        let faults = solved(bend).unwrap_err();
+        let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
+        assert!(
+            matches!(kinds.as_slice(), [FaultKind::OutOfLine { contacts }] if contacts.len() == 4),
+            "{faults}"
+        );
     }
 }
 
