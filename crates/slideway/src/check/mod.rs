@@ -355,7 +355,7 @@ fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySumma
         constraints: mobility.constraints,
         independent: mobility.independent,
         degrees_of_freedom: mobility.degrees_of_freedom(),
-        determinate: redundancy.is_none(),
+        determinate: redundancy.is_none() && mechanism.excess.is_empty(),
         singular_position: redundancy.is_some_and(|redundancy| redundancy.only_here),
         joints_in_excess: redundancy.map_or(vec![], |r| r.joints.iter().map(name).collect()),
         suggestion: redundancy.and_then(|redundancy| redundancy.suggestion.clone()),
