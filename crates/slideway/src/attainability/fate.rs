@@ -217,7 +217,7 @@ impl<'p> FastMotion<'p> {
         if greatest > BEYOND * scale {
             return Some(End::Beyond);
         }
-        let rates = self.of_gaps(&self.rates(state));
+        let rates = self.of_gaps(&rates(state));
         let is_near = |target: &Rest<'_>| {
             let distance = NEAR * (target.normal_force - from.normal_force).amax();
             (0..states.len()).all(|k| {
@@ -228,11 +228,6 @@ impl<'p> FastMotion<'p> {
             })
         };
         targets.iter().position(is_near).map(End::Target)
-    }
-
-    fn rates(&self, state: &DVector<f64>) -> DVector<f64> {
-        let gaps = (state.len() - 1) / 2;
-        state.rows(gaps, gaps).into_owned()
     }
 
     /// g + delta g' of a contact.
@@ -308,6 +303,12 @@ impl<'p> FastMotion<'p> {
         powers.reverse();
         Steps { powers }
     }
+}
+
+/// g' of a state (g, g', 1).
+fn rates(state: &DVector<f64>) -> DVector<f64> {
+    let gaps = (state.len() - 1) / 2;
+    state.rows(gaps, gaps).into_owned()
 }
 
 /// exp of a small matrix by its series.

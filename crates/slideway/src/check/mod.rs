@@ -429,7 +429,7 @@ fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: boo
         preload: contact.preload,
         sliding_velocity: assembled
             .then(|| configuration.contact(mechanism, ContactId(index)).sliding_velocity),
-        fit: mechanism.excess.shares(ContactId(index)).then(|| ContactFit {
+        fit: mechanism.excess.shares(ContactId(index)).then_some(ContactFit {
             play: contact.play,
             misalignment: contact.misalignment,
             stiffness: contact.stiffness,

@@ -158,12 +158,9 @@ impl<'a> Answer<'a> {
     fn keep(&self, state: &State<'_>, states: &mut States, tipping: &mut Tipped) {
         for faces in self.faces(state) {
             let kept = self.kept(&faces.state(state), tipping);
-            if !self.mechanism.excess.open.is_solution(faces.states()) {
-                &mut states.gaps
-            } else {
-                &mut states.solutions
-            }
-            .extend(kept);
+            let is_solution = self.mechanism.excess.open.is_solution(faces.states());
+            let kind = if is_solution { &mut states.solutions } else { &mut states.gaps };
+            kind.extend(kept);
         }
     }
 

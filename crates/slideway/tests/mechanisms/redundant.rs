@@ -64,7 +64,8 @@ struct Contact {
 struct Force {
     body: String,
     at: [f64; 2],
-    force: [f64; 2],
+    #[serde(rename = "force")]
+    components: [f64; 2],
 }
 
 #[derive(Deserialize)]
@@ -166,7 +167,7 @@ impl Case {
             writeln!(
                 text,
                 "[loads.load{index}]\ntype = \"force\"\nat = \"{}.load{index}\"\ncomponents = [{}, {}]",
-                force.body, force.force[0], force.force[1]
+                force.body, force.components[0], force.components[1]
             )
             .unwrap();
         }
@@ -348,7 +349,7 @@ impl Carriage {
         );
         for (rail, pads) in self.contacts.chunks(self.per_rail()).enumerate() {
             let (y, half) = self.rails[rail];
-            let (middle, length) = ((pads[0].x + pads[1].x) / 2.0, pads[0].x - pads[1].x);
+            let (middle, length) = (f64::midpoint(pads[0].x, pads[1].x), pads[0].x - pads[1].x);
             writeln!(
                 text,
                 "[joints.rail{rail}]\ntype = \"block_slider\"\nblock = \"body\"\nat = [{middle}, {y}]\nalong = 0\nlength = {length}\nheight = {}\npreload_line = \"centre\"",
@@ -424,7 +425,11 @@ impl Carriage {
                 }
             });
             if fits {
-                let sign = |state: &i8| ['-', '0', '+'][(state + 1) as usize];
+                let sign = |state: &i8| match state {
+                    0 => '0',
+                    1.. => '+',
+                    _ => '-',
+                };
                 found.push((
                     states.iter().map(sign).collect::<String>(),
                     (0..count).map(|k| solution[1 + k]).collect::<Vec<f64>>(),
