@@ -42,8 +42,8 @@ fn set(model: &Model, lists: &[&[(&str, &str)]]) -> Model {
 /// The drawer with rigid faces.
 fn rigid() -> Model {
     let text = gallery::find(DRAWER).unwrap().text;
-    let lines = text.lines().filter(|line| !line.starts_with("stiffness = "));
-    Model::parse(&lines.map(|line| format!("{line}\n")).collect::<String>()).unwrap()
+    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with("stiffness = ")).collect();
+    Model::parse(&lines.join("\n")).unwrap()
 }
 
 /// Numbers of solutions over the friction coefficient, with the ends of their intervals.
@@ -262,7 +262,7 @@ fn the_carriage_runs_on_the_rod_that_fits() {
     let sum = (a * along - mu * across * diameter / 2.0) / (length / 2.0 + mu * (distance / 2.0 - a));
     let solution = only(&report);
     assert_eq!(solution.pattern, "+-00");
-    assert_close(contact(solution, "near.front").normal_force, (sum + across) / 2.0, along, 1e-12);
+    assert_close(contact(solution, "near.front").normal_force, f64::midpoint(sum, across), along, 1e-12);
     assert_close(contact(solution, "near.rear").normal_force, (across - sum) / 2.0, along, 1e-12);
     assert_close(effort(solution), along + mu * sum, along, 1e-12);
 }
