@@ -8,7 +8,7 @@ use slideway::model::Model;
 use slideway::solve::solve;
 use slideway::sweep::{Sweep, SweepOptions};
 
-const POINTS: u64 = 20_000;
+const POINTS: u64 = 2_000;
 /// A drawer on two rails, 2 redundancies; a boom of two stages.
 const NAMES: [&str; 2] = ["drawer-on-two-rails", gallery::TELESCOPIC_BOOM];
 
