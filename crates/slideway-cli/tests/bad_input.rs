@@ -45,6 +45,7 @@ macro_rules! refused {
 
 const DRAWER: &str = "models/drawer.toml";
 const KLEPP: &str = "models/klepp-2002.toml";
+const RAILS: &str = "models/drawer-on-two-rails.toml";
 
 refused! {
     absent_file: ["solve", "nowhere/drawing.toml"];
@@ -59,6 +60,8 @@ refused! {
     massless_bracket: ["solve", "models/bracket-on-pole.toml"];
     overlap_vanished: ["solve", DRAWER, "--at", "x=-0.5 m"];
     overlap_of_the_boom_vanished: ["solve", "models/telescopic-boom.toml", "--at", "s_2=70 cm"];
+    rails_in_time: ["simulate", RAILS, "--until", "1 s"];
+    rails_at_rest: ["hold", RAILS];
     at_rest: ["solve", KLEPP, "--rate", "q=0"];
     dead_centre: ["solve", "models/slider-crank.toml", "--at", "phi=0"];
     rod_too_short: ["solve", "models/slider-crank.toml", "--set", "l=45 mm", "--at", "phi=90 deg"];

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use divan::Bencher;
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::certificate::IntervalModeProblem;
-use slideway_modes::{ModeProblem, SearchOptions, SearchResult, search};
+use slideway_modes::{ModeProblem, SearchOptions, SearchResult, SharedLoad, search};
 
 fn main() {
     divan::main();
@@ -79,6 +79,32 @@ fn low_rank(contacts: usize, rank: usize) -> ModeProblem {
     ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
 }
 
+/// Contacts that share a load: as many self-stresses as cut contacts, which are the last ones, and friction that is
+/// small enough for one solution.
+fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
+    let mut random = random_numbers(3);
+    let kept = contacts - self_stresses;
+    let mut matrix = |width: usize, factor: f64| DMatrix::from_fn(contacts, width, |_, _| factor * random());
+    let (eta, stress) = (matrix(contacts, 0.3 / contacts as f64), matrix(self_stresses, 1.0));
+    let identity = DMatrix::identity(contacts, contacts);
+    let eta = DMatrix::from_fn(contacts, contacts, |row, k| if row < kept { eta[(row, k)] } else { 0.0 });
+    let load = DVector::from_fn(contacts, |row, _| if row < kept { 10.0 * random() } else { 0.0 });
+    let none = DMatrix::zeros(contacts, contacts);
+    let determinate =
+        ModeProblem::new(&identity - &eta, -identity - &eta, none.clone(), none, load).expect("shapes fit");
+    let shared = SharedLoad {
+        cut: (kept..contacts).collect(),
+        self_stress: DMatrix::from_fn(contacts, self_stresses, |row, column| match row.checked_sub(kept) {
+            None => stress[(row, column)],
+            Some(cut) => f64::from(u8::from(cut == column)),
+        }),
+        compliance: DVector::from_fn(contacts, |_, _| 1e-5 * (1.0 + 0.5 * random())),
+        clearance: DVector::from_fn(contacts, |_, _| 1e-4 * (1.0 + 0.5 * random())),
+        misalignment: DVector::from_fn(contacts, |_, _| 1e-4 * random()),
+    };
+    determinate.with_shared_load(&shared).expect("shapes fit")
+}
+
 /// Every pattern is tried.
 #[divan::bench(args = [2, 3, 5, 8])]
 fn complementarity_small(bencher: Bencher<'_, '_>, contacts: usize) {
@@ -118,6 +144,13 @@ fn planted_40_strength_1(bencher: Bencher<'_, '_>, seed: u64) {
 #[divan::bench(args = [1, 2, 3], sample_count = 1, sample_size = 1)]
 fn complementarity_40(bencher: Bencher<'_, '_>, seed: u64) {
     let problem = planted_complementarity(40, seed);
+    bencher.bench_local(|| solve(&problem));
+}
+
+/// 16 contacts with 10 self-stresses, three states each.
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn redundant_16_with_10_self_stresses(bencher: Bencher<'_, '_>) {
+    let problem = redundant(16, 10);
     bencher.bench_local(|| solve(&problem));
 }
 

@@ -21,9 +21,12 @@ MODELS = sorted(slideway.gallery_models())
 DIMENSIONS = {
     "bracket-on-pole": ("x", "250 mm", "350 mm"),
     "cam-follower": ("A", "40 mm", "60 mm"),
+    "carriage-on-two-rods": ("L", "50 mm", "70 mm"),
     "drawer": ("L", "300 mm", "500 mm"),
+    "drawer-on-two-rails": ("L", "300 mm", "500 mm"),
     "elliptic-trammel": ("m", "1 kg", "3 kg"),
     "frictional-oscillator": ("k", "200 N/m", "300 N/m"),
+    "gate-on-two-posts": ("L", "0.9 m", "1.1 m"),
     "klepp-2002": ("alpha", "70 deg", "85 deg"),
     "klepp-2002-spring": ("alpha", "70 deg", "85 deg"),
     "painleve-klein": ("phi", "20 deg", "40 deg"),
@@ -35,6 +38,7 @@ DIMENSIONS = {
     "stick-slip": ("k", "80 N/m", "120 N/m"),
     "stribeck-belt": ("m", "0.8 kg", "1.2 kg"),
     "telescopic-boom": ("L", "0.9 m", "1.1 m"),
+    "three-pad-telescope": ("L", "0.7 m", "0.9 m"),
     "thrown-drawer": ("m", "4 kg", "6 kg"),
     "wedge": ("alpha", "10 deg", "20 deg"),
 }

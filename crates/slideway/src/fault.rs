@@ -362,6 +362,8 @@ pub enum FaultKind {
     PressFit { contacts: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
+    #[error("the guides cannot be assembled: {} are out of line by more than their play", listed(contacts))]
+    OutOfLine { contacts: Vec<String> },
     #[error("the redundant guides do not fit together: {joint} is off by {gap}")]
     GuidesDoNotFit { joint: String, gap: String },
     #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
@@ -518,6 +520,9 @@ impl FaultKind {
                     .to_owned(),
             ),
             Self::PressFit { .. } => Some("give a play of zero or more".to_owned()),
+            Self::OutOfLine { .. } => Some(
+                "give more play or less misalignment, or the `stiffness` of their faces, which yield then".to_owned(),
+            ),
             Self::GuidesDoNotFit { .. } => Some(
                 "draw the guides as they should be, parallel and in line, and give what they are off by as `misalignment` of their contacts"
                     .to_owned(),
@@ -590,7 +595,9 @@ impl FaultKind {
             Self::NotFollowed { .. } => Some(
                 "this is a dead centre of the coordinates or a point where branches meet: draw the mechanism beyond it, or choose coordinates that continue there",
             ),
-            Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
+            Self::NoFreedom => Some(
+                "a mechanism needs at least one motion; remove a joint or constraint, or draw guides parallel that are meant to be: how far they are off is their `misalignment`",
+            ),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }

@@ -7,14 +7,23 @@ pub struct GalleryModel {
     pub name: &'static str,
     /// The text of its file.
     pub text: &'static str,
+    /// Whether its guides are redundant: its motion in time and whether it holds at rest are not computed.
+    pub redundant: bool,
 }
 
 macro_rules! gallery {
-    ($($name:literal),* $(,)?) => {
-        &[$(GalleryModel {
+    ($($name:literal),* ; redundant: $($redundant:literal),* $(,)?) => {
+        &[
+            $(gallery!(@model $name, false),)*
+            $(gallery!(@model $redundant, true),)*
+        ]
+    };
+    (@model $name:literal, $redundant:literal) => {
+        GalleryModel {
             name: $name,
             text: include_str!(concat!("../models/", $name, ".toml")),
-        }),*]
+            redundant: $redundant,
+        }
     };
 }
 
@@ -37,7 +46,12 @@ pub const MODELS: &[GalleryModel] = gallery![
     "stick-slip",
     "stribeck-belt",
     "thrown-drawer",
-    "soft-closing-drawer",
+    "soft-closing-drawer";
+    redundant:
+    "drawer-on-two-rails",
+    "carriage-on-two-rods",
+    "gate-on-two-posts",
+    "three-pad-telescope",
 ];
 
 impl GalleryModel {

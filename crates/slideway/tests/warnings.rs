@@ -93,6 +93,11 @@ fn friction_above_two_is_rare() {
 #[test]
 fn a_drive_against_nothing_says_nothing_about_jamming() {
     assert_eq!(names(&of_text(&drawer().replace("Q = \"20 N\"", "Q = \"0 N\""))), ["nothing_presses"]);
+    let idle =
+        gallery::find("drawer-on-two-rails").expect("in the gallery").text.replace("\"10 N\"", "\"0 N\"");
+    // Rails without a load press nothing, unless they are bent.
+    assert_eq!(names(&of_text(&idle)), ["nothing_presses"]);
+    assert_eq!(of_text(&idle.replace("eps = \"0 mm\"", "eps = \"0.3 mm\"")), []);
     assert_eq!(of_text(drawer()), []);
     // A preload rubs, too.
     let preloaded = drawer().replace("mu = \"mu\"", "mu = \"mu\"\npreload = \"1 N\"");

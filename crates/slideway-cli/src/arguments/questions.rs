@@ -21,6 +21,8 @@ How long must the guide be?        size --vary L --margin 2
     with a drive.
 Up to which friction?              limits --vary mu
     With a drive: where it jams. With a load: where it no longer speeds up but slows down.
+Which of two rails carries?        solve
+    Give play, stiffness and misalignment of the contacts.
 How does it move over time?        simulate
 Where in a plane of quantities?    map --colour-by solutions, or motion, or hold
 

@@ -307,9 +307,13 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
             Ok(equations) => {
                 condition = Some(equations.condition());
                 let influence = Influence::new(&equations);
-                sharing = load_sharing(&mechanism, &influence).ok().flatten();
-                if let Ok(signs) = &signs {
-                    keep(mode_problem(&mechanism, &influence, signs).map(|_| ()));
+                match (load_sharing(&mechanism, &influence), &signs) {
+                    (Err(found), _) => keep(Err(found)),
+                    (Ok(found), Ok(signs)) => {
+                        sharing = found;
+                        keep(mode_problem(&mechanism, &influence, signs).map(|_| ()));
+                    }
+                    (Ok(found), Err(_)) => sharing = found,
                 }
             }
             Err(found) => keep(Err(found)),

@@ -56,8 +56,12 @@ impl Mobility {
         let redundancy = (independent < constraints).then(|| {
             let joints = joints_in_excess(&equations, tolerance);
             let only_here = is_singular_position(mechanism, &configuration.poses, independent);
-            let suggestion =
-                if only_here { None } else { suggestion(mechanism, &equations, &joints, independent) };
+            let suggestions = [
+                suggestion(mechanism, &equations, &joints, independent),
+                block_sliders_instead(mechanism, &joints),
+            ];
+            let suggestions: Vec<String> = suggestions.into_iter().flatten().collect();
+            let suggestion = (!only_here && !suggestions.is_empty()).then(|| suggestions.join("; "));
             Redundancy { joints, suggestion, only_here }
         });
         Self { body_coordinates, constraints, independent, redundancy }
@@ -229,6 +233,22 @@ fn suggestion(
     })?;
     let words: Vec<String> = changes.iter().map(|change| change.in_words(mechanism)).collect();
     Some(format!("for instance {}", words.join(", and ")))
+}
+
+/// What would let the joints share their load: block sliders where guided ones lock the rotation rigidly. Of sliders
+/// alone that leaves no self-stress without a contact: the rows of a block slider's contacts are combinations of those
+/// of the guided one.
+fn block_sliders_instead(mechanism: &Mechanism, joints: &[JointId]) -> Option<String> {
+    let sliders = joints.iter().map(|joint| mechanism.slider(*joint)).collect::<Option<Vec<_>>>()?;
+    let guided: Vec<String> = joints
+        .iter()
+        .zip(sliders)
+        .filter(|(_, slider)| slider.kind == SliderKind::Guided)
+        .map(|(joint, _)| mechanism.joints[joint.index()].name.to_string())
+        .collect();
+    let names = guided.join(" and ");
+    (!guided.is_empty())
+        .then(|| format!("block sliders instead of {names} share the load by play and stiffness"))
 }
 
 impl Change {

@@ -3,13 +3,13 @@
 use super::mode_problem::{determinate_problem, self_stresses};
 use super::stages::Stages;
 use crate::attainability::ratios;
-use crate::fault::Faults;
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::{Limits, ModeProblem, SharedLoad, enumerate};
+use crate::modes::{Limits, ModeProblem, SharedLoad, SolutionSet, enumerate};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
 use crate::sharing::{elasticity, groups, shared_load};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
 /// Adds what is said of redundant guides to a report; nothing for determinate mechanisms. Other stiffnesses are
@@ -26,7 +26,7 @@ pub(super) fn add(report: &mut SolveReport, stages: &Stages, ratios: bool) -> Re
 /// How redundant guides share their load; none if nothing is in excess.
 ///
 /// # Errors
-/// Nothing says how.
+/// Nothing says how, or rigid guides are out of line by more than their play.
 pub(crate) fn load_sharing(
     mechanism: &Mechanism,
     influence: &Influence,
@@ -34,12 +34,42 @@ pub(crate) fn load_sharing(
     let stresses = self_stresses(influence);
     let Some(shared) = shared_load(mechanism, stresses.clone())? else { return Ok(None) };
     let name = |k: &usize| mechanism.contacts[*k].name.to_string();
+    let elasticity = elasticity(mechanism, &stresses)?;
+    if elasticity == Elasticity::Rigid && cannot_be_assembled(influence, &shared) {
+        let sharing = (0..mechanism.contacts.len()).filter(|&k| shared.shares(k));
+        let kind = FaultKind::OutOfLine { contacts: sharing.map(|k| name(&k)).collect() };
+        let joint = mechanism.contacts[shared.cut[0]].joint;
+        return Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into());
+    }
     Ok(Some(LoadSharing {
         self_stresses: shared.cut.len(),
         groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
-        elasticity: elasticity(mechanism, &stresses)?,
+        elasticity,
         stiffness_ratios: None,
     }))
+}
+
+/// Whether rigid faces leave no room for the guides: then, and only then, the minimum of
+/// `sum delta |N| - e^T N` over all normal forces in equilibrium without friction is not bounded, and there is no
+/// frictionless state either.
+fn cannot_be_assembled(influence: &Influence, shared: &SharedLoad) -> bool {
+    let frictionless = influence.normal_forces();
+    let (one, none) = (
+        DMatrix::identity(frictionless.len(), frictionless.len()),
+        DMatrix::zeros(frictionless.len(), frictionless.len()),
+    );
+    let problem = ModeProblem::new(one.clone(), -one, none.clone(), none, frictionless);
+    let found = problem
+        .and_then(|problem| problem.with_shared_load(shared))
+        .ok()
+        .and_then(|problem| enumerate(&problem, &Limits::default()).ok());
+    found.is_some_and(|found| {
+        found.is_complete()
+            && found.solutions.is_empty()
+            && found.gaps.is_empty()
+            && found.undecided.is_empty()
+            && found.singular.iter().all(|mode| matches!(mode.set, SolutionSet::Empty))
+    })
 }
 
 /// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if there are too

@@ -119,12 +119,17 @@ pub fn ranges_at_middle(model: &Model) -> Faults {
 }
 
 /// A driven mechanism without any contact force: whatever the friction, it seems to move. The forces are exactly
-/// zero, as nothing on the right-hand side of the equations is not.
+/// zero, as nothing on the right-hand side of the equations is not. Redundant guides that are out of line press by
+/// themselves.
 fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
     let is_rough = |contact: &Contact| contact.mu != [0.0; 2];
     let rubs = |contact: &Contact| contact.preload != [0.0; 2];
     let contacts = &mechanism.contacts;
     if mechanism.drives.is_empty() || !contacts.iter().any(is_rough) || contacts.iter().any(rubs) {
+        return None;
+    }
+    let is_displaced = |contact: &Contact| contact.misalignment != 0.0 || contact.misalignment_law.is_some();
+    if !mechanism.excess.is_empty() && contacts.iter().any(is_displaced) {
         return None;
     }
     mechanism.check_size().ok()?;

@@ -7,9 +7,12 @@ use crate::answers::{
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::gallery::{self, MODELS};
+use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind, Settings};
+use slideway::motion::{SimulateOptions, simulate};
 use slideway::report::{Proof, Status};
 use slideway::solve::solve;
+use slideway::standstill::{HoldOptions, hold};
 use std::collections::BTreeSet;
 
 #[test]
@@ -25,6 +28,27 @@ fn every_model_is_sound_and_says_what_it_shows() {
         assert!(report.complete == Proof::Proven, "{}", entry.name);
         assert!(!report.solutions.is_empty(), "{}", entry.name);
         assert!(report.solutions.iter().all(|solution| solution.residual < 1e-12), "{}", entry.name);
+    }
+}
+
+/// What is not computed for redundant guides is refused, and named.
+#[test]
+fn redundant_models_are_refused_where_motion_and_rest_are_asked_for() {
+    for entry in MODELS {
+        let model = Model::parse(entry.text).unwrap();
+        assert_eq!(entry.redundant, !Mechanism::new(&model).unwrap().excess.is_empty(), "{}", entry.name);
+        if !entry.redundant {
+            continue;
+        }
+        let refused = [
+            simulate(&model, &SimulateOptions::new(1.0)).map(drop),
+            hold(&model, &HoldOptions::default()).map(drop),
+        ];
+        for refused in refused {
+            let faults = refused.unwrap_err();
+            let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
+            assert!(matches!(kinds.as_slice(), [FaultKind::SharedLoad { .. }]), "{}: {faults}", entry.name);
+        }
     }
 }
 
@@ -52,7 +76,7 @@ fn every_command_of_the_comments_runs() {
             commands += 1;
         }
     }
-    assert!(commands >= 18, "{commands}");
+    assert!(commands >= 30, "{commands}");
 }
 
 /// Words of a command line, with quotes.

@@ -32,6 +32,7 @@ mod positions;
 mod preload_gap;
 mod properties;
 mod redundant;
+mod redundant_closed_forms;
 mod rest;
 mod speeds;
 mod standstill;

@@ -91,7 +91,7 @@ fn compare(name: &str, model: &Model) -> usize {
 #[test]
 fn all_gallery_models_at_random_states() {
     let mut numbers = Numbers(20_261_121);
-    for gallery_model in gallery::MODELS {
+    for gallery_model in gallery::MODELS.iter().filter(|entry| !entry.redundant) {
         let model = Model::parse(gallery_model.text).unwrap();
         let mechanism = Mechanism::new(&model).unwrap();
         let mut compared = 0;
