@@ -66,7 +66,7 @@ impl LoadSharing {
                 format!("Not all of these contact modes remain for stiffness ratios from 0.1 to 10 ({tried} combinations).")
             } else {
                 format!(
-                    "They depend on stiffness ratios: between 0.1 and 10 ({tried} combinations) there are also the signs {}.",
+                    "The contact modes depend on stiffness ratios: between 0.1 and 10 ({tried} combinations) there are also the signs {}.",
                     ratios.others.join(", ")
                 )
             });
