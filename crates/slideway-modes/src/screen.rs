@@ -7,7 +7,7 @@
 //! problem needs the careful search.
 
 use crate::enumeration::{self, SUSPECT_PIVOT};
-use crate::problem::{ContactState, Side};
+use crate::problem::{ContactState, OpenContacts, Side};
 
 /// Largest number of contacts.
 pub const MOST_CONTACTS: usize = 8;
@@ -116,6 +116,7 @@ pub struct Screen {
     slack: f64,
     pattern: [ContactState; MOST_CONTACTS],
     states: Vec<SmallState>,
+    open: OpenContacts,
 }
 
 impl Screen {
@@ -138,7 +139,15 @@ impl Screen {
             slack: SLACK,
             pattern: [ContactState::Positive; MOST_CONTACTS],
             states: Vec::new(),
+            open: OpenContacts::default(),
         }
+    }
+
+    /// Leaves out the patterns whose open contacts leave the others unable to hold: their determinants vanish.
+    #[must_use]
+    pub fn with_open(mut self, open: OpenContacts) -> Self {
+        self.open = open;
+        self
     }
 
     /// All solutions and gap states in the order of enumeration, if every pattern is far from any boundary.
@@ -204,6 +213,9 @@ impl Screen {
                 continue;
             }
             self.pattern[level] = state;
+            if state == ContactState::Gap && !self.open.holds(&self.pattern[..=level]) {
+                continue;
+            }
             self.eliminate(level, index)?;
             self.descend(level + 1)?;
         }

@@ -237,7 +237,7 @@ impl Parts {
         problem.jumps = [square(&self.jumps.positive), square(&self.jumps.negative)];
         (0..contacts).for_each(|row| problem.right_hand_side[row] = self.right_hand_side[row]);
         problem.load = accuracy.of_load;
-        Screen::new(contacts).states(&problem, accuracy.part).is_ok()
+        Screen::new(contacts).with_open(self.open.clone()).states(&problem, accuracy.part).is_ok()
     }
 
     /// The contacts of guided sliders whose couple alone tells at which face their preload rubs: only with

@@ -159,7 +159,10 @@ impl<'p> Evaluator<'p> {
             parameters: plan.friction.as_ref().map_or_else(Vec::new, |formulas| formulas.parameters.clone()),
             trail: Trail::default(),
             stages: plan.stages.as_ref().map(Cow::Borrowed),
-            small: (contacts <= MOST_CONTACTS).then(|| (Screen::new(contacts), SmallProblem::new(contacts))),
+            small: (contacts <= MOST_CONTACTS).then(|| {
+                let screen = Screen::new(contacts).with_open(plan.mechanism.excess.open.clone());
+                (screen, SmallProblem::new(contacts))
+            }),
         }
     }
 
