@@ -1,7 +1,7 @@
 """Holds the dependencies of the program to deny.toml, and THIRD-PARTY-NOTICES to the dependencies.
 
     .ci/dependencies.py            says what is wrong, and fails if anything is
-    .ci/dependencies.py --write    writes THIRD-PARTY-NOTICES anew
+    .ci/dependencies.py --write    writes THIRD-PARTY-NOTICES anew, that of the program and that of the Python package
 
 Needs Python 3.11 and cargo. Everything on which the program depends on any platform is looked at, with all features;
 tests and benchmarks are held to deny.toml, too, but not told in the notices, which are for binaries.
@@ -15,7 +15,11 @@ import tomllib
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
-NOTICES = TOP / "THIRD-PARTY-NOTICES"
+# Of whose binaries which file tells.
+NOTICES = {
+    "slideway-cli": TOP / "THIRD-PARTY-NOTICES",
+    "slideway-python": TOP / "crates/slideway-python/THIRD-PARTY-NOTICES",
+}
 FONT = TOP / "crates/slideway-pictures/fonts/LICENSE"
 # As Debian collects them for its package musl.
 MUSL = TOP / ".ci/musl-copyright"
@@ -63,11 +67,11 @@ def problems(packages, rules):
                 yield f"{name} takes any version of {dependency['name']}"
 
 
-def shipped(data):
-    """The packages of the program, those of its own aside."""
+def shipped(data, program):
+    """The packages of a program, those of its own aside."""
     nodes = {node["id"]: node for node in data["resolve"]["nodes"]}
     packages = {package["id"]: package for package in data["packages"]}
-    waiting = [id for id in data["workspace_members"] if packages[id]["name"] == "slideway-cli"]
+    waiting = [id for id in data["workspace_members"] if packages[id]["name"] == program]
     found = set()
     while waiting:
         id = waiting.pop()
@@ -93,7 +97,7 @@ def texts(package):
     return ["\n".join(line.rstrip() for line in file.read_text(errors="replace").strip().splitlines()) for file in chosen]
 
 
-def notices(packages):
+def notices(packages, is_static):
     told = [HEAD, ""]
     owners = {}
     for package in packages:
@@ -103,8 +107,9 @@ def notices(packages):
             owners.setdefault(text, []).append(name)
     told.append("DejaVu Sans 2.37 (glyphs): Bitstream Vera and Arev licences, https://dejavu-fonts.github.io")
     owners.setdefault(FONT.read_text().strip(), []).append("DejaVu Sans 2.37")
-    told.append("musl (in binaries that are linked statically): MIT and others, https://musl.libc.org")
-    owners.setdefault(MUSL.read_text().strip(), []).append("musl")
+    if is_static:
+        told.append("musl (in binaries that are linked statically): MIT and others, https://musl.libc.org")
+        owners.setdefault(MUSL.read_text().strip(), []).append("musl")
     for text, names in owners.items():
         told += ["", "-" * 80, ", ".join(names), "", text]
     return "\n".join(told) + "\n"
@@ -114,11 +119,12 @@ def main():
     data = metadata()
     rules = tomllib.loads((TOP / "deny.toml").read_text())
     found = list(problems(data["packages"], rules))
-    wanted = notices(shipped(data))
-    if "--write" in sys.argv[1:]:
-        NOTICES.write_text(wanted)
-    elif not NOTICES.exists() or NOTICES.read_text() != wanted:
-        found.append("THIRD-PARTY-NOTICES is not up to date: .ci/dependencies.py --write")
+    for program, file in NOTICES.items():
+        wanted = notices(shipped(data, program), program == "slideway-cli")
+        if "--write" in sys.argv[1:]:
+            file.write_text(wanted)
+        elif not file.exists() or file.read_text() != wanted:
+            found.append(f"{file.relative_to(TOP)} is not up to date: .ci/dependencies.py --write")
     for line in found:
         print(line, file=sys.stderr)
     sys.exit(1 if found else 0)

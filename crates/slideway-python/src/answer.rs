@@ -50,7 +50,7 @@ impl<R: Report + Send + Sync + 'static> AnyReport for R {
 #[derive(Debug, Clone)]
 pub(crate) struct Asked {
     /// With its settings.
-    pub(crate) model: slideway::Model,
+    pub(crate) model: Arc<slideway::Model>,
     /// The text of the model, and the settings, for faults and titles.
     pub(crate) text: Arc<str>,
     pub(crate) settings: Settings,

@@ -134,6 +134,15 @@ pub(crate) fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyRe
     }
 }
 
+/// What is varied, each over the pair of its ends, or over its usual range if that is None.
+pub(crate) fn varied(ranges: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<Vary>> {
+    let mut varied = Vec::new();
+    for (name, range) in ranges.into_iter().flatten() {
+        varied.push(vary_between(&name.extract::<String>()?, (!range.is_none()).then_some(&range))?);
+    }
+    Ok(varied)
+}
+
 /// The limits of a search.
 pub(crate) fn search(max_nodes: Option<u64>, max_found: Option<usize>) -> SearchOptions {
     let defaults = SearchOptions::default();

@@ -34,7 +34,7 @@ impl Texts<'_> {
     fn fault<'py>(self, class: &Bound<'py, PyAny>, fault: &Fault) -> PyResult<Bound<'py, PyAny>> {
         let values = PyDict::new(class.py());
         values.set_item("message", printable::lines(&fault.kind.to_string()))?;
-        values.set_item("hint", fault.kind.hint().as_deref().map(printable::lines))?;
+        values.set_item("hint", fault.kind.hint().map(|hint| printable::lines(&in_python(&hint))))?;
         values.set_item("is_warning", matches!(fault.kind, FaultKind::Doubt(_)))?;
         if let Some(place) = &fault.place {
             let (argument, text) = match place.source {
@@ -68,5 +68,47 @@ impl Texts<'_> {
             _ => name.clone(),
         };
         (Some(argument), setting.text())
+    }
+}
+
+/// A text with what Python calls options and commands of the command line: `--max-steps` is `max_steps`,
+/// `--samples 10000` in a code span is `samples=10000`, `--rate x=1` is `rate={"x": 1}`, and `slideway hold` is
+/// `model.hold()`.
+pub(crate) fn in_python(text: &str) -> String {
+    let spans = text.split('`').enumerate().map(|(index, span)| match index % 2 {
+        0 => option_names(span),
+        _ => code(span),
+    });
+    spans.collect::<Vec<_>>().join("`")
+}
+
+/// Options without their dashes, in words.
+fn option_names(words: &str) -> String {
+    let mut parts = words.split("--");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |told, part| {
+        let end = part.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(part.len());
+        told + &part[..end].replace('-', "_") + &part[end..]
+    })
+}
+
+/// A part of a command line.
+fn code(span: &str) -> String {
+    match span.strip_prefix("slideway ") {
+        Some("models") => return "slideway.gallery_models()".to_owned(),
+        Some(command) => return format!("model.{command}()"),
+        None if !span.starts_with("--") => return span.to_owned(),
+        None => (),
+    }
+    let words: Vec<&str> = span.split_whitespace().collect();
+    let entry = |value: &str| value.split_once('=').map(|(name, value)| format!("\"{name}\": {value}"));
+    let entries: Vec<String> = words.iter().filter_map(|word| entry(word)).collect();
+    match *words {
+        [option, ..] if !entries.is_empty() => {
+            format!("{}={{{}}}", option_names(option), entries.join(", "))
+        }
+        [option, value] if value.parse::<f64>().is_ok() => format!("{}={value}", option_names(option)),
+        [option, value] => format!("{}=\"{value}\"", option_names(option)),
+        _ => option_names(span),
     }
 }

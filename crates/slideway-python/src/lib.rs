@@ -1,20 +1,28 @@
 //! The private module `_slideway` of the Python package `slideway`: the library's functions and reports, converted.
 //!
 //! What Python sees is in `python/slideway`: classes of the reports (`reports.py`, written from the sources of the
-//! library), plots, and what notebooks show. Nothing is computed here.
+//! library), plots, and what notebooks show. The documentation of classes and functions here is in `docs`. Nothing is
+//! computed here.
 //!
 //! # Files
 //! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
 //! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
 //! `mechanism` the builder `Mechanism`, `motion.rs` a motion with its table, `pictures.rs` colours and pixels,
-//! `to_python.rs` turns values into objects, `fault.rs` faults into exceptions, `sweep.rs` tables of many points,
-//! `shards.rs` those in parts, `sweep_plot.rs` their plots, `modes.rs` problems given by matrices.
+//! `to_python.rs` turns values into objects, `fault.rs` faults into exceptions, `import.rs` drawings into models to
+//! complete; `sweep.rs` has tables of many points, `shards.rs` those in parts, `sweep_plot.rs` their plots, `modes.rs`
+//! problems given by matrices.
 
+#![expect(
+    clippy::doc_lazy_continuation,
+    clippy::doc_link_with_quotes,
+    reason = "the documentation is that of Python, in its form"
+)]
 #![expect(clippy::needless_pass_by_value, reason = "what Python passes is taken by value")]
 
 mod answer;
 mod arguments;
 mod fault;
+mod import;
 mod mechanism;
 mod model;
 mod modes;
@@ -39,9 +47,11 @@ mod _slideway {
     #[pymodule_export]
     use crate::answer::Answer;
     #[pymodule_export]
+    use crate::import::import_dxf;
+    #[pymodule_export]
     use crate::mechanism::Mechanism;
     #[pymodule_export]
-    use crate::model::{Model, gallery_models};
+    use crate::model::{Model, gallery_models, templates};
     #[pymodule_export]
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! The class `slideway.Model`: a model with its settings, and a method for each question.
 
-use crate::answer::{Answer, Asked, theme as named};
-use crate::arguments::{search, settings, units, value, vary, vary_between};
+use crate::answer::{Answer, Asked, not_finite, theme as named};
+use crate::arguments::{search, settings, units, value, varied, vary, vary_between};
 use crate::fault::Texts;
 use crate::motion::{self, Motion};
 use crate::work::Watch;
@@ -19,12 +19,14 @@ use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
+use slideway::template::{self, TEMPLATES};
 use slideway::units::Unit;
 use slideway::{
     DriveOptions, Faults, HoldOptions, LimitsOptions, MapOptions, SimulateOptions, SizeOptions, SolveOptions,
     UnitSystem, gallery,
 };
 use slideway_pictures::drawing::Shown;
+use slideway_pictures::page::{Findings, Origin};
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::ops::RangeInclusive;
@@ -54,7 +56,10 @@ impl Model {
     ) -> PyResult<Self> {
         let settings = Settings::default();
         match py.detach(read) {
-            Ok(model) => Ok(Self { asked: Asked { model, text: Arc::from(text), settings }, units: None }),
+            Ok(model) => {
+                let (model, text) = (Arc::new(model), Arc::from(text));
+                Ok(Self { asked: Asked { model, text, settings }, units: None })
+            }
             Err(faults) => Err(Texts { model: text, settings: &settings }.error(py, &faults)),
         }
     }
@@ -83,12 +88,13 @@ impl Model {
         for setting in settings.entries() {
             all = all.with(setting.clone());
         }
-        Ok(Self { asked: Asked { model, settings: all, ..self.asked.clone() }, units: self.units })
+        let asked = Asked { model: Arc::new(model), text: self.asked.text.clone(), settings: all };
+        Ok(Self { asked, units: self.units })
     }
 
     fn in_system(&self, system: UnitSystem) -> Self {
-        let model = self.asked.model.clone().with_units(system);
-        Self { asked: Asked { model, ..self.asked.clone() }, units: Some(system) }
+        let model = slideway::Model::clone(&self.asked.model).with_units(system);
+        Self { asked: Asked { model: Arc::new(model), ..self.asked.clone() }, units: Some(system) }
     }
 
     /// Everything that makes two models the same.
@@ -107,17 +113,13 @@ impl Model {
 
 #[pymethods]
 impl Model {
-    /// A model from its text, in the language of model files.
-    ///
-    /// Raises `ModelError` with everything that is wrong with it.
+    #[doc = include_str!("../docs/parse.txt")]
     #[staticmethod]
     fn parse(py: Python<'_>, text: &str) -> PyResult<Self> {
         Self::new(py, text)
     }
 
-    /// A model from a file.
-    ///
-    /// Raises `ModelError` with everything that is wrong with it, `OSError` if it cannot be read.
+    #[doc = include_str!("../docs/load.txt")]
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let too_large =
@@ -130,16 +132,29 @@ impl Model {
         Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes))
     }
 
-    /// A model of the gallery, such as `"drawer"`; `gallery_models()` has their names.
+    #[doc = include_str!("../docs/gallery.txt")]
     #[staticmethod]
     fn gallery(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let Some(found) = gallery::find(name) else {
-            let names = || gallery::MODELS.iter().map(|model| model.name);
-            let meant = nearest(name, names()).map(|near| format!("; did you mean {near:?}?"));
-            let message = format!("there is no model {name:?} in the gallery{}", meant.unwrap_or_default());
-            return Err(PyKeyError::new_err(message));
-        };
-        Self::new(py, found.text)
+        let names = gallery::MODELS.iter().map(|model| model.name);
+        let unknown = || unknown(&format!("there is no model {name:?} in the gallery"), nearest(name, names));
+        Self::new(py, gallery::find(name).ok_or_else(unknown)?.text)
+    }
+
+    #[doc = include_str!("../docs/template.txt")]
+    #[staticmethod]
+    #[pyo3(signature = (name, /, **sizes: "Value"))]
+    fn template(py: Python<'_>, name: &str, sizes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let names = TEMPLATES.iter().map(|template| template.name);
+        let unknown = || unknown(&format!("there is no template {name:?}"), nearest(name, names));
+        let template = template::find(name).ok_or_else(unknown)?;
+        let mut settings = Settings::default();
+        for (name, given) in sizes.into_iter().flatten() {
+            let name: String = name.extract()?;
+            settings = settings.parameter(&name, value(&name, &given)?);
+        }
+        let refused = |faults| Texts { model: template.text, settings: &settings }.error(py, &faults);
+        let text = template.model(&settings, &format!("{name}.toml")).map_err(refused)?;
+        Self::new(py, &text)
     }
 
     /// The text of the model, without what was changed.
@@ -194,13 +209,7 @@ impl Model {
         self.asked.settings.entries().iter().map(told).collect()
     }
 
-    /// The same model with other values: parameters and coordinates by their names, or positions (`at`) and rates
-    /// (`rate`) of coordinates by theirs, and the time of the state. A number is in SI units; a text may have a
-    /// unit or be an expression of parameters: `model.with_(mu=0.5, alpha="75 deg", rate={"x": "2 m/s"})`.
-    ///
-    /// `units` are those in which texts show numbers: "as-typed", "SI" or "mm".
-    ///
-    /// Raises `ModelError` for names that do not exist and values that make no sense.
+    #[doc = include_str!("../docs/with_.txt")]
     #[pyo3(signature = (*, at: "Mapping[str, Value] | None" = None, rate: "Mapping[str, Value] | None" = None, time: "Value | None" = None, units = None, **values: "Value"))]
     fn with_(
         &self,
@@ -219,7 +228,7 @@ impl Model {
         }
     }
 
-    /// What the model consists of, what would keep it from being solved, and what is perhaps not meant in it.
+    #[doc = include_str!("../docs/check.txt")]
     #[pyo3(signature = () -> "reports.CheckReport")]
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let report = py.detach(|| slideway::check(&self.asked.model));
@@ -227,11 +236,7 @@ impl Model {
         Answer::object(py, "CheckReport", report, Some(self.asked.clone()))
     }
 
-    /// All solutions of the equations of motion in this state, with their contact modes.
-    ///
-    /// `margins=False` leaves out by which factors friction may grow, which is most of the work. At most
-    /// `max_solutions` are listed; all are counted. The search ends after `max_nodes` nodes or `time_limit`
-    /// seconds; the answer is then partial.
+    #[doc = include_str!("../docs/solve.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, margins = true, max_solutions = 100, max_nodes = None, max_found = None,
         time_limit = None, progress: "Progress | None" = None) -> "reports.SolveReport")]
@@ -254,11 +259,7 @@ impl Model {
         Answer::object(py, "SolveReport", report, Some(self.asked.clone()))
     }
 
-    /// For which values of a parameter, a coordinate, or of `"friction"`, the factor on all coefficients of
-    /// friction, each contact mode exists, and how many solutions there are.
-    ///
-    /// Without `start` and `stop`, coefficients of friction and `"friction"` have a usual range. `quantity` is
-    /// what the plot of the answer shows: "normal-force", "friction", "acceleration" or "effort".
+    #[doc = include_str!("../docs/limits.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, max_reaction = None, both_directions = false,
         effort: "int" = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
@@ -287,12 +288,7 @@ impl Model {
         Answer::with_curves(py, "LimitsReport", found, self.asked.clone())
     }
 
-    /// Whether the mechanism stays at rest, under which loads, and how it begins to move. The rates are taken as
-    /// zero.
-    ///
-    /// With `load`, the name of a load or drive or `"gravity"`, which factors of it are held; with `vary`, from
-    /// which value of that static friction on it is held however great it is. `drives` are "release" (absent) or
-    /// "hold".
+    #[doc = include_str!("../docs/hold.txt")]
     #[pyo3(signature = (load = None, *, vary = None, drives = "release", time_limit = None,
         progress: "Progress | None" = None) -> "reports.HoldReport")]
     fn hold<'py>(
@@ -310,7 +306,7 @@ impl Model {
         Answer::object(py, "HoldReport", report, Some(self.asked.clone()))
     }
 
-    /// For which values of a parameter, a coordinate or `"friction"` the mechanism can stay at rest.
+    #[doc = include_str!("../docs/rest_limits.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (vary_name, start: "Value", stop: "Value", *, load = None, drives = "release", time_limit = None,
         progress: "Progress | None" = None) -> "reports.RestLimitsReport")]
@@ -333,12 +329,7 @@ impl Model {
         Answer::object(py, "RestLimitsReport", report, Some(self.asked.clone()))
     }
 
-    /// For which values of a quantity a wanted margin against locking is met, or a limit kept: one of `margin` (a
-    /// factor on friction), `max_effort` (N or N m), `max_normal_force` (N), `max_pressure` (Pa) and
-    /// `min_efficiency` (from 0 to 1). Texts may have units, such as `max_effort="30 N"`.
-    ///
-    /// A margin is `against` "locking" in motion, "self-locking" at rest under `load`, or "hold", that the load
-    /// is held. `load` is also the drive of an effort, or the contact of a normal force or pressure.
+    #[doc = include_str!("../docs/size.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, margin: "Value | None" = None, max_effort: "Value | None" = None,
         max_normal_force: "Value | None" = None, max_pressure: "Value | None" = None, min_efficiency: "Value | None" = None, against = "locking", load = None,
@@ -394,8 +385,7 @@ impl Model {
         Answer::object(py, "SizeReport", report, Some(self.asked.clone()))
     }
 
-    /// Which efforts the drives need against friction, and how efficient that is; with `vary`, a coordinate or
-    /// parameter, over its range `between=(start, stop)` in so many `rows`.
+    #[doc = include_str!("../docs/drive.txt")]
     #[pyo3(signature = (vary = None, between: "Range | None" = None, *, rows = 41, time_limit = None,
         progress: "Progress | None" = None) -> "reports.DriveReport")]
     fn drive<'py>(
@@ -416,10 +406,7 @@ impl Model {
         Answer::object(py, "DriveReport", report, Some(self.asked.clone()))
     }
 
-    /// A map of the plane of two quantities: `model.map(mu=(0, 1), alpha=("0 deg", "90 deg"))`, x first.
-    ///
-    /// `colour_by` is what the colours tell: "solutions", "modes", "margin", "jam", "motion" or "hold"; `size` the
-    /// number of pixels in each direction; `probe` the distance of pixels that are looked at first.
+    #[doc = include_str!("../docs/map.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, colour_by = "solutions", size = None, probe = None, time_limit = None,
         progress: "Progress | None" = None, **axes: "Range | None") -> "reports.MapReport")]
@@ -433,12 +420,7 @@ impl Model {
         progress: Option<Py<PyAny>>,
         axes: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut varied = Vec::new();
-        for (name, range) in axes.into_iter().flatten() {
-            let range = (!range.is_none()).then_some(&range);
-            varied.push(vary_between(&name.extract::<String>()?, range)?);
-        }
-        let Ok([x, y]) = <[_; 2]>::try_from(varied) else {
+        let Ok([x, y]) = <[_; 2]>::try_from(varied(axes)?) else {
             return Err(PyTypeError::new_err(
                 "two quantities must be given, such as map(mu=(0, 1), x=(0, 0.3))",
             ));
@@ -457,21 +439,7 @@ impl Model {
         Answer::object(py, "MapReport", report, Some(self.asked.clone()))
     }
 
-    /// All solutions at every point of a grid, or of random samples: a table, a `Sweep`.
-    ///
-    /// Each quantity that is varied, a parameter, a coordinate, `"COORDINATE.rate"` (by `**{"x.rate": ...}`),
-    /// `friction` (the factor on all coefficients) or `time`, has its values: an array, a list of numbers or texts
-    /// with units, or a text such as "0..0.8:801" (evenly spaced, both ends included) or "0.01..1:50:log". The last
-    /// one varies fastest. With `samples=N` these are distributions: "0.1..0.5", "uniform(0.1, 0.5)",
-    /// "normal(0.3, 0.05)", "lognormal(0.3, 0.2)"; `sampling` is "random" or "halton", and the same `seed` gives the
-    /// same samples.
-    ///
-    /// `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
-    /// whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
-    /// bodies and hinge forces.
-    ///
-    /// `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches;
-    /// `write_shard` writes it to a folder, and `slideway.dask.sweep` computes all of them on a cluster.
+    #[doc = include_str!("../docs/sweep.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
         attainability = false, all_columns = false, shard = None, time_limit = None, progress: "Progress | None" = None,
@@ -498,9 +466,7 @@ impl Model {
         sweep::table(py, &self.asked, (&options, shard), &watch)?.object(py)
     }
 
-    /// Computes a part of a sweep, such as `shard=(3, 64)`, the third of 64, and writes it into the folder `output`
-    /// as a Parquet file, unless it is there: the path of the file. `slideway.merge` makes one table of all parts.
-    /// Everything else is as for `sweep`.
+    #[doc = include_str!("../docs/write_shard.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (output, shard, *, samples = None, sampling = "random", seed = 0, breakpoints = false,
         attainability = false, all_columns = false, time_limit = None, progress: "Progress | None" = None,
@@ -527,12 +493,7 @@ impl Model {
         shards::write_shard(py, &self.asked, (options, sweep::shard(shard)?), (&output, &watch))
     }
 
-    /// The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and
-    /// `events` are as those of `scipy.integrate.solve_ivp`.
-    ///
-    /// `mode` is the contact mode to begin with, `branches` which of several possible modes to take at each
-    /// decision (from 1), `prefer` the "rule" of the book or "sliding", `tolerance` the relative error of a step.
-    /// With `all_branches` all motions are followed, at most so many: then the answer is a `TreeReport`.
+    #[doc = include_str!("../docs/simulate.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer = "rule", all_branches = None,
         tolerance = 1e-8, longest_step: "Value | None" = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
@@ -598,10 +559,30 @@ impl Model {
         Motion::object(py, history.so_far().map_err(refused)?, options, asked)
     }
 
-    /// A drawing of the mechanism in this state, and of one of its solutions, counted from 1, if one is asked for.
-    ///
-    /// `theme` is "light" or "dark". The drawing shows itself in a notebook; `drawing.svg` is its text, and
-    /// `drawing.save("mechanism.svg")` or `"mechanism.png"` writes a file.
+    #[doc = include_str!("../docs/report.txt")]
+    #[pyo3(signature = (*, time_limit = None, progress: "Progress | None" = None, **ranges: "Range | None") -> "_display.Page")]
+    fn report<'py>(
+        &self,
+        py: Python<'py>,
+        time_limit: Option<f64>,
+        progress: Option<Py<PyAny>>,
+        ranges: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let wanted = varied(ranges)?;
+        let findings =
+            self.ask(py, (time_limit, progress), |model, callback| Findings::of(model, wanted, callback))?;
+        let title = self.title().unwrap_or("model");
+        let origin = Origin {
+            command: "Model.report of slideway for Python",
+            name: title,
+            text: &self.asked.text,
+            settings: &self.asked.settings,
+        };
+        let page = py.detach(|| findings.to_html(&origin)).map_err(not_finite)?;
+        display(py)?.getattr("Page")?.call1((page, title))
+    }
+
+    #[doc = include_str!("../docs/draw.txt")]
     #[pyo3(signature = (solution = None, *, theme = "light") -> "_display.Drawing")]
     fn draw<'py>(
         slf: &Bound<'py, Self>,
@@ -821,7 +802,24 @@ fn initial(mechanism: &Mechanism, mode: &str) -> Result<String, Faults> {
     Err(Fault::general(FaultKind::MalformedMode { text: mode.to_owned(), contacts }).into())
 }
 
-/// The names of the models of the gallery, each with a line that says what it is.
+/// That there is nothing of a name, and which one is perhaps meant.
+fn unknown(message: &str, nearest: Option<String>) -> PyErr {
+    let meant = nearest.map(|near| format!("; did you mean {near:?}?"));
+    PyKeyError::new_err(format!("{message}{}", meant.unwrap_or_default()))
+}
+
+#[doc = include_str!("../docs/templates.txt")]
+#[pyfunction]
+#[pyo3(signature = () -> "dict[str, str]")]
+pub(crate) fn templates(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let templates = PyDict::new(py);
+    for template in TEMPLATES {
+        templates.set_item(template.name, template.summary())?;
+    }
+    Ok(templates)
+}
+
+#[doc = include_str!("../docs/gallery_models.txt")]
 #[pyfunction]
 #[pyo3(signature = () -> "dict[str, str]")]
 pub(crate) fn gallery_models(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {

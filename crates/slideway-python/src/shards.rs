@@ -38,7 +38,7 @@ pub(crate) fn write_shard(
     Ok(shard_path(folder, shard))
 }
 
-/// One table of all shards in a folder.
+#[doc = include_str!("../docs/merge.txt")]
 #[pyfunction]
 #[pyo3(signature = (folder, *, time_limit = None, progress: "Progress | None" = None) -> "_sweep.Sweep")]
 pub(crate) fn merge(
@@ -54,6 +54,6 @@ pub(crate) fn merge(
     let model = Model::parse(&metadata.model).and_then(|model| model.with(settings));
     let refused = |faults| Texts { model: &metadata.model, settings }.error(py, &faults);
     let (text, settings) = (Arc::from(&*metadata.model), settings.clone());
-    let asked = Asked { model: model.map_err(refused)?, text, settings };
+    let asked = Asked { model: Arc::new(model.map_err(refused)?), text, settings };
     Table::of(py, (RowSource::Shards(&shards), asked, options.clone()), &watch)?.object(py)
 }

@@ -22,7 +22,7 @@ pub(crate) fn write_shard(
     refused()
 }
 
-/// One table of all shards in a folder.
+#[doc = include_str!("../docs/merge.txt")]
 #[pyfunction]
 #[pyo3(signature = (_folder, *, time_limit = None, progress = None))]
 pub(crate) fn merge(

@@ -128,9 +128,11 @@ class Program:
         """What it says of a file with this text, and its complaints."""
         (self.folder / name).write_text(text)
         subcommand, *options = command
-        done = subprocess.run(
-            [self.path, subcommand, name, *options], cwd=self.folder, capture_output=True, text=True, check=False
-        )
+        return self.run_in_folder([subcommand, name, *options])
+
+    def run_in_folder(self, command: list[str]) -> tuple[str, str]:
+        """What it says to a command, and its complaints."""
+        done = subprocess.run([self.path, *command], cwd=self.folder, capture_output=True, text=True, check=False)
         return done.stdout, done.stderr
 
     def json(self, command: list[str], text: str, name: str = "model.toml") -> tuple[str, str]:

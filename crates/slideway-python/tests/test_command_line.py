@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from conftest import DIMENSIONS, MODELS, QUESTIONS, Program
+from conftest import DIMENSIONS, MODELS, QUESTIONS, WORKSPACE, Program
 
 import slideway
 
@@ -73,8 +75,10 @@ def test_same_json_of_problems_given_by_matrices(program: Program, kind: str, un
     assert answer.to_json() == said, complaint
 
 
-@pytest.mark.parametrize("question", ["solve", "limits", "hold", "drive", "simulate"])
-@pytest.mark.parametrize("name", MODELS)
+# The JSON output says all that words are made of: each model and each of these questions once is enough.
+@pytest.mark.parametrize(
+    ("name", "question"), list(zip(MODELS, itertools.cycle(["solve", "limits", "hold", "drive", "simulate"])))
+)
 def test_same_words(program: Program, name: str, question: str) -> None:
     asked = QUESTIONS[question]
     model = slideway.Model.gallery(name)
@@ -92,6 +96,56 @@ def test_colours_only_if_wanted() -> None:
     assert "\x1b" not in answer.text()
     assert re.sub(r"\x1b\[[0-9;]*m", "", answer.text(color=True)) == answer.text()
     assert answer.text(color=True) != answer.text()
+
+
+@pytest.mark.parametrize("name", slideway.templates())
+def test_same_model_of_a_template(program: Program, name: str) -> None:
+    written, complaints = program.run_in_folder(["new", name, "--output", "-"])
+    assert slideway.Model.template(name).text == written, complaints
+
+
+def test_a_template_with_sizes(program: Program) -> None:
+    written, _ = program.run_in_folder(["new", "drawer", "--L", "500 mm", "--mu", "0.2", "--output", "-"])
+    assert slideway.Model.template("drawer", L="500 mm", mu=0.2).text == written
+    with pytest.raises(slideway.ModelError) as caught:
+        slideway.Model.template("drawer", L=0.5, b="1 m")
+    assert {fault.argument for fault in caught.value.faults} == {"b"}
+    with pytest.raises(KeyError, match="drawer"):
+        slideway.Model.template("drawre")
+
+
+DRAWINGS = sorted((WORKSPACE / "crates" / "slideway" / "tests").rglob("*.dxf"))
+
+
+@pytest.mark.parametrize("drawing", DRAWINGS, ids=lambda path: path.stem)
+def test_same_model_of_a_drawing(program: Program, drawing: Path) -> None:
+    assert DRAWINGS
+    written, complaints = program.run_in_folder(["import", str(drawing), "--unit", "mm"])
+    try:
+        assert slideway.import_dxf(drawing, unit="mm") == written
+    except ValueError as error:
+        assert str(error) in complaints
+
+
+def test_a_drawing_without_a_unit(tmp_path: Path) -> None:
+    path = tmp_path / "crank.dxf"
+    path.write_text("\n".join("0 SECTION 2 ENTITIES 0 CIRCLE 8 crank 10 0 20 0 40 60 0 ENDSEC 0 EOF".split()))
+    with pytest.raises(ValueError, match="say it with unit, such as unit mm"):
+        slideway.import_dxf(path)
+    with pytest.raises(ValueError, match="mm"):
+        slideway.import_dxf(path, unit="miles")
+
+
+def test_same_page(program: Program) -> None:
+    """But for the command and the name of the file, of which Python knows nothing."""
+    model = slideway.Model.gallery("klepp-2002").with_(F_20=0)
+    options = ["--set", "F_20=0", "--vary", "mu_1=0..0.8", "--vary", "friction", "--output", "page.html"]
+    _, complaints = program.run(["report", *options], model.text)
+    written = (program.folder / "page.html").read_text()
+    page = model.report(mu_1=(0, 0.8), friction=None)
+    told = re.compile("<p class=\"quiet\">Report made by .*?</p>|<p>[^<]*, changed by</p>")
+    assert told.sub("", page.html) == told.sub("", written), complaints
+    assert "Model.report" in page.html and "klepp" in page._repr_html_()
 
 
 def test_same_table(program: Program) -> None:

@@ -64,3 +64,30 @@ def test_terminals_are_safe_from_names() -> None:
     with pytest.raises(ModelError) as caught:
         Model.parse('"\x1b[31m" = 1'.replace("\x1b", "\\u001b"))
     assert "\x1b" not in str(caught.value)
+
+
+def test_hints_name_what_python_has() -> None:
+    """Hints of the library name options of the command line, which are arguments here."""
+    drawer = Model.gallery("drawer")
+    refused = {
+        "at rest": lambda: drawer.with_(rate={"x": 0}).solve(),
+        "unused load": lambda: drawer.size("mu", margin=2, load="resistance"),
+        "load needed": lambda: drawer.size("mu", margin=2, against="hold"),
+        "no samples": lambda: drawer.sweep(mu="normal(0.3, 0.05)"),
+        "a number of values": lambda: drawer.sweep(samples=10, mu="0..1:11"),
+        "no time": lambda: drawer.simulate(0),
+        "empty": lambda: Model.parse(""),
+    }
+    hints = {}
+    for name, ask in refused.items():
+        with pytest.raises(ModelError) as caught:
+            ask()
+        hints[name] = " ".join(fault.hint or "" for fault in caught.value.faults)
+        assert "--" not in str(caught.value) and "`slideway " not in str(caught.value)
+    assert '`rate={"x": 1}`' in hints["at rest"] and "`model.hold()`" in hints["at rest"]
+    assert '`against="self-locking"`' in hints["unused load"]
+    assert hints["load needed"].startswith("name it with load: ")
+    assert "`samples=10000`" in hints["no samples"]
+    assert "without samples" in hints["a number of values"]
+    assert "until" in hints["no time"]
+    assert "`slideway.gallery_models()`" in hints["empty"]

@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 import slideway
 from slideway import GROUND, Fault, Mechanism, Model, ModelError, Motion, Sweep, gallery_models, modes, reports
 
-names: dict[str, str] = gallery_models()
+names: dict[str, str] = gallery_models() | slideway.templates()
 model: Model = Model.gallery("drawer")
 model = Model.parse(model.text)
 model = model.with_(mu=0.5, L="450 mm", at={"x": 0}, rate={"x": "1 m/s"}, time=0, units="mm")
 try:
+    drawing: str = slideway.import_dxf("none.dxf", unit="mm")
     Model.load("none.toml")
 except ModelError as error:
     faults: tuple[Fault, ...] = error.faults
@@ -29,6 +30,9 @@ status: reports.Status = answer.status
 for solution in answer:
     forces: NDArray[np.float64] = solution.normal_forces
     first: float = solution.contacts[0].normal_force
+bushing: Model = Model.template("drawer", L="500 mm", mu=0.2)
+page: slideway.Page = model.report(mu=(0, 1), time_limit=60.0)
+html: str = page.html
 limits: reports.LimitsReport = model.limits("mu", 0, "1", quantity="friction")
 check: reports.CheckReport = model.check()
 hold: reports.HoldReport = model.hold("resistance", drives="hold")

@@ -2,17 +2,20 @@
 
 use crate::Layout;
 use crate::record::{Field, FieldKind, fields};
-use ::arrow_array::{
-    ArrayRef, Float64Array, RecordBatch, RecordBatchReader, StringArray, UInt32Array, UInt64Array,
-};
+use ::arrow_array::builder::{ArrayBuilder, Float64Builder, StringBuilder, UInt32Builder, UInt64Builder};
+use ::arrow_array::{ArrayRef, RecordBatch, RecordBatchReader};
 use ::arrow_schema::{ArrowError, DataType, Field as Column, Schema, SchemaRef};
 use rayon::prelude::*;
-use std::array;
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Rows of a batch.
 const BATCH: usize = 1 << 18;
+
+/// Columns that one task takes out of all records of a batch, and records that it reads at a time: these stay in the
+/// cache of a processor until all of these columns have what is theirs.
+const COLUMNS: usize = 8;
+const TILE: usize = 512;
 
 /// The columns of a table; those of numbers have their `unit` as metadata.
 pub fn schema(layout: &Layout) -> SchemaRef {
@@ -59,35 +62,84 @@ impl Batches {
         });
         let columns: Vec<(FieldKind, usize)> =
             self.fields.iter().map(|field| field.kind).zip(starts).collect();
-        let columns = columns.into_par_iter().map(|(kind, start)| column(records, size, (kind, start)));
-        RecordBatch::try_new(self.schema.clone(), columns.collect())
+        let columns: Vec<_> =
+            columns.par_chunks(COLUMNS).map(|columns| gathered(records, size, columns)).collect();
+        RecordBatch::try_new(self.schema.clone(), columns.concat())
     }
 }
 
-/// One column of records of this size, whose field begins at `start`.
-fn column(records: &[u8], size: usize, (kind, start): (FieldKind, usize)) -> ArrayRef {
-    match kind {
-        FieldKind::Point => {
-            Arc::new(UInt64Array::from_iter_values(numbers(records, size, start).map(u64::from_le_bytes)))
+/// Columns of records of this size, each given by what its field holds and where it begins.
+fn gathered(records: &[u8], size: usize, columns: &[(FieldKind, usize)]) -> Vec<ArrayRef> {
+    let rows = records.len() / size;
+    let mut growing: Vec<Growing> = columns.iter().map(|(kind, _)| Growing::new(*kind, rows)).collect();
+    for tile in records.chunks(TILE * size) {
+        for (column, (_, start)) in growing.iter_mut().zip(columns) {
+            column.extend(tile, size, *start);
         }
-        FieldKind::Count => {
-            Arc::new(UInt32Array::from_iter_values(numbers(records, size, start).map(u32::from_le_bytes)))
+    }
+    growing.iter_mut().map(|column| column.builder().finish()).collect()
+}
+
+/// A column that is being built.
+enum Growing {
+    Points(UInt64Builder),
+    Counts(UInt32Builder),
+    Branches(UInt32Builder),
+    Numbers(Float64Builder),
+    /// Words of at most so many bytes.
+    Words(usize, StringBuilder),
+}
+
+impl Growing {
+    fn new(kind: FieldKind, rows: usize) -> Self {
+        match kind {
+            FieldKind::Point => Self::Points(UInt64Builder::with_capacity(rows)),
+            FieldKind::Count => Self::Counts(UInt32Builder::with_capacity(rows)),
+            FieldKind::Branch => Self::Branches(UInt32Builder::with_capacity(rows)),
+            FieldKind::Number => Self::Numbers(Float64Builder::with_capacity(rows)),
+            FieldKind::Word(length) => Self::Words(length, StringBuilder::with_capacity(rows, rows * length)),
         }
-        FieldKind::Branch => {
-            let branches = numbers(records, size, start).map(u32::from_le_bytes);
-            Arc::new(branches.map(|branch| (branch > 0).then_some(branch)).collect::<UInt32Array>())
+    }
+
+    fn builder(&mut self) -> &mut dyn ArrayBuilder {
+        match self {
+            Self::Points(builder) => builder,
+            Self::Counts(builder) | Self::Branches(builder) => builder,
+            Self::Numbers(builder) => builder,
+            Self::Words(_, builder) => builder,
         }
-        FieldKind::Number => {
-            let numbers = numbers(records, size, start).map(f64::from_le_bytes);
-            Arc::new(numbers.map(|number| (!number.is_nan()).then_some(number)).collect::<Float64Array>())
-        }
-        FieldKind::Word(length) => {
-            let words = records.chunks_exact(size).map(|record| {
-                let word = &record[start..start + length];
-                let end = word.iter().position(|byte| *byte == 0).unwrap_or(length);
-                std::str::from_utf8(&word[..end]).ok().filter(|word| !word.is_empty())
-            });
-            Arc::new(words.collect::<StringArray>())
+    }
+
+    /// Appends a field of these records.
+    fn extend(&mut self, records: &[u8], size: usize, start: usize) {
+        match self {
+            Self::Points(builder) => {
+                builder.extend(numbers(records, size, start).map(|bytes| Some(u64::from_le_bytes(bytes))));
+            }
+            Self::Counts(builder) => {
+                builder.extend(numbers(records, size, start).map(|bytes| Some(u32::from_le_bytes(bytes))));
+            }
+            Self::Branches(builder) => {
+                let branches = numbers(records, size, start).map(u32::from_le_bytes);
+                builder.extend(branches.map(|branch| (branch > 0).then_some(branch)));
+            }
+            Self::Numbers(builder) => {
+                let numbers = numbers(records, size, start).map(f64::from_le_bytes);
+                builder.extend(numbers.map(|number| (!number.is_nan()).then_some(number)));
+            }
+            Self::Words(length, builder) => {
+                // The same word stands in many rows, one behind the other.
+                let (mut last, mut text): (&[u8], _) = (&[], None);
+                for record in records.chunks_exact(size) {
+                    let word = &record[start..start + *length];
+                    if word != last {
+                        let end = word.iter().position(|byte| *byte == 0).unwrap_or(*length);
+                        text = std::str::from_utf8(&word[..end]).ok().filter(|text| !text.is_empty());
+                        last = word;
+                    }
+                    builder.append_option(text);
+                }
+            }
         }
     }
 }
@@ -98,7 +150,7 @@ fn numbers<const SIZE: usize>(
     record: usize,
     start: usize,
 ) -> impl Iterator<Item = [u8; SIZE]> {
-    records.chunks_exact(record).map(move |record| array::from_fn(|index| record[start + index]))
+    records.chunks_exact(record).filter_map(move |record| record[start..start + SIZE].first_chunk().copied())
 }
 
 impl Iterator for Batches {

@@ -9,21 +9,11 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Real;
 use crate::mechanism::{Contact, Mechanism};
 use crate::modes::SharedLoad;
+use crate::report::Elasticity;
 use nalgebra::{DMatrix, DVector};
 
 /// Normal forces of a self-stress below this are rounding.
 pub(crate) const NO_STRESS: f64 = 1e-13;
-
-/// What is taken for the elasticity of contacts in excess.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Elasticity {
-    /// The stiffnesses of the model.
-    Given,
-    /// The faces are rigid: there is play or misalignment, but no stiffness.
-    Rigid,
-    /// All contacts have the same stiffness: there is neither play nor misalignment, so that only ratios count.
-    Equal,
-}
 
 /// How contacts share their load, given their self-stresses (a row for each contact, a column for each cut
 /// one); none if nothing is in excess.
@@ -95,4 +85,23 @@ pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -
         Elasticity::Rigid
     };
     faults.or(elasticity)
+}
+
+/// The contacts that share a load, in groups that no self-stress connects.
+pub fn groups(shared: &SharedLoad) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for stress in shared.self_stress.column_iter() {
+        let mut group: Vec<usize> = (0..stress.len()).filter(|&k| stress[k] != 0.0).collect();
+        groups.retain(|other| {
+            let apart = !other.iter().any(|k| group.contains(k));
+            if !apart {
+                group.extend(other);
+            }
+            apart
+        });
+        group.sort_unstable();
+        group.dedup();
+        groups.push(group);
+    }
+    groups
 }

@@ -1,6 +1,5 @@
 //! `slideway draw`
 
-use super::report::reasons;
 use crate::arguments::{DrawArguments, PictureTheme, Which};
 use crate::failure::Failure;
 use crate::input::Input;
@@ -17,6 +16,7 @@ use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
+use slideway_pictures::page::reasons;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {

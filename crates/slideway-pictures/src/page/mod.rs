@@ -6,10 +6,13 @@
 //!
 //! # Files
 //! `head.html` is the head with the style, with names in double braces for what `head` fills in; `summary.rs`
-//! writes the section of margins, efforts and rest, `body.rs` everything else.
+//! writes the section of margins, efforts and rest, `body.rs` everything else; `findings.rs` asks the questions.
 
 mod body;
+mod findings;
 mod summary;
+
+pub use findings::{Findings, Origin, reasons};
 
 use crate::coordinate::{NotFinite, finished};
 use crate::drawing::Sheet;

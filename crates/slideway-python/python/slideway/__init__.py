@@ -19,10 +19,10 @@ model.
 """
 
 from . import modes, plotting, reports
-from ._display import Animation, Drawing
+from ._display import Animation, Drawing, Page
 from ._errors import Fault, ModelError
 from ._motion import Motion
-from ._slideway import GROUND, Mechanism, Model, gallery_models, merge
+from ._slideway import GROUND, Mechanism, Model, gallery_models, import_dxf, merge, templates
 from ._sweep import Sweep
 
 __all__ = [
@@ -34,11 +34,14 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
+    "Page",
     "Sweep",
     "gallery_models",
+    "import_dxf",
     "merge",
     "modes",
     "plotting",
     "reports",
+    "templates",
 ]
 __version__ = "0.1.0"

@@ -46,7 +46,18 @@ class Record:
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
 
     def to_dict(self) -> dict[str, Any]:
-        """The same as dictionaries, lists, numbers and texts."""
+        """The same as dictionaries, lists, numbers and texts.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").solve().solutions[0].drives[0].to_dict()["name"]
+        'push'
+        """
         return {name.rstrip("_"): _plain(value) for name, value in vars(self).items() if not name.startswith("_")}
 
     def __eq__(self, other: object) -> bool:
@@ -83,17 +94,55 @@ class Report(Record):
         return "_answer" not in self.__dict__
 
     def text(self, *, color: bool = False) -> str:
-        """The answer in words and tables, as the command line shows it."""
+        """The answer in words and tables, as the command line shows it.
+
+        Parameters
+        ----------
+        color : bool, default False
+            With colours for a terminal.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import slideway
+        >>> print(slideway.Model.gallery("drawer").solve().text().splitlines()[0])
+        A drawer pushed off-centre
+        """
         if self._is_part:
             raise TypeError(f"this {type(self).__name__} is a part of another answer, which has the text")
         return self._answer.text(color)
 
     def to_json(self) -> str:
-        """The JSON output of the command line."""
+        """The JSON output of the command line.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import json, slideway
+        >>> json.loads(slideway.Model.gallery("drawer").solve().to_json())["status"]
+        'one'
+        """
         return json.dumps(self.to_dict()) if self._is_part else self._answer.json()
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON output as dictionaries and lists."""
+        """The JSON output as dictionaries and lists.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").solve().to_dict()["status"]
+        'one'
+        """
         if self._is_part:
             return super().to_dict()
         data: dict[str, Any] = json.loads(self.to_json())

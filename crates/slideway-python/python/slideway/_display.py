@@ -46,7 +46,28 @@ class Drawing:
         """The picture as an SVG document."""
 
     def save(self, path: str | PathLike[str], *, scale: float = 2.0) -> None:
-        """Writes a file, SVG or PNG by the ending of its name; a PNG has `scale` pixels for each unit of the SVG."""
+        """Writes a file.
+
+        Parameters
+        ----------
+        path : str or path
+            It ends in .svg or .png.
+        scale : float, default 2
+            Pixels of a PNG for each unit of the SVG.
+
+        Raises
+        ------
+        ValueError
+            Another ending, or a picture that is too large.
+
+        Examples
+        --------
+        >>> import pathlib, slideway, tempfile
+        >>> path = pathlib.Path(tempfile.mkdtemp(), "drawer.png")
+        >>> slideway.Model.gallery("drawer").draw().save(path)
+        >>> path.read_bytes()[1:4]
+        b'PNG'
+        """
         path = Path(path)
         match path.suffix.lower():
             case ".svg":
@@ -64,8 +85,8 @@ class Drawing:
         return f"<slideway.Drawing: {html.unescape(title[1]) if title else ''}>"
 
 
-class Animation:
-    """A mechanism that moves: it plays in a notebook, and can be saved as a page."""
+class Page:
+    """A page that needs no other file: it shows itself in a notebook, and can be saved."""
 
     def __init__(self, page: str, title: str) -> None:
         self.html = page
@@ -73,7 +94,26 @@ class Animation:
         self._title = title
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the page, which needs no other file."""
+        """Writes the page to a file.
+
+        Parameters
+        ----------
+        path : str or path
+            It ends in .html.
+
+        Raises
+        ------
+        ValueError
+            Another ending.
+
+        Examples
+        --------
+        >>> import pathlib, slideway, tempfile
+        >>> path = pathlib.Path(tempfile.mkdtemp(), "drawer.html")
+        >>> slideway.Model.gallery("drawer").simulate("0.1 s").animate().save(path)
+        >>> path.exists()
+        True
+        """
         path = Path(path)
         if path.suffix.lower() not in (".html", ".htm"):
             raise ValueError(f"path must end in .html, not {path.suffix!r}")
@@ -83,7 +123,11 @@ class Animation:
         return _block(_frame(self.html, self._title))
 
     def __repr__(self) -> str:
-        return f"<slideway.Animation: {self._title}>"
+        return f"<slideway.{type(self).__name__}: {self._title}>"
+
+
+class Animation(Page):
+    """A mechanism that moves: it plays in a notebook, and can be saved as a page."""
 
 
 def model_html(model: _slideway.Model) -> str:

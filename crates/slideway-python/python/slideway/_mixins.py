@@ -58,8 +58,23 @@ class _Plot:
     conclusion: tuple[str, ...]
 
     def plot(self, ax: Any = None, *, theme: plotting.ThemeName = "light") -> Any:
-        """Draws the plot on Axes of matplotlib, or on those of a new figure, and returns them: the Axes, or an array of
-        them if there are several panels."""
+        """Draws the plot with matplotlib.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Axes or array of Axes
+
+        Examples
+        --------
+        >>> import slideway
+        >>> ax = slideway.Model.gallery("drawer").limits("mu", 0, 1).plot()   # doctest: +SKIP
+        """
         return plotting.plot_figure(self._answer.figure(), self._answer.drawn, ax, theme=theme)
 
     def _repr_html_(self) -> str:
@@ -83,8 +98,28 @@ class DriveReport(_Plot):
     course: reports.Course | None
 
     def plot(self, ax: Any = None, *, theme: plotting.ThemeName = "light") -> Any:
-        """Draws the efforts over what is varied on Axes of matplotlib, or on those of a new figure, and returns them: the
-        Axes, or an array of them if there are several panels."""
+        """Draws the efforts over what is varied with matplotlib.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Axes or array of Axes
+
+        Raises
+        ------
+        ValueError
+            Nothing was varied.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> ax = slideway.Model.gallery("drawer").drive("mu", (0, 0.6)).plot()   # doctest: +SKIP
+        """
         if self.course is None:
             raise ValueError("there is nothing to plot: ask with a range, such as model.drive(\"mu\", (0, 1))")
         return super().plot(ax, theme=theme)
@@ -102,12 +137,41 @@ class MapReport:
     guarantee: str
 
     def pixels(self) -> NDArray[np.intp]:
-        """The class of each pixel, an index into `classes`: a row for each row of the map from the bottom, a column for
-        each of its columns from the left."""
+        """The class of each pixel, an index into `classes`.
+
+        Returns
+        -------
+        array of int
+            A row for each row of the map from the bottom, a column for each of its columns from the left.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> plane = slideway.Model.gallery("drawer").map(mu=(0, 1), L=("0.3 m", "0.5 m"), size=(4, 3))
+        >>> plane.pixels().shape
+        (3, 4)
+        """
         return np.array(self._answer.pixels(), dtype=np.intp).reshape(self.y.pixels, self.x.pixels)
 
     def plot(self, ax: Axes | None = None, *, theme: plotting.ThemeName = "light") -> Axes:
-        """Draws the map on Axes of matplotlib, or on those of a new figure, and returns them."""
+        """Draws the map with matplotlib.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw. Default: the Axes of a new figure.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import slideway
+        >>> plane = slideway.Model.gallery("drawer").map(mu=(0, 1), L=("0.3 m", "0.5 m"), size=(4, 3))
+        >>> ax = plane.plot()   # doctest: +SKIP
+        """
         return plotting.plot_map(self._answer.drawn_map(theme), self.pixels(), ax, theme=theme)
 
     def _repr_html_(self) -> str:
@@ -130,7 +194,24 @@ class SolveReport:
     solutions: tuple[reports.Solution, ...]
 
     def draw(self, solution: int | None = None, *, theme: plotting.ThemeName = "light") -> _display.Drawing:
-        """A drawing of the mechanism with the forces of all solutions, or of one of them, counted from 1."""
+        """A drawing of the mechanism with the forces of its solutions.
+
+        Parameters
+        ----------
+        solution : int, optional
+            Which solution, from 1. Default: all of them.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Drawing
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").solve().draw()
+        <slideway.Drawing: A drawer pushed off-centre>
+        """
         return _display.Drawing(self._answer.drawing(theme, solution))
 
     def _repr_html_(self) -> str:

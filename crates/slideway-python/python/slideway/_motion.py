@@ -36,8 +36,25 @@ class Motion:
         return self._motion.states(self.t.tolist())
 
     def sol(self, t: ArrayLike) -> NDArray[np.float64]:
-        """The same at other times, between which is interpolated as the solver does it. Times outside of the motion
-        are NaN."""
+        """The state at any times, as the solver interpolates it.
+
+        Parameters
+        ----------
+        t : float or array
+            Times (s).
+
+        Returns
+        -------
+        array
+            The coordinates, then their rates; a column for each time if `t` is an array. NaN outside of the motion.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").simulate("0.1 s").sol([0.0, 0.05])     # driven with 0.1 m/s
+        array([[0.   , 0.005],
+               [0.1  , 0.1  ]])
+        """
         if np.ndim(t) > 1:
             raise ValueError("t must be a time or a list of times")
         times = np.atleast_1d(np.asarray(t, dtype=np.float64))
@@ -62,8 +79,26 @@ class Motion:
         return self.report.end.kind
 
     def table(self, step: float | None = None, *, times: Sequence[float] | None = None) -> dict[str, NDArray[Any]]:
-        """All quantities as arrays by their names: coordinates, rates, accelerations, forces, energies, and the
-        contact mode. At the steps of the solver, in even steps (s), or at these times."""
+        """All quantities as arrays by their names: coordinates, rates, accelerations, forces, energies, contact mode.
+
+        Parameters
+        ----------
+        step : float, optional
+            Even steps of time (s). Default: the steps of the solver.
+        times : list of float, optional
+            The times instead (s).
+
+        Returns
+        -------
+        dict of array
+
+        Examples
+        --------
+        >>> import slideway
+        >>> table = slideway.Model.gallery("drawer").simulate("0.1 s").table(times=[0.0, 0.05])
+        >>> table["x"], table["mode"]
+        (array([0.   , 0.005]), array(['+-', '+-'], dtype='<U2'))
+        """
         wanted = self._motion.times(step) if times is None else np.asarray(times, dtype=np.float64)
         series = self._motion.table(wanted.tolist())
         table: dict[str, NDArray[Any]] = {column.name: column.values for column in series.columns}
@@ -73,9 +108,26 @@ class Motion:
     def plot(
         self, ax: Any = None, *, phase_portrait: bool = False, theme: plotting.ThemeName = "light"
     ) -> Any:
-        """Draws coordinates, normal forces with the contact modes, and energies over time, or with `phase_portrait` the
-        rate of each coordinate over its value, on Axes of matplotlib, or on those of a new figure, and returns them: the
-        Axes, or an array of them if there are several panels."""
+        """Draws the motion with matplotlib.
+
+        Parameters
+        ----------
+        ax : array of Axes, optional
+            Where to draw. Default: the Axes of a new figure.
+        phase_portrait : bool, default False
+            The rate of each coordinate over its value, instead of coordinates, normal forces with the contact modes, and
+            energies over time.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Axes or array of Axes
+
+        Examples
+        --------
+        >>> import slideway
+        >>> axes = slideway.Model.gallery("frictional-oscillator").simulate(3).plot()   # doctest: +SKIP
+        """
         figure = self._motion.plotted(phase_portrait)
 
         def drawn(width: float, height: float) -> list[reports.DrawnPanel]:
@@ -86,20 +138,65 @@ class Motion:
     def animate(
         self, *, slow_motion: float | None = None, theme: plotting.ThemeName = "light"
     ) -> _display.Animation:
-        """The mechanism moving, with the contact mode at each time: it plays in a notebook, and
-        `animate().save("motion.html")` writes a page. `slow_motion` is how many times longer it takes than the motion;
-        by default what makes it easy to watch."""
+        """The mechanism moving, with the contact mode at each time.
+
+        Parameters
+        ----------
+        slow_motion : float, optional
+            How many times longer it takes than the motion. Default: what makes it easy to watch.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Animation
+            It plays in a notebook; `save("motion.html")` writes a page.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").simulate("0.1 s").animate()
+        <slideway.Animation: A drawer pushed off-centre: ...>
+        """
         return _display.Animation(self._motion.animation(theme, slow_motion), self.report._headline())
 
     def _repr_html_(self) -> str:
         return _display.motion_html(self)
 
     def text(self, *, all_events: bool = False, color: bool = False) -> str:
-        """The log of the motion, as the command line shows it."""
+        """The log of the motion, as the command line shows it.
+
+        Parameters
+        ----------
+        all_events : bool, default False
+            Whether to list all events instead of the first and last ones.
+        color : bool, default False
+            With colours for a terminal.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import slideway
+        >>> print(slideway.Model.gallery("drawer").simulate("0.1 s").text().splitlines()[0])
+        A drawer pushed off-centre
+        """
         return self._motion.text_with_all_events(color) if all_events else self.report.text(color=color)
 
     def to_json(self) -> str:
-        """The JSON output of the command line."""
+        """The JSON output of the command line.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import json, slideway
+        >>> json.loads(slideway.Model.gallery("drawer").simulate("0.1 s").to_json())["end"]["kind"]
+        'finished'
+        """
         return self.report.to_json()
 
     def __str__(self) -> str:

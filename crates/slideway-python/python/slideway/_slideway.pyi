@@ -16,7 +16,7 @@ from . import _display, _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "lcp", "merge", "mode_problem", "png", "printable", "solve", "theme"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "import_dxf", "lcp", "merge", "mode_problem", "png", "printable", "solve", "templates", "theme"]
 
 GROUND: Final[str]
 """
@@ -223,6 +223,16 @@ class Mechanism:
         ------
         ModelError
             With everything that is wrong; lines and columns are those of `to_toml()`.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism("Drawer")
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        >>> x = m.slide("x", rail, rate=0.1)
+        >>> m.build()
+        <slideway.Model: Drawer>
         """
     def damper(self, /, name: str, first: End, second: End, *, damping: Value) -> str:
         """
@@ -240,6 +250,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.damper("damper", (drawer, (0, 0)), (GROUND, (1, 0)), damping="5 N s/m")
+        'damper'
         """
     def drive_by_force(self, /, name: str, coordinate: str, body: str, *, at: Pair, direction: Value, acceleration: Value | None = None, turning: bool = False, reaction: str | None = None) -> str:
         """
@@ -263,6 +281,16 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        >>> x = m.slide("x", rail, rate=0.1)
+        >>> m.drive_by_force("push", x, drawer, at=(-0.2, 0.1), direction=0)
+        'push'
         """
     def drive_by_torque(self, /, name: str, coordinate: str, body: str, *, acceleration: Value | None = None, reaction: str | None = None) -> str:
         """
@@ -280,6 +308,15 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> phi = m.rotation("phi", crank, rate=3)
+        >>> m.drive_by_torque("motor", phi, crank)
+        'motor'
         """
     def force(self, /, name: str, body: str, *, at: Pair, components: Pair | None = None, magnitude: Value | None = None, direction: Value | None = None, turning: bool = False, reaction: str | None = None) -> str:
         """
@@ -303,6 +340,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.force("push", drawer, at=(0, 0.1), components=("20 N", 0))
+        'push'
         """
     def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, pad: Pair | None = None) -> str:
         """
@@ -320,6 +365,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.guided_slider("runner", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        'runner'
         """
     def hinge(self, /, name: str, first: str, second: str, at: Pair) -> str:
         """
@@ -337,6 +390,15 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> pin = m.hinge("pin", GROUND, crank, at=(0, 0))
+        >>> pin
+        'pin'
         """
     def parameter(self, /, name: str, value: Value) -> str:
         """
@@ -378,6 +440,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.pin_in_slot("slot", drawer, GROUND, at=(0, 0), mu=0.2)
+        'slot'
         """
     def rotation(self, /, name: str, body: str, *, relative_to: str | None = None, drawn_at: Value | None = None, value: Value | None = None, rate: Value | None = None) -> str:
         """
@@ -397,6 +467,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> m.rotation("phi", crank, rate="3 rad/s")
+        'phi'
         """
     def slide(self, /, name: str, slider: str, *, drawn_at: Value | None = None, value: Value | None = None, rate: Value | None = None) -> str:
         """
@@ -416,6 +494,15 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length=0.4, mu=0.2)
+        >>> m.slide("x", rail, rate="0.1 m/s")
+        'x'
         """
     def spring(self, /, name: str, first: End, second: End, *, stiffness: Value, free_length: Value | None = None) -> str:
         """
@@ -435,6 +522,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.spring("spring", (drawer, (0, 0)), (GROUND, (1, 0)), stiffness="10 N/m")
+        'spring'
         """
     def to_toml(self, /) -> str:
         """
@@ -469,6 +564,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0))
+        >>> m.torque("twist", drawer, "3 N m")
+        'twist'
         """
     def torsional_damper(self, /, name: str, first: str, second: str, *, damping: Value) -> str:
         """
@@ -484,6 +587,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> m.torsional_damper("damper", GROUND, crank, damping="0.1 N m s/rad")
+        'damper'
         """
     def torsional_spring(self, /, name: str, first: str, second: str, *, stiffness: Value, free_angle: Value | None = None) -> str:
         """
@@ -502,6 +613,14 @@ class Mechanism:
         -------
         str
             The name.
+
+        Examples
+        --------
+        >>> from slideway import GROUND, Mechanism
+        >>> m = Mechanism()
+        >>> crank = m.body("crank", mass=1, inertia=0.01, centre=(0.1, 0))
+        >>> m.torsional_spring("spring", GROUND, crank, stiffness="2 N m/rad")
+        'spring'
         """
 
 @final
@@ -536,6 +655,21 @@ class Model:
     def check(self, /) -> reports.CheckReport:
         """
         What the model consists of, what would keep it from being solved, and what is perhaps not meant in it.
+
+        Returns
+        -------
+        reports.CheckReport
+
+        Raises
+        ------
+        ModelError
+            The mechanism cannot be assembled.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").check().sound
+        True
         """
     @property
     def coordinates(self, /) -> list[str]:
@@ -544,51 +678,238 @@ class Model:
         """
     def draw(self, /, solution: int | None = None, *, theme: str = "light") -> _display.Drawing:
         """
-        A drawing of the mechanism in this state, and of one of its solutions, counted from 1, if one is asked for.
+        A drawing of the mechanism in this state.
 
-        `theme` is "light" or "dark". The drawing shows itself in a notebook; `drawing.svg` is its text, and
-        `drawing.save("mechanism.svg")` or `"mechanism.png"` writes a file.
+        Parameters
+        ----------
+        solution : int, optional
+            Which of its solutions to draw with its forces, from 1. Default: none.
+        theme : {"light", "dark"}
+
+        Returns
+        -------
+        Drawing
+            It shows itself in a notebook; `drawing.svg` is its text, and `save` writes an SVG or PNG file.
+
+        Raises
+        ------
+        ValueError
+            There is no solution of this number.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").draw(1)
+        <slideway.Drawing: A drawer pushed off-centre>
         """
     def drive(self, /, vary: str | None = None, between: Range | None = None, *, rows: int = 41, time_limit: float | None = None, progress: Progress | None = None) -> reports.DriveReport:
         """
-        Which efforts the drives need against friction, and how efficient that is; with `vary`, a coordinate or
-        parameter, over its range `between=(start, stop)` in so many `rows`.
+        Which efforts the drives need against friction, and how efficient that is.
+
+        Parameters
+        ----------
+        vary : str, optional
+            A parameter or coordinate over whose range the efforts are wanted.
+        between : pair, optional
+            The ends of that range. Default: a usual one.
+        rows : int, default 41
+            How many values of it.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.DriveReport
+            With a `plot()` if something is varied.
+
+        Raises
+        ------
+        ModelError
+            The model has no drives, a name does not exist, or the range makes no sense.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> report = slideway.Model.gallery("drawer").drive()
+        >>> report.conclusion[0]
+        'Moving as in the model: push needs 36.364 N instead of 20 N without friction; efficiency 55 %.'
         """
     @staticmethod
     def gallery(name: str) -> Model:
         """
-        A model of the gallery, such as `"drawer"`; `gallery_models()` has their names.
+        A model of the gallery.
+
+        Parameters
+        ----------
+        name : str
+            Such as `"drawer"`; `gallery_models()` has all names.
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        KeyError
+            There is none of this name.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("wedge").coordinates
+        ['x']
         """
     def hold(self, /, load: str | None = None, *, vary: str | None = None, drives: str = "release", time_limit: float | None = None, progress: Progress | None = None) -> reports.HoldReport:
         """
-        Whether the mechanism stays at rest, under which loads, and how it begins to move. The rates are taken as
-        zero.
+        Whether the mechanism stays at rest, under which loads, and how it begins to move.
 
-        With `load`, the name of a load or drive or `"gravity"`, which factors of it are held; with `vary`, from
-        which value of that static friction on it is held however great it is. `drives` are "release" (absent) or
-        "hold".
+        Rates are taken as zero.
+
+        Parameters
+        ----------
+        load : str, optional
+            The name of a load or drive, or `"gravity"`: which factors of it are held?
+        vary : str, optional
+            A parameter, a coordinate, or `"friction"`: from which value of it on is the load held, however great it is?
+        drives : {"release", "hold"}
+            Whether the drives are absent, or hold their coordinates.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.HoldReport
+
+        Raises
+        ------
+        ModelError
+            The name of the load does not exist, or the mechanism cannot be assembled.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").hold().holds     # nothing but friction opposes its resistance
+        False
         """
     def limits(self, /, vary_name: str, start: Value | None = None, stop: Value | None = None, *, max_reaction: float | None = None, both_directions: bool = False, effort: int = ..., quantity: str = "normal-force", time_limit: float | None = None, progress: Progress | None = None) -> reports.LimitsReport:
         """
-        For which values of a parameter, a coordinate, or of `"friction"`, the factor on all coefficients of
-        friction, each contact mode exists, and how many solutions there are.
+        For which values of a quantity each contact mode exists, and how many solutions there are.
 
-        Without `start` and `stop`, coefficients of friction and `"friction"` have a usual range. `quantity` is
-        what the plot of the answer shows: "normal-force", "friction", "acceleration" or "effort".
+        Parameters
+        ----------
+        vary_name : str
+            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction.
+        start, stop : float or str, optional
+            The ends of the range. Default: a usual one for coefficients of friction and `"friction"`, and for what has a
+            value in the model.
+        max_reaction : float, optional
+            The greatest normal force that counts as a solution (N): where it is exceeded a mode ends.
+        both_directions : bool, default False
+            Whether to find the limits of the opposite direction of motion, too.
+        effort : int
+            How many values are examined at most where the ends of modes are not zeros of determinants.
+        quantity : {"normal-force", "friction", "acceleration", "effort"}
+            What the plot of the answer shows.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.LimitsReport
+            With a `plot()`.
+
+        Raises
+        ------
+        ModelError
+            The name does not exist, or the range makes no sense.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> limits = slideway.Model.gallery("drawer").limits("mu", 0, 1)
+        >>> [(count.solutions, round(count.to, 6)) for count in limits.counts]     # locked beyond L / (2 a)
+        [(1, 0.666667), (0, 1.0)]
         """
     @staticmethod
     def load(path: str | PathLike[str]) -> Model:
         """
         A model from a file.
 
-        Raises `ModelError` with everything that is wrong with it, `OSError` if it cannot be read.
+        Parameters
+        ----------
+        path : str or path
+            The model file.
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        ModelError
+            With everything that is wrong with it, each fault with its line and column.
+        OSError
+            The file cannot be read.
+
+        Examples
+        --------
+        >>> import pathlib, slideway, tempfile
+        >>> path = pathlib.Path(tempfile.mkdtemp(), "mine.toml")
+        >>> _ = path.write_text(slideway.Model.gallery("drawer").text)
+        >>> slideway.Model.load(path) == slideway.Model.gallery("drawer")
+        True
         """
     def map(self, /, *, colour_by: str = "solutions", size: tuple[int, int] | None = None, probe: int | None = None, time_limit: float | None = None, progress: Progress | None = None, **axes: Range | None) -> reports.MapReport:
         """
-        A map of the plane of two quantities: `model.map(mu=(0, 1), alpha=("0 deg", "90 deg"))`, x first.
+        A map of the plane of two quantities.
 
-        `colour_by` is what the colours tell: "solutions", "modes", "margin", "jam", "motion" or "hold"; `size` the
-        number of pixels in each direction; `probe` the distance of pixels that are looked at first.
+        Parameters
+        ----------
+        **axes : pair
+            Two quantities, x first, each with the ends of its range: `mu=(0, 1), L=("0.3 m", "0.5 m")`. None stands for a
+            usual range.
+        colour_by : {"solutions", "modes", "margin", "jam", "motion", "hold"}
+            What the colours tell.
+        size : pair of int, optional
+            Pixels in each direction.
+        probe : int, optional
+            Distance of the pixels that are looked at first (pixels).
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.MapReport
+            With a `plot()`; `pixels()` are an array.
+
+        Raises
+        ------
+        ModelError
+            A name does not exist, or a range makes no sense.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> drawer = slideway.Model.gallery("drawer")
+        >>> plane = drawer.map(mu=(0, 1), L=("0.3 m", "0.5 m"), size=(4, 3))
+        >>> [one.words for one in plane.classes]
+        ['no solution: friction locks it', 'one solution']
+        >>> plane.pixels()
+        array([[1, 1, 0, 0],
+               [1, 1, 1, 0],
+               [1, 1, 1, 0]])
         """
     @property
     def parameters(self, /) -> list[str]:
@@ -600,11 +921,96 @@ class Model:
         """
         A model from its text, in the language of model files.
 
-        Raises `ModelError` with everything that is wrong with it.
+        Parameters
+        ----------
+        text : str
+            What stands in a model file.
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        ModelError
+            With everything that is wrong with it, each fault with its line and column.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> text = slideway.Model.gallery("drawer").text
+        >>> slideway.Model.parse(text)
+        <slideway.Model: A drawer pushed off-centre>
+        """
+    def report(self, /, *, time_limit: float | None = None, progress: Progress | None = None, **ranges: Range | None) -> _display.Page:
+        """
+        A page with the model, its drawing, its solutions, its efforts, whether it stays at rest, and its limits.
+
+        Parameters
+        ----------
+        **ranges : pair
+            Quantities whose limits are wanted, each with the ends of its range: `mu=(0, 1)`. None stands for a usual range.
+            Default: `friction`, the factor on all coefficients of friction.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        Page
+            It shows itself in a notebook; `save("report.html")` writes a file that needs no other, and prints on A4.
+
+        Raises
+        ------
+        ModelError
+            The mechanism cannot be assembled, or a quantity does not exist.
+
+        Examples
+        --------
+        >>> import pathlib, slideway, tempfile
+        >>> page = slideway.Model.gallery("drawer").report(mu=(0, 1))
+        >>> path = pathlib.Path(tempfile.mkdtemp(), "drawer.html")
+        >>> page.save(path)
+        >>> "<h2>Model</h2>" in path.read_text()
+        True
         """
     def rest_limits(self, /, vary_name: str, start: Value, stop: Value, *, load: str | None = None, drives: str = "release", time_limit: float | None = None, progress: Progress | None = None) -> reports.RestLimitsReport:
         """
-        For which values of a parameter, a coordinate or `"friction"` the mechanism can stay at rest.
+        For which values of a quantity the mechanism can stay at rest.
+
+        Parameters
+        ----------
+        vary_name : str
+            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction.
+        start, stop : float or str
+            The ends of the range.
+        load : str, optional
+            The name of a load or drive, or `"gravity"`, which is to be held however great it is.
+        drives : {"release", "hold"}
+            Whether the drives are absent, or hold their coordinates.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.RestLimitsReport
+
+        Raises
+        ------
+        ModelError
+            A name does not exist, or the range makes no sense.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> wedge = slideway.Model.gallery("wedge")
+        >>> len(wedge.rest_limits("friction", 0, 2).spans) > 0
+        True
         """
     @property
     def settings(self, /) -> list[str]:
@@ -616,47 +1022,229 @@ class Model:
     @overload
     def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: str = "rule", all_branches: None = None, tolerance: float = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: float | None = None, time_limit: float | None = None, progress: Progress | None = None) -> _motion.Motion:
         """
-        The motion until a time (s), the contact mode being part of the state: a `Motion` whose `t`, `y` and
-        `events` are as those of `scipy.integrate.solve_ivp`.
+        The motion until a time, the contact mode being part of the state.
 
-        `mode` is the contact mode to begin with, `branches` which of several possible modes to take at each
-        decision (from 1), `prefer` the "rule" of the book or "sliding", `tolerance` the relative error of a step.
-        With `all_branches` all motions are followed, at most so many: then the answer is a `TreeReport`.
+        Parameters
+        ----------
+        until : float or str
+            When it ends (s).
+        mode : str, optional
+            The contact mode to begin with, a sign for each contact, such as `"+ - 0"`.
+        branches : list of int, optional
+            Which of several possible modes to take at each decision, from 1.
+        prefer : {"rule", "sliding"}
+            Which one otherwise: that of the rule in the book, or sliding.
+        all_branches : int, optional
+            Follows all motions, at most so many.
+        tolerance : float, default 1e-8
+            The relative error of a step.
+        longest_step : float or str, optional
+            The longest step of the solver (s).
+        max_steps, max_events : int
+            After how many steps or events it ends.
+        max_reaction : float, optional
+            The normal force beyond which it ends (N).
+        time_limit : float, optional
+            The longest that it may take (s); the answer is then partial, and says so. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        Motion or reports.TreeReport
+            A motion, whose `t`, `y` and `events` are as those of `scipy.integrate.solve_ivp`; with `all_branches` a tree.
+
+        Raises
+        ------
+        ModelError
+            The mode does not exist, or `until` is before the time of the model.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> motion = slideway.Model.gallery("drawer").simulate("0.1 s")
+        >>> motion.sol(0.05)     # driven with 0.1 m/s
+        array([0.005, 0.1  ])
         """
     def size(self, /, vary_name: str, start: Value | None = None, stop: Value | None = None, *, margin: Value | None = None, max_effort: Value | None = None, max_normal_force: Value | None = None, max_pressure: Value | None = None, min_efficiency: Value | None = None, against: str = "locking", load: str | None = None, both_directions: bool = False, time_limit: float | None = None, progress: Progress | None = None) -> reports.SizeReport:
         """
-        For which values of a quantity a wanted margin against locking is met, or a limit kept: one of `margin` (a
-        factor on friction), `max_effort` (N or N m), `max_normal_force` (N), `max_pressure` (Pa) and
-        `min_efficiency` (from 0 to 1). Texts may have units, such as `max_effort="30 N"`.
+        For which values of a quantity a wanted margin against locking is met, or a limit is kept.
 
-        A margin is `against` "locking" in motion, "self-locking" at rest under `load`, or "hold", that the load
-        is held. `load` is also the drive of an effort, or the contact of a normal force or pressure.
+        Exactly one of `margin`, `max_effort`, `max_normal_force`, `max_pressure` and `min_efficiency` is given.
+
+        Parameters
+        ----------
+        vary_name : str
+            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction.
+        start, stop : float or str, optional
+            The ends of the range. Default: a usual one for coefficients of friction and `"friction"`, and for what has a
+            value in the model.
+        margin : float, optional
+            The factor by which friction shall be able to grow.
+        max_effort : float or str, optional
+            The greatest effort of a drive (N or N m).
+        max_normal_force : float or str, optional
+            The greatest normal force of a contact (N).
+        max_pressure : float or str, optional
+            The greatest bearing pressure of a contact with a `pad` (Pa).
+        min_efficiency : float or str, optional
+            The least efficiency of the drives, above 0 and at most 1.
+        against : {"locking", "self-locking", "hold"}
+            What the margin is against: locking in motion, self-locking at rest under `load`, or that `load` is not held.
+        load : str, optional
+            The load of a margin at rest, the drive of `max_effort`, or the contact of `max_normal_force` and `max_pressure`
+            (default: all of them).
+        both_directions : bool, default False
+            Whether the margin must be met in the opposite direction of motion, too.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.SizeReport
+            With a `plot()`; `met` has the intervals.
+
+        Raises
+        ------
+        ModelError
+            A name does not exist, the range makes no sense, or a limit has the wrong unit.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> size = slideway.Model.gallery("drawer").size("L", "0.1 m", "1 m", margin=2)
+        >>> round(size.met[0].from_, 6)     # L = 2 (2 mu) a, in m
+        0.36
         """
     def solve(self, /, *, margins: bool = True, max_solutions: int = 100, max_nodes: int | None = None, max_found: int | None = None, time_limit: float | None = None, progress: Progress | None = None) -> reports.SolveReport:
         """
         All solutions of the equations of motion in this state, with their contact modes.
 
-        `margins=False` leaves out by which factors friction may grow, which is most of the work. At most
-        `max_solutions` are listed; all are counted. The search ends after `max_nodes` nodes or `time_limit`
-        seconds; the answer is then partial.
+        Parameters
+        ----------
+        margins : bool, default True
+            Whether to find by which factors friction may grow, which is most of the work.
+        max_solutions : int, default 100
+            How many solutions to list; all are counted.
+        max_nodes : int, optional
+            After how many nodes the search ends; the answer is then partial.
+        max_found : int, optional
+            The search ends once a group of contacts has so many solutions; the answer is then partial.
+        time_limit : float, optional
+            The longest that it may take (s); the answer is then partial, and says so. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        reports.SolveReport
+            Iterable over its solutions. That there is none is an answer, too: `status` is then "none".
+
+        Raises
+        ------
+        ModelError
+            There is no unique state to be solved, such as with a velocity of zero in a joint with friction.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> answer = slideway.Model.gallery("drawer").solve()
+        >>> answer.status, answer.complete
+        ('one', 'proven')
+        >>> answer.solutions[0].normal_forces     # +- F a / L with F = Q / (1 - 2 mu a / L), in N
+        array([ 27.27..., -27.27...])
         """
     def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
         """
-        All solutions at every point of a grid, or of random samples: a table, a `Sweep`.
+        All solutions at every point of a grid, or of random samples, as a table.
 
-        Each quantity that is varied, a parameter, a coordinate, `"COORDINATE.rate"` (by `**{"x.rate": ...}`),
-        `friction` (the factor on all coefficients) or `time`, has its values: an array, a list of numbers or texts
-        with units, or a text such as "0..0.8:801" (evenly spaced, both ends included) or "0.01..1:50:log". The last
-        one varies fastest. With `samples=N` these are distributions: "0.1..0.5", "uniform(0.1, 0.5)",
-        "normal(0.3, 0.05)", "lognormal(0.3, 0.2)"; `sampling` is "random" or "halton", and the same `seed` gives the
-        same samples.
+        Parameters
+        ----------
+        **values : array, list or str
+            What is varied: a parameter, a coordinate, `"COORDINATE.rate"` (by `**{"x.rate": ...}`), `friction` (the factor on
+            all coefficients of friction) or `time`. On a grid its values: an array or list of numbers in SI units or texts,
+            or a text such as `"0..0.8:801"` (evenly spaced, both ends included) or `"0.01..1:50:log"`; the last quantity varies
+            fastest. With `samples` its distribution: `"0.1..0.5"`, `"uniform(0.1, 0.5)"`, `"normal(0.3, 0.05)"` or
+            `"lognormal(0.3, 0.2)"`.
+        samples : int, optional
+            Number of random samples; without it the points are a grid.
+        sampling : {"random", "halton"}
+            How samples are spread.
+        seed : int, default 0
+            The same seed gives the same samples.
+        breakpoints : bool, default False
+            Whether the exact ends of modes are inserted into a sweep over one quantity. `slideway sweep` inserts them unless
+            told `--no-breakpoints`; here the rows are those of the values that are given unless asked otherwise, so that
+            they stay in step with the arrays that they come from.
+        attainability : bool, default False
+            Whether to add a column that says whether a mechanism with slightly elastic guides settles on each solution.
+        all_columns : bool, default False
+            Whether to add the accelerations of all bodies and the forces of hinges.
+        shard : pair of int, optional
+            `(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches. `write_shard` writes
+            it to a folder, and `slideway.dask.sweep` computes all parts on a cluster.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
 
-        `breakpoints=True` inserts the exact ends of modes into a sweep over one quantity, `attainability=True` adds
-        whether a mechanism with slightly elastic guides settles on each solution, `all_columns=True` accelerations of
-        bodies and hinge forces.
+        Returns
+        -------
+        Sweep
 
-        `shard=(3, 64)` computes the third of 64 parts of the points alone, which has no numbers of branches;
-        `write_shard` writes it to a folder, and `slideway.dask.sweep` computes all of them on a cluster.
+        Raises
+        ------
+        ModelError
+            A name does not exist, or values make no sense.
+        MemoryError
+            The machine has no room for the table.
+
+        Examples
+        --------
+        >>> import numpy as np, slideway
+        >>> model = slideway.Model.gallery("drawer")
+        >>> sweep = model.sweep(mu=np.linspace(0, 1, 11))
+        >>> sweep.tally.solutions                       # locked beyond 2/3
+        {0: 4, 1: 7}
+        >>> model.sweep(samples=1000, mu="uniform(0, 1)").tally.points
+        1000
+        """
+    @staticmethod
+    def template(name: str, /, **sizes: Value) -> Model:
+        """
+        A model from a template: an everyday problem with dimensions of one's own.
+
+        Parameters
+        ----------
+        name : str
+            Such as `"drawer"`; `templates()` has all names.
+        **sizes : float or str
+            Parameters of the template, with units: `L="500 mm"`. Those that are not given stay as they are there.
+
+        Returns
+        -------
+        Model
+            Its `text` is a commented model file, which says the rule that is to be met, with its source.
+
+        Raises
+        ------
+        KeyError
+            There is none of this name.
+        ModelError
+            With everything that is wrong with the sizes, such as numbers without a unit and joints that do not close.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> drawer = slideway.Model.template("drawer", L="500 mm", a="150 mm")
+        >>> round(drawer.limits("mu", 0, 2).counts[0].to, 6)     # L / (2 a)
+        1.666667
         """
     @property
     def text(self, /) -> str:
@@ -670,19 +1258,98 @@ class Model:
         """
     def with_(self, /, *, at: Mapping[str, Value] | None = None, rate: Mapping[str, Value] | None = None, time: Value | None = None, units: str | None = None, **values: Value) -> Model:
         """
-        The same model with other values: parameters and coordinates by their names, or positions (`at`) and rates
-        (`rate`) of coordinates by theirs, and the time of the state. A number is in SI units; a text may have a
-        unit or be an expression of parameters: `model.with_(mu=0.5, alpha="75 deg", rate={"x": "2 m/s"})`.
+        The same model with other values.
 
-        `units` are those in which texts show numbers: "as-typed", "SI" or "mm".
+        Parameters
+        ----------
+        at : dict, optional
+            Positions of coordinates by their names; needed only where a parameter has the same name.
+        rate : dict, optional
+            Rates of coordinates by their names (m/s or rad/s).
+        time : float or str, optional
+            The time of the state (s).
+        units : {"as-typed", "SI", "mm"}, optional
+            The units in which texts show numbers.
+        **values : float or str
+            Parameters and coordinates by their names. A number is in SI units (rad for angles); a text may have a unit or be
+            an expression of parameters.
 
-        Raises `ModelError` for names that do not exist and values that make no sense.
+        Returns
+        -------
+        Model
+            A new one; this one stays as it is.
+
+        Raises
+        ------
+        ModelError
+            With all names that do not exist and all values that make no sense.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> model = slideway.Model.gallery("drawer").with_(mu=0.5, L="450 mm", rate={"x": "2 m/s"})
+        >>> model.settings
+        ['mu=0.5', 'L=450 mm', 'rate x=2 m/s']
         """
     def write_shard(self, /, output: str | PathLike[str], shard: tuple[int, int], *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> Path:
         """
-        Computes a part of a sweep, such as `shard=(3, 64)`, the third of 64, and writes it into the folder `output`
-        as a Parquet file, unless it is there: the path of the file. `slideway.merge` makes one table of all parts.
-        Everything else is as for `sweep`.
+        Computes a part of a sweep and writes it to a folder, unless it is there.
+
+        The rows of the file, and its name, are those that `slideway sweep --shard` gives for the same sweep; what the file says of the
+        command that made it differs. `slideway.merge` makes one table of all parts, whichever program wrote them.
+
+        Parameters
+        ----------
+        output : str or path
+            The folder; it is made if it is not there.
+        shard : pair of int
+            Which part: `(3, 64)` is the third of 64.
+        **values : array, list or str
+            What is varied: a parameter, a coordinate, `"COORDINATE.rate"` (by `**{"x.rate": ...}`), `friction` (the factor on
+            all coefficients of friction) or `time`. On a grid its values: an array or list of numbers in SI units or texts,
+            or a text such as `"0..0.8:801"` (evenly spaced, both ends included) or `"0.01..1:50:log"`; the last quantity varies
+            fastest. With `samples` its distribution: `"0.1..0.5"`, `"uniform(0.1, 0.5)"`, `"normal(0.3, 0.05)"` or
+            `"lognormal(0.3, 0.2)"`.
+        samples : int, optional
+            Number of random samples; without it the points are a grid.
+        sampling : {"random", "halton"}
+            How samples are spread.
+        seed : int, default 0
+            The same seed gives the same samples.
+        breakpoints : bool, default False
+            Whether the exact ends of modes are inserted into a sweep over one quantity. `slideway sweep` inserts them unless
+            told `--no-breakpoints`; here the rows are those of the values that are given unless asked otherwise, so that
+            they stay in step with the arrays that they come from.
+        attainability : bool, default False
+            Whether to add a column that says whether a mechanism with slightly elastic guides settles on each solution.
+        all_columns : bool, default False
+            Whether to add the accelerations of all bodies and the forces of hinges.
+        time_limit : float, optional
+            The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+        progress : callable, optional
+            Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+            raises.
+
+        Returns
+        -------
+        Path
+            The Parquet file.
+
+        Raises
+        ------
+        ModelError
+            A name does not exist, or values make no sense.
+        OSError
+            The folder holds parts of another sweep, or cannot be written to.
+
+        Examples
+        --------
+        >>> import slideway, tempfile
+        >>> model, folder = slideway.Model.gallery("drawer"), tempfile.mkdtemp()
+        >>> [model.write_shard(folder, (part, 2), mu="0..1:11").name for part in (1, 2)]
+        ['shard-1-of-2.parquet', 'shard-2-of-2.parquet']
+        >>> len(slideway.merge(folder))
+        11
         """
 
 @final
@@ -778,12 +1445,62 @@ class Table:
 
 def gallery_models() -> dict[str, str]:
     """
-    The names of the models of the gallery, each with a line that says what it is.
+    The names of the models of `Model.gallery`, each with a line that says what it is.
+
+    Returns
+    -------
+    dict of str
+
+    Examples
+    --------
+    >>> import slideway
+    >>> slideway.gallery_models()["drawer"]
+    'A drawer pushed off-centre.'
     """
 
 def hlcp(a: ArrayLike, b: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
     """
     All solutions of `A w - B z = q`.
+    """
+
+def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str | None = None) -> str:
+    """
+    The text of a model file with the outlines and points of a drawing, to be completed with joints, masses and
+    coordinates.
+
+    Each layer becomes a body: its greatest closed line is the outline, circles and points are its points, texts
+    beside them their names. The layer `ground` gives points of ground. What is left out stands in comments.
+
+    Parameters
+    ----------
+    path : str or path
+        The drawing, a text (ASCII) DXF file.
+    unit : str, optional
+        Unit of length of the drawing: "in", "ft", "mm", "cm", "m", "km", "um" or "dm". Default: the one that it
+        says.
+    title : str, optional
+        The title of the model. Default: the name of the file without its ending.
+
+    Returns
+    -------
+    str
+        The text, for a file that an editor completes and `Model.load` reads.
+
+    Raises
+    ------
+    ValueError
+        What keeps the drawing from being read, with its line.
+    OSError
+        The file cannot be read.
+
+    Examples
+    --------
+    >>> import pathlib, slideway, tempfile
+    >>> drawing = pathlib.Path(tempfile.mkdtemp(), "crank.dxf")
+    >>> lines = "0 SECTION 2 ENTITIES 0 CIRCLE 8 crank 10 0 20 0 40 60 0 ENDSEC 0 EOF"
+    >>> _ = drawing.write_text("\\n".join(lines.split()))
+    >>> "[bodies.crank]" in slideway.import_dxf(drawing, unit="mm")
+    True
     """
 
 def lcp(m: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
@@ -793,7 +1510,30 @@ def lcp(m: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawRepor
 
 def merge(folder: str | PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None) -> _sweep.Sweep:
     """
-    One table of all shards in a folder.
+    One table of all parts of a sweep in a folder, with numbers of branches.
+
+    Parameters
+    ----------
+    folder : str or path
+        What `Model.write_shard`, `slideway.dask.sweep` or `slideway sweep --shard` wrote its parts to.
+    time_limit : float, optional
+        The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+    progress : callable, optional
+        Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+        raises.
+
+    Returns
+    -------
+    Sweep
+
+    Raises
+    ------
+    OSError
+        Parts are missing, or do not belong together.
+
+    Examples
+    --------
+    See `Model.write_shard`.
     """
 
 def mode_problem(columns_positive: ArrayLike, columns_negative: ArrayLike, right_hand_side: ArrayLike, jumps: tuple[ArrayLike, ArrayLike] | None, options: dict[str, Any]) -> reports.RawReport:
@@ -814,6 +1554,21 @@ def printable(text: str) -> str:
 def solve(a: ArrayLike, b: ArrayLike, right_hand_side: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
     """
     All solutions of `A x + B |x| = b`.
+    """
+
+def templates() -> dict[str, str]:
+    """
+    The names of the templates of `Model.template`, each with a line that says what it is.
+
+    Returns
+    -------
+    dict of str
+
+    Examples
+    --------
+    >>> import slideway
+    >>> "drawer" in slideway.templates()
+    True
     """
 
 def theme(name: str) -> reports.Theme:

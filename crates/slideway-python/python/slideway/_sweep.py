@@ -72,22 +72,67 @@ class Sweep:
         return iter(self.columns)
 
     def keys(self) -> list[str]:
-        """The names of the columns: `dict(sweep)` has the columns by their names."""
+        """The names of the columns: `dict(sweep)` has the columns by their names.
+
+        Returns
+        -------
+        list of str
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).keys()[:2]
+        ['point', 'mu']
+        """
         return self.columns
 
     def to_numpy(self) -> NDArray[np.void]:
-        """The table as an array of records, which shares its memory: what `numpy.load` gives of the `rows` in a file
-        of `slideway sweep --output FILE.npz`."""
+        """The table as an array of records.
+
+        Returns
+        -------
+        array
+            It shares the memory of the table, and is what `numpy.load` gives of the `rows` in a file of
+            `slideway sweep --output FILE.npz`.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).to_numpy()["mu"]
+        array([0.1, 0.2])
+        """
         return self._rows
 
     def to_polars(self) -> polars.DataFrame:
-        """The table as a data frame of polars."""
+        """The table as a data frame of polars.
+
+        Returns
+        -------
+        polars.DataFrame
+
+        Examples
+        --------
+        >>> import slideway
+        >>> slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).to_polars().height
+        2
+        """
         import polars
 
         return polars.DataFrame(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table as a data frame of pandas, by way of pyarrow: as pandas reads it from a Parquet file."""
+        """The table as a data frame of pandas, by way of pyarrow: as pandas reads it from a Parquet file.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import slideway
+        >>> len(slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).to_pandas())
+        2
+        """
         import pyarrow
 
         return pyarrow.table(self).to_pandas()
@@ -103,9 +148,34 @@ class Sweep:
         theme: plotting.ThemeName = "light",
         time_limit: float | None = None,
     ) -> Any:
-        """Draws a quantity ("normal-force", "friction", "acceleration" or "effort") along every branch over the one that is
-        varied, or its distribution over samples, on Axes of matplotlib or on those of a new figure, and returns them: the
-        Axes, or an array of them if there are several panels. All points are computed again."""
+        """Draws a quantity along every branch over the one that is varied, or its distribution over samples, with
+        matplotlib. All points are computed again.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
+        quantity : {"normal-force", "friction", "acceleration", "effort"}
+        theme : {"light", "dark"}
+        time_limit : float, optional
+            The longest that it may take (s).
+
+        Returns
+        -------
+        Axes or array of Axes
+
+        Raises
+        ------
+        ValueError
+            Two quantities are varied, of which `Model.map` makes a map, or the table is one shard.
+        TimeoutError
+            The time was up.
+
+        Examples
+        --------
+        >>> import slideway
+        >>> ax = slideway.Model.gallery("drawer").sweep(mu="0..0.6:61").plot()   # doctest: +SKIP
+        """
         plot = self._table.plot(quantity, time_limit)
         return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
 
@@ -113,7 +183,23 @@ class Sweep:
         return _display.words_html(self.text())
 
     def text(self, *, color: bool = False) -> str:
-        """What the sweep comes to, as the command line says it."""
+        """What the sweep comes to, as the command line says it.
+
+        Parameters
+        ----------
+        color : bool, default False
+            With colours for a terminal.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import slideway
+        >>> print(slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).text().splitlines()[0])
+        2 points: 2 rows, 1 branch
+        """
         return self._table.text(color)
 
     def __str__(self) -> str:

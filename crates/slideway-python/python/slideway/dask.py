@@ -44,22 +44,20 @@ def sweep(
 
     Parameters
     ----------
-    model
-        The model.
-    client
-        A client of `dask.distributed`.
-    output
+    model : Model
+    client : distributed.Client
+    output : str or path, optional
         A folder that all workers reach: each shard becomes a Parquet file there, with the rows and the name that
         `slideway sweep --shard` gives it. Shards that are there already are left as they are, so that an interrupted
         sweep goes on. Without it the rows stay in the memory of the workers.
-    shards
+    shards : int, optional
         How many shards. By default as many as let each take about `chunk_seconds` on one core of this machine, as a
         short trial tells.
-    chunk_seconds
+    chunk_seconds : float, default 5
         See `shards` (s).
-    options
+    options : dict, optional
         Options of `Model.sweep`: `samples`, `seed`, `attainability` ...
-    **values
+    **values : array, list or str
         What is varied, as for `Model.sweep`.
 
     Returns

@@ -38,10 +38,40 @@ def _options(
 def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.RawReport:
     """All solutions `x` of the absolute value equation `A x + B |x| = b`.
 
-    At most `max_solutions` are listed, all are counted. The search ends after `max_nodes` nodes, once a group of
-    unknowns has `max_found` solutions, or after `time_limit` seconds; the answer is then partial. `uniqueness=True`
-    also decides whether there is exactly one solution for every `b`, and `all_faces=True` lists the parts of continua.
+    Parameters
+    ----------
+    A, B : array, n by n
+    b : array of n
 
+    Other Parameters
+    ----------------
+    max_solutions : int, default 100
+        How many solutions to list; all are counted.
+    max_nodes : int, optional
+        After how many nodes the search ends; the answer is then partial.
+    max_found : int, optional
+        The search ends once a group of unknowns has so many solutions; the answer is then partial.
+    all_faces : bool, default False
+        Whether to list the parts of continua.
+    uniqueness : bool, default False
+        Whether to decide if there is exactly one solution for every `b`, too.
+    time_limit : float, optional
+        The longest that it may take (s); the answer is then partial.
+    progress : callable, optional
+        Called with the fraction that is done (None if it is not known), a count, and what is counted.
+
+    Returns
+    -------
+    reports.RawReport
+        Iterable over its solutions; `complete` says how it is known that there are no others.
+
+    Raises
+    ------
+    ValueError
+        Sizes that do not fit, or numbers that are not finite.
+
+    Examples
+    --------
     >>> [solution.x.tolist() for solution in solve([[1.0]], [[-0.5]], [1.0])]
     [[2.0]]
     """
@@ -49,12 +79,52 @@ def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.R
 
 
 def lcp(M: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:
-    """All solutions of `w = M z + q`, `w >= 0`, `z >= 0`, `w z = 0`; options as for `solve`."""
+    """All solutions of the linear complementarity problem `w = M z + q`, `w >= 0`, `z >= 0`, `w z = 0`.
+
+    Parameters
+    ----------
+    M : array, n by n
+    q : array of n
+
+    Other Parameters
+    ----------------
+    **options
+        As for `solve`.
+
+    Returns
+    -------
+    reports.RawReport
+
+    Examples
+    --------
+    >>> [solution.z.tolist() for solution in lcp([[2.0]], [-1.0])]
+    [[0.5]]
+    """
     return _slideway.lcp(M, q, _options(**options))
 
 
 def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:
-    """All solutions of `A w - B z = q`, `w >= 0`, `z >= 0`, `w z = 0`; options as for `solve`."""
+    """All solutions of the horizontal linear complementarity problem `A w - B z = q`, `w >= 0`, `z >= 0`, `w z = 0`.
+
+    Parameters
+    ----------
+    A, B : array, n by n
+    q : array of n
+
+    Other Parameters
+    ----------------
+    **options
+        As for `solve`.
+
+    Returns
+    -------
+    reports.RawReport
+
+    Examples
+    --------
+    >>> [solution.z.tolist() for solution in hlcp([[1.0]], [[2.0]], [-1.0])]
+    [[0.5]]
+    """
     return _slideway.hlcp(A, B, q, _options(**options))
 
 
@@ -66,6 +136,30 @@ def mode_problem(
     jumps: tuple[ArrayLike, ArrayLike] | None = None,
     **options: Any,
 ) -> reports.RawReport:
-    """All solutions of a mode problem, eq. (6) of Klepp (2002): columns of each contact for either sign of its normal
-    force, and the jumps of preloads; options as for `solve`."""
+    """All solutions of a mode problem, eq. (6) of Klepp (2002).
+
+    Parameters
+    ----------
+    columns_positive, columns_negative : array, n by n
+        The column of each contact for positive and for negative normal force.
+    right_hand_side : array of n
+        (N)
+    jumps : pair of arrays, optional
+        The jumps of preloads for positive and for negative normal forces (N).
+
+    Other Parameters
+    ----------------
+    **options
+        As for `solve`.
+
+    Returns
+    -------
+    reports.RawReport
+
+    Examples
+    --------
+    >>> answer = mode_problem([[0.5]], [[-1.5]], [1.0])     # 0.5 N = 1, or -1.5 |N| = 1
+    >>> [solution.normal_forces.tolist() for solution in answer]
+    [[2.0]]
+    """
     return _slideway.mode_problem(columns_positive, columns_negative, right_hand_side, jumps, _options(**options))

@@ -6,13 +6,42 @@ the usual way to it; `plot_figure` draws plain data of `slideway.reports.Figure`
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from . import _slideway
+from ._map_plot import plot_map
+from ._plot_style import (
+    BAND,
+    BETWEEN,
+    CURVE,
+    DASH,
+    DASHES,
+    FRAME_WIDTH,
+    HATCHES,
+    INCH,
+    LEGENDS,
+    LETTER,
+    LINE,
+    MARGIN,
+    MARKERS,
+    POINT,
+    ROW,
+    SINGLE_HEIGHT,
+    SMALL,
+    STACKED_HEIGHT,
+    TEXT,
+    TITLE,
+    WIDTH,
+    ThemeName,
+    named,
+    plain,
+    pyplot,
+    styled,
+    wrapped,
+)
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -20,43 +49,9 @@ if TYPE_CHECKING:
 
     from . import reports
 
-__all__ = ["plot_figure", "plot_map"]
+__all__ = ["ThemeName", "plot_figure", "plot_map"]
 
-ThemeName = Literal["light", "dark"]
 Drawn = Callable[[float, float], "list[reports.DrawnPanel]"]
-
-# Sizes of the pictures (px), and a pixel in inches and points.
-WIDTH, SINGLE_HEIGHT, STACKED_HEIGHT = 800.0, 380.0, 300.0
-FRAME_WIDTH = 700.0
-MAP_HEIGHT, MAP_WIDTHS, MAP_LEGEND = 400.0, (200.0, 640.0), 48
-TITLE, TEXT, SMALL, CURVE, ROW, BAND, LINE = 17.0, 14.0, 13.0, 2.2, 18.0, 12.0, 19.0
-INCH, POINT = 1 / 96, 72 / 96
-# Distances of ticks that are aimed at, and space around everything (px).
-BETWEEN = (80.0, 48.0)
-MARGIN = 14.0
-# Mean width of a letter as a share of its size.
-LETTER = 0.56
-
-# Dashes in widths of the line.
-DASHES = {
-    "solid": "-",
-    "dashed": (0.0, (7 / CURVE, 3 / CURVE)),
-    "dotted": (0.0, (2 / CURVE, 3 / CURVE)),
-    "dash_dotted": (0.0, (9 / CURVE, 3 / CURVE, 2 / CURVE, 3 / CURVE)),
-}
-DASH = 9 / CURVE
-HATCHES = {"rising": "///", "falling": "\\\\\\", "dotted": ".."}
-MARKERS = "os^Dv"
-# Samples of the parts of a legend, from top to bottom.
-LEGENDS = (("curve", "several"), ("marker", "end", "point"), ("cut", "hatched", "filled"))
-
-
-def _pyplot() -> Any:
-    try:
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise ImportError("plots need matplotlib: pip install slideway[plot]") from error
-    return pyplot
 
 
 def plot_figure(
@@ -66,9 +61,26 @@ def plot_figure(
     *,
     theme: ThemeName = "light",
 ) -> Any:
-    """Draws a figure on Axes, or on those of a new figure of pyplot, and returns them: the Axes, or an array of them if
-    there are several panels. `drawn` says what its panels show in frames of a given width and height."""
-    pyplot = _pyplot()
+    """Draws a figure, as `plot()` of an answer does.
+
+    Parameters
+    ----------
+    figure : reports.Figure
+        The plot as plain data.
+    drawn : callable
+        Gives what its panels show in frames of a given width and height (px).
+    ax : Axes, optional
+        Where to draw; an array of them if there are several panels. Default: the Axes of a new figure of pyplot.
+    theme : {"light", "dark"}
+
+    Returns
+    -------
+    Axes or array of Axes
+
+    Examples
+    --------
+    See `slideway.reports.LimitsReport.plot`.
+    """
     colours = _slideway.theme(theme)
     count = len(figure.panels)
     height = SINGLE_HEIGHT if count == 1 else STACKED_HEIGHT
@@ -83,33 +95,18 @@ def plot_figure(
             panel = figure.panels[index]
             _Painter(figure, panel, drawn(*size)[index], axes, colours, size).paint(panel.title)
         return given[0] if count == 1 else given
-    new, grid = pyplot.subplots(count, 1, squeeze=False, layout="constrained", facecolor=colours.background)
+    new, grid = pyplot().subplots(count, 1, squeeze=False, layout="constrained", facecolor=colours.background)
     new.set_size_inches(WIDTH * INCH, count * height * INCH)
     new.get_layout_engine().set(w_pad=MARGIN * INCH, h_pad=MARGIN * INCH)
     size = (FRAME_WIDTH, height)
     panels = zip(figure.panels, drawn(*size), grid[:, 0], strict=True)
     painters = [_Painter(figure, *each, colours, size) for each in panels]
     needed = sum(painter.paint(painter.panel.title) for painter in painters)
-    lines = _wrapped(figure.title, WIDTH, TITLE)
-    painters[0].heading(lines, _wrapped(figure.subtitle, WIDTH, SMALL))
+    lines = wrapped(figure.title, WIDTH, TITLE)
+    painters[0].heading(lines, wrapped(figure.subtitle, WIDTH, SMALL))
     needed += painters[0].above
     new.set_size_inches(WIDTH * INCH, (needed + count * (height + 2 * MARGIN)) * INCH)
     return grid[0, 0] if count == 1 else grid[:, 0]
-
-
-def _wrapped(text: str, width: float, size: float) -> list[str]:
-    return textwrap.wrap(text, int(width / (LETTER * size)), break_long_words=False)
-
-
-def _named(axis: reports.Axis) -> str:
-    """The name of an axis with its unit."""
-    unit = axis.unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
-    return _plain(f"{axis.name} in {unit}" if unit else axis.name)
-
-
-def _plain(text: str) -> str:
-    """Text that matplotlib does not read as a formula."""
-    return text.replace("$", r"\$")
 
 
 class _Painter:
@@ -132,7 +129,7 @@ class _Painter:
 
     def paint(self, title: str) -> float:
         """Draws everything, and returns the height of what is above and below the frame (px)."""
-        _styled(self.ax, self.theme)
+        styled(self.ax, self.theme)
         self._axes()
         self._zones()
         self._bars()
@@ -143,7 +140,7 @@ class _Painter:
         below = 62.0 + self._legend()
         if title:
             self.ax.set_title(
-                _plain(title), loc="left", color=self.theme.ink, fontsize=TEXT * POINT, fontweight="bold",
+                plain(title), loc="left", color=self.theme.ink, fontsize=TEXT * POINT, fontweight="bold",
                 pad=(self.above + 6.0) * POINT,
             )
             self.above += 1.6 * TEXT + 6.0
@@ -154,7 +151,7 @@ class _Painter:
         for lines, size, weight in [(subtitle, SMALL, "normal"), (title, TITLE, "bold")]:
             if lines:
                 self.ax.annotate(
-                    _plain("\n".join(lines)), (0.0, 1.0), xycoords="axes fraction",
+                    plain("\n".join(lines)), (0.0, 1.0), xycoords="axes fraction",
                     xytext=(0.0, (self.above + 8.0) * POINT), textcoords="offset points", ha="left", va="bottom",
                     color=self.theme.ink, fontsize=size * POINT, fontweight=weight, annotation_clip=False,
                 )
@@ -176,8 +173,8 @@ class _Painter:
                 which.set_major_locator(MaxNLocator(nbins=max(3, int(room)), steps=steps))
         ax.set_xlim(*self.drawn.x)
         ax.set_ylim(*self.drawn.y)
-        ax.set_xlabel(_named(self.panel.x), color=theme.ink, fontsize=TEXT * POINT)
-        ax.set_ylabel(_named(self.panel.y), color=theme.ink, fontsize=TEXT * POINT)
+        ax.set_xlabel(named(self.panel.x), color=theme.ink, fontsize=TEXT * POINT)
+        ax.set_ylabel(named(self.panel.y), color=theme.ink, fontsize=TEXT * POINT)
         ax.grid(visible=True, color=theme.muted, alpha=0.3, linewidth=POINT, zorder=0.6)
         if self.drawn.y[0] < 0.0 < self.drawn.y[1]:
             ax.axhline(0.0, color=theme.ink, alpha=0.6, linewidth=POINT, zorder=0.7)
@@ -275,7 +272,7 @@ class _Painter:
             align, aside = side if flag.beside else ("right", 0.0)
             place = (flag.at if flag.beside else self.drawn.x[1], 1.0)
             ax.annotate(
-                _plain(flag.label), place, xycoords=("data", "axes fraction"),
+                plain(flag.label), place, xycoords=("data", "axes fraction"),
                 xytext=(aside * POINT, (4.0 + ROW * flag.row) * POINT), textcoords="offset points", ha=align, va="bottom",
                 color=theme.ink, fontsize=SMALL * POINT, annotation_clip=False,
             )
@@ -332,7 +329,7 @@ class _Painter:
         from matplotlib.transforms import ScaledTranslation
 
         handles = [self._sample(entry.sample) for entry in entries]
-        texts = [_plain("\n".join(_wrapped(entry.text, WIDTH - 90.0, SMALL))) for entry in entries]
+        texts = [plain("\n".join(wrapped(entry.text, WIDTH - 90.0, SMALL))) for entry in entries]
         longest = max(len(line) for text in texts for line in text.split("\n"))
         columns = max(1, min(len(texts), int(self.size[0] / (longest * LETTER * SMALL + 60.0))))
         down = ScaledTranslation(0.0, -below * INCH, self.ax.figure.dpi_scale_trans)
@@ -403,104 +400,3 @@ def _cut(colour: str, upwards: bool) -> dict[str, Any]:
         "linestyle": "none",
         "markeredgewidth": 0.0,
     }
-
-
-def _styled(ax: Axes, theme: reports.Theme) -> None:
-    """The frame and the numbers of Axes."""
-    ax.set_facecolor(theme.background)
-    for spine in ax.spines.values():
-        spine.set(color=theme.ink, linewidth=1.2 * POINT)
-    ax.tick_params(colors=theme.ink, labelsize=SMALL * POINT, length=5 * POINT, width=1.2 * POINT)
-    ax.set_axisbelow(True)
-
-
-def plot_map(
-    shown: reports.DrawnMap,
-    pixels: np.ndarray[Any, Any],
-    ax: Axes | None = None,
-    *,
-    theme: ThemeName = "light",
-) -> Axes:
-    """Draws a map on Axes, or on those of a new figure of pyplot, and returns them. `pixels` has the class of each
-    pixel, a row for each row of the map from the bottom."""
-    pyplot = _pyplot()
-    colours = _slideway.theme(theme)
-    if ax is None:
-        rows, columns = pixels.shape
-        width = float(np.clip(MAP_HEIGHT * columns / rows, *MAP_WIDTHS))
-        size = ((width + 420.0) * INCH, (MAP_HEIGHT + 100.0) * INCH)
-        new, ax = pyplot.subplots(figsize=size, layout="constrained", facecolor=colours.background)
-        new.get_layout_engine().set(w_pad=MARGIN * INCH, h_pad=MARGIN * INCH)
-    assert ax is not None
-    _styled(ax, colours)
-    _fill(shown, pixels, ax, colours)
-    if shown.model is not None:
-        _cross(ax, shown.model, colours)
-    ax.set_xlabel(_named(shown.x), color=colours.ink, fontsize=TEXT * POINT)
-    ax.set_ylabel(_named(shown.y), color=colours.ink, fontsize=TEXT * POINT)
-    _map_legend(shown, ax, colours)
-    lines = [*_wrapped(shown.title, WIDTH, TEXT), *_wrapped(shown.subtitle, WIDTH, TEXT)]
-    title = _plain("\n".join(lines))
-    ax.set_title(title, loc="left", color=colours.ink, fontsize=TEXT * POINT, fontweight="bold")
-    return ax
-
-
-def _ranges(shown: reports.DrawnMap) -> tuple[tuple[float, float], tuple[float, float]]:
-    assert shown.x.range is not None and shown.y.range is not None
-    return shown.x.range, shown.y.range
-
-
-def _fill(shown: reports.DrawnMap, pixels: np.ndarray[Any, Any], ax: Axes, theme: reports.Theme) -> None:
-    """Colours and hatches of the classes."""
-    from matplotlib.colors import to_rgb
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path
-
-    x, y = _ranges(shown)
-    colours = np.array([to_rgb(each.fill) for each in shown.classes])
-    ax.imshow(colours[pixels], origin="lower", extent=(*x, *y), aspect="auto", interpolation="nearest")
-    edges = [np.linspace(*range_, count + 1) for range_, count in ((x, pixels.shape[1]), (y, pixels.shape[0]))]
-    for index, each in enumerate(shown.classes):
-        if each.hatching is None:
-            continue
-        boxes = []
-        for row, inside in enumerate(pixels == index):
-            (ends,) = np.nonzero(np.diff(np.concatenate([[0], inside.astype(np.int8), [0]])))
-            for left, right in zip(edges[0][ends[::2]], edges[0][ends[1::2]], strict=True):
-                bottom, top = edges[1][row : row + 2]
-                boxes.append([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
-        paths = Path.make_compound_path(*map(Path, boxes))
-        patch = PathPatch(paths, facecolor="none", edgecolor=theme.ink, hatch=HATCHES[each.hatching], linewidth=0.0)
-        patch.set_alpha(0.35)
-        ax.add_patch(patch)
-
-
-def _cross(ax: Axes, place: tuple[float, float], theme: reports.Theme) -> None:
-    """A cross at the values of the model."""
-    for colour, width in [(theme.background, 4.5), (theme.ink, 2.0)]:
-        ax.plot(*place, marker="x", markersize=10 * POINT, color=colour, markeredgewidth=width * POINT)
-
-
-def _map_legend(shown: reports.DrawnMap, ax: Axes, theme: reports.Theme) -> None:
-    """The legend beside a map."""
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-
-    handles: list[Artist] = []
-    texts = []
-    for each in shown.classes:
-        hatch = HATCHES[each.hatching] if each.hatching else None
-        handles.append(Patch(facecolor=each.fill, edgecolor=theme.muted, hatch=hatch, linewidth=POINT))
-        texts.append(each.text)
-    if shown.model is not None:
-        cross = Line2D([], [], linestyle="none", marker="x", markersize=10 * POINT, color=theme.ink, markeredgewidth=1.5)
-        handles.append(cross)
-        texts.append("the model")
-    for mode in shown.modes:
-        handles.append(Patch(alpha=0.0))
-        texts.append(mode)
-    ax.legend(
-        handles, [_plain("\n".join(textwrap.wrap(text, MAP_LEGEND))) for text in texts], loc="upper left",
-        bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0, frameon=False, fontsize=SMALL * POINT, labelcolor=theme.ink,
-        handlelength=1.7,
-    )

@@ -132,25 +132,7 @@ impl Mechanism {
         Ok(Self { state: Mutex::new(state) })
     }
 
-    /// Adds a named number, for expressions and for `Model.with_`.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// value : float or str
-    ///     Such as `0.3` or `"25 mm"`.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import slideway
-    /// >>> m = slideway.Mechanism()
-    /// >>> m.parameter("L", "400 mm")
-    /// 'L'
+    #[doc = include_str!("../../docs/mechanism/parameter.txt")]
     #[pyo3(signature = (name: "str", value: "Value") -> "str")]
     fn parameter(&self, py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
         let value = quantity("value", value)?;
@@ -160,40 +142,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a rigid body.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// mass : float or str
-    ///     Greater than zero (kg).
-    /// inertia : float or str
-    ///     Moment of inertia about the centre of mass (kg m^2). In its place a homogeneous shape can be given:
-    ///     `rectangle`, `disc` or `bar`.
-    /// centre : pair
-    ///     Centre of mass in the drawing (m).
-    /// rectangle : pair
-    ///     Width and height of a homogeneous rectangle about the centre of mass (m).
-    /// disc : float or str
-    ///     Radius of a homogeneous disc about the centre of mass (m).
-    /// bar : pair of pairs
-    ///     The ends of a thin bar in the drawing (m), in place of a centre of mass, too.
-    /// outline : sequence of pairs
-    ///     The corners of a polygon in the drawing (m), at least three: what it looks like.
-    /// massless : bool
-    ///     A body without mass.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import slideway
-    /// >>> m = slideway.Mechanism()
-    /// >>> m.body("rod", mass="0.5 kg", bar=((0, 0), (0, "200 mm")))
-    /// 'rod'
+    #[doc = include_str!("../../docs/mechanism/body.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", *, mass: "Value | None" = None, inertia: "Value | None" = None,
         centre: "Pair | None" = None, rectangle: "Pair | None" = None, disc: "Value | None" = None,
@@ -235,20 +184,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a frictionless hinge between two bodies, or a body and `GROUND`.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// first, second : str
-    ///     Its bodies. The hinge force is counted on the first.
-    /// at : pair
-    ///     Its place in the drawing (m).
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/hinge.txt")]
     #[pyo3(signature = (name: "str", first: "str", second: "str", at: "Pair") -> "str")]
     fn hinge(
         &self,
@@ -266,67 +202,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a block slider: a carriage, sledge or bushing with a contact at each end.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// block, guide : str
-    ///     Its bodies; either can be `GROUND`.
-    /// at : pair
-    ///     Middle of the block in the drawing (m).
-    /// length : float or str
-    ///     Distance of its contacts (m).
-    /// along : float or str
-    ///     Direction of positive sliding: the angle from the x axis (rad). Default: 0.
-    /// height : float or str
-    ///     Distance of the two rubbing faces (m). Default: 0.
-    /// around : bool
-    ///     The block surrounds the guide, as a sleeve its rod. Default: it is inside.
-    /// travel : pair
-    ///     Limits of the displacement (m).
-    /// restitution : float or str
-    ///     Stops at both ends of the travel, with this coefficient of restitution from 0 to 1.
-    /// mu : float or str or mapping
-    ///     Coefficient of kinetic friction; `{"plus": 0.2, "minus": 0.3}` for positive and for negative normal
-    ///     force. Every contact needs one, here or in `front` and `rear`.
-    /// mu_static : float or str
-    ///     Coefficient of static friction. Default: that of kinetic friction.
-    /// preload : float or str or mapping
-    ///     Friction at zero normal force (N), by side as for `mu`. Default: 0.
-    /// centred_preload : bool
-    ///     The preload's friction acts on the centre line. Default: at the pressed face.
-    /// stiffness : float or str
-    ///     Stiffness of the guide at a contact (N/m), for attainability.
-    /// pad : pair
-    ///     Length and width of the area in contact at a contact (m), for the bearing pressure.
-    /// front, rear : mapping
-    ///     What differs at the end in the direction of `along`, or at the other: `mu`, `mu_static`, `preload`,
-    ///     `stiffness`, `pad`, `centred_preload`, and `carried_by_guide`, for a contact that stays at a place of
-    ///     the guide.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
-    ///
-    /// Raises
-    /// ------
-    /// ModelError
-    ///     There is no such body.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import slideway
-    /// >>> m = slideway.Mechanism()
-    /// >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0.1))
-    /// >>> m.block_slider("rail", drawer, slideway.GROUND, at=(0, 0), length=0.4, mu=0.2, front={"mu": 0.3})
-    /// 'rail'
-    /// >>> m.block_slider("other", "drawr", slideway.GROUND, at=(0, 0), length=0.4, mu=0.2)
-    /// Traceback (most recent call last):
-    ///     ...
-    /// slideway._errors.ModelError: argument block: there is no body named `drawr`
-    ///     hint: did you mean `drawer`?
+    #[doc = include_str!("../../docs/mechanism/block_slider.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", block: "str", guide: "str", *, at: "Pair", length: "Value",
         along: "Value | None" = None, height: "Value | None" = None, around: "bool" = false,
@@ -374,20 +250,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a guided slider: it is pressed on one side along its whole length, with one normal force and a couple.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// block, guide : str
-    ///     Its bodies; either can be `GROUND`.
-    /// at, length, along, height, around, travel, restitution, mu, mu_static, preload, centred_preload, stiffness, pad
-    ///     As for `block_slider`; `length` is that of the pressed face.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/guided_slider.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", block: "str", guide: "str", *, at: "Pair", length: "Value",
         mu: "Value | BySide", along: "Value | None" = None, height: "Value | None" = None,
@@ -428,22 +291,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a pin of the first body in a slot of the second: one contact.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// pin, slot : str
-    ///     Its bodies; either can be `GROUND`.
-    /// at : pair
-    ///     The pin in the drawing (m).
-    /// along, travel, restitution, mu, mu_static, preload, stiffness, pad
-    ///     As for `block_slider`; `along` is the direction of the slot.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/pin_in_slot.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", pin: "str", slot: "str", *, at: "Pair", mu: "Value | BySide",
         along: "Value | None" = None, travel: "Pair | None" = None, restitution: "Value | None" = None,
@@ -472,26 +320,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a force on a body.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, body : str
-    /// at : pair
-    ///     Where it acts, as a place of the drawing that moves with the body (m).
-    /// components : pair
-    ///     Its components (N), or else:
-    /// magnitude, direction : float or str
-    ///     Its magnitude (N), and its angle from the x axis (rad).
-    /// turning : bool
-    ///     It turns with the body. Default: its direction is fixed in space.
-    /// reaction : str
-    ///     The opposite force acts on this body at the same place. Default: on none.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/force.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", body: "str", *, at: "Pair", components: "Pair | None" = None,
         magnitude: "Value | None" = None, direction: "Value | None" = None, turning: "bool" = false,
@@ -521,20 +350,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a torque on a body.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, body : str
-    /// moment : float or str
-    ///     Counter-clockwise positive (N m).
-    /// reaction : str
-    ///     The opposite torque acts on this body. Default: on none.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/torque.txt")]
     #[pyo3(signature = (name: "str", body: "str", moment: "Value", *, reaction: "str | None" = None) -> "str")]
     fn torque(
         &self,
@@ -552,22 +368,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a linear spring.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// first, second : pair
-    ///     Its ends, each a body and a place of the drawing that moves with it: `("drawer", (0, 0.1))`.
-    /// stiffness : float or str
-    ///     In N/m.
-    /// free_length : float or str
-    ///     Its length without force (m). Default: that in the drawing.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/spring.txt")]
     #[pyo3(signature = (name: "str", first: "End", second: "End", *, stiffness: "Value",
         free_length: "Value | None" = None) -> "str")]
     fn spring(
@@ -589,20 +390,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a linear damper.
-    ///
-    /// Parameters
-    /// ----------
-    /// name : str
-    /// first, second : pair
-    ///     Its ends, each a body and a place of the drawing that moves with it.
-    /// damping : float or str
-    ///     In N s/m.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/damper.txt")]
     #[pyo3(signature = (name: "str", first: "End", second: "End", *, damping: "Value") -> "str")]
     fn damper(
         &self,
@@ -621,21 +409,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a torsional spring between two bodies.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, first, second : str
-    /// stiffness : float or str
-    ///     In N m per rad.
-    /// free_angle : float or str
-    ///     The rotation of the first body against the second at which it has no torque, from the drawing (rad).
-    ///     Default: 0.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/torsional_spring.txt")]
     #[pyo3(signature = (name: "str", first: "str", second: "str", *, stiffness: "Value",
         free_angle: "Value | None" = None) -> "str")]
     fn torsional_spring(
@@ -657,18 +431,7 @@ impl Mechanism {
         })
     }
 
-    /// Adds a torsional damper between two bodies.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, first, second : str
-    /// damping : float or str
-    ///     In N m s per rad.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/torsional_damper.txt")]
     #[pyo3(signature = (name: "str", first: "str", second: "str", *, damping: "Value") -> "str")]
     fn torsional_damper(
         &self,
@@ -686,22 +449,7 @@ impl Mechanism {
         })
     }
 
-    /// Chooses the displacement of a block against its guide as a coordinate.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, slider : str
-    /// drawn_at : float or str
-    ///     Its value in the drawing (m). Default: 0.
-    /// value : float or str
-    ///     Its value in the state (m). Default: that in the drawing.
-    /// rate : float or str
-    ///     Its rate of change in the state (m/s). Default: 0.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/slide.txt")]
     #[pyo3(signature = (name: "str", slider: "str", *, drawn_at: "Value | None" = None,
         value: "Value | None" = None, rate: "Value | None" = None) -> "str")]
     fn slide(
@@ -722,22 +470,7 @@ impl Mechanism {
         })
     }
 
-    /// Chooses the rotation of a body as a coordinate.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, body : str
-    /// relative_to : str
-    ///     The body against which it is counted. Default: ground.
-    /// drawn_at, value : float or str
-    ///     Its values in the drawing and in the state (rad), as for `slide`.
-    /// rate : float or str
-    ///     Its rate of change in the state (rad/s). Default: 0.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/rotation.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", body: "str", *, relative_to: "str | None" = None,
         drawn_at: "Value | None" = None, value: "Value | None" = None, rate: "Value | None" = None) -> "str")]
@@ -762,26 +495,7 @@ impl Mechanism {
         })
     }
 
-    /// Prescribes the motion of a coordinate by an unknown force on a body.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, coordinate, body : str
-    /// at : pair
-    ///     Where the force acts, as a place of the drawing that moves with the body (m).
-    /// direction : float or str
-    ///     Its angle from the x axis (rad).
-    /// acceleration : float or str
-    ///     The prescribed acceleration of the coordinate (m/s^2 or rad/s^2). Default: 0.
-    /// turning : bool
-    ///     The direction turns with the body. Default: it is fixed in space.
-    /// reaction : str
-    ///     The opposite force acts on this body. Default: on none.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/drive_by_force.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (name: "str", coordinate: "str", body: "str", *, at: "Pair", direction: "Value",
         acceleration: "Value | None" = None, turning: "bool" = false, reaction: "str | None" = None) -> "str")]
@@ -809,20 +523,7 @@ impl Mechanism {
         })
     }
 
-    /// Prescribes the motion of a coordinate by an unknown torque on a body.
-    ///
-    /// Parameters
-    /// ----------
-    /// name, coordinate, body : str
-    /// acceleration : float or str
-    ///     The prescribed acceleration of the coordinate (m/s^2 or rad/s^2). Default: 0.
-    /// reaction : str
-    ///     The opposite torque acts on this body. Default: on none.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The name.
+    #[doc = include_str!("../../docs/mechanism/drive_by_torque.txt")]
     #[pyo3(signature = (name: "str", coordinate: "str", body: "str", *, acceleration: "Value | None" = None,
         reaction: "str | None" = None) -> "str")]
     fn drive_by_torque(
@@ -844,34 +545,12 @@ impl Mechanism {
         })
     }
 
-    /// The model file that says the same.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     TOML, which `Model.parse` and the command line read.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import slideway
-    /// >>> m = slideway.Mechanism("Nothing yet", gravity=9.81)
-    /// >>> print(m.to_toml(), end="")
-    /// title = "Nothing yet"
-    /// gravity = 9.81
+    #[doc = include_str!("../../docs/mechanism/to_toml.txt")]
     fn to_toml(&self) -> String {
         self.state().drawing.to_toml()
     }
 
-    /// The model.
-    ///
-    /// Returns
-    /// -------
-    /// Model
-    ///
-    /// Raises
-    /// ------
-    /// ModelError
-    ///     With everything that is wrong; lines and columns are those of `to_toml()`.
+    #[doc = include_str!("../../docs/mechanism/build.txt")]
     fn build(&self, py: Python<'_>) -> PyResult<Model> {
         Model::new(py, &self.to_toml())
     }

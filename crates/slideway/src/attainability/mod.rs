@@ -29,7 +29,7 @@ use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict
 use fate::{End, FastMotion, Rest};
 use inertia::Inertia;
 use nalgebra::{DMatrix, DVector};
-use ratios::ratios;
+pub(crate) use ratios::ratios;
 use shared::SharedGaps;
 use spectrum::{Pencil, Spectrum, Stability};
 

@@ -9,7 +9,7 @@ const WORK: usize = 6_000;
 
 /// Ratios of `count` quantities: all combinations of 1/10, 1 and 10 that differ by more than a common factor
 /// if these are few, else a deterministic sample of all combinations.
-pub(super) fn ratios(count: usize) -> Vec<Vec<f64>> {
+pub(crate) fn ratios(count: usize) -> Vec<Vec<f64>> {
     match count {
         0 | 1 => Vec::new(),
         2..=MOST_QUANTITIES => {

@@ -23,8 +23,8 @@ use crate::influence::Influence;
 use crate::kinetics::{Assembled, KineticEquations};
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
-use crate::report::finite;
-use crate::solve::{mode_problem, velocity_signs};
+use crate::report::{LoadSharing, finite};
+use crate::solve::{load_sharing, mode_problem, velocity_signs};
 use crate::units::Units;
 use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;
@@ -58,6 +58,9 @@ pub struct CheckReport {
     pub warnings: Vec<WarningReport>,
     /// Degrees of freedom and determinacy.
     pub mobility: MobilitySummary,
+    /// How redundant guides share their load; absent if no constraint is redundant, or it cannot be told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sharing: Option<LoadSharing>,
     /// Inertia of the motions that the joints leave.
     pub inertia: InertiaSummary,
     /// Ratio of the greatest to the least pivot of the kinetic equations, if they can be solved.
@@ -234,6 +237,22 @@ pub struct ContactSummary {
     pub preload: [f64; 2],
     /// Sliding velocity (m/s), if the state could be assembled.
     pub sliding_velocity: Option<f64>,
+    /// Of a contact that shares its load with others: how it fits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fit: Option<ContactFit>,
+}
+
+/// How a contact fits that shares its load with others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ContactFit {
+    /// Total play between its faces (m).
+    pub play: f64,
+    /// How far the guide's line is displaced there, towards +n (m).
+    pub misalignment: f64,
+    /// Stiffness of a face (N/m), if the model gives it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
 }
 
 /// A drive.
@@ -280,15 +299,17 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let assembled = state.is_ok();
     let configuration = state.unwrap_or(drawing);
     let mobility = Mobility::of(&mechanism, &configuration);
-    let mut condition = None;
+    let (mut condition, mut sharing) = (None, None);
     if assembled {
         keep(configuration.put_friction(&mut mechanism));
         let signs = velocity_signs(&mechanism, &configuration);
         match KineticEquations::new(&mechanism, &configuration) {
             Ok(equations) => {
                 condition = Some(equations.condition());
+                let influence = Influence::new(&equations);
+                sharing = load_sharing(&mechanism, &influence).ok().flatten();
                 if let Ok(signs) = &signs {
-                    keep(mode_problem(&mechanism, &Influence::new(&equations), signs).map(|_| ()));
+                    keep(mode_problem(&mechanism, &influence, signs).map(|_| ()));
                 }
             }
             Err(found) => keep(Err(found)),
@@ -304,6 +325,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         findings: faults.sorted().iter().map(|fault| finding(&fault.kind)).collect(),
         warnings: WarningReport::list(&warnings(model)),
         mobility: mobility_summary(&mechanism, &mobility),
+        sharing,
         inertia,
         condition,
         assembled,
@@ -372,7 +394,7 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
                 let (kind, constraints) = match slider.kind {
-                    SliderKind::Block => (JointForm::BlockSlider, 2),
+                    SliderKind::Block => (JointForm::BlockSlider, slider.contacts.len()),
                     SliderKind::Guided => (JointForm::GuidedSlider, 2),
                     SliderKind::Pin => (JointForm::PinInSlot, 1),
                 };
@@ -403,6 +425,11 @@ fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: boo
         preload: contact.preload,
         sliding_velocity: assembled
             .then(|| configuration.contact(mechanism, ContactId(index)).sliding_velocity),
+        fit: mechanism.excess.shares(ContactId(index)).then(|| ContactFit {
+            play: contact.play,
+            misalignment: contact.misalignment,
+            stiffness: contact.stiffness,
+        }),
     };
     mechanism.contacts.iter().enumerate().map(one).collect()
 }

@@ -1,11 +1,11 @@
 //! The findings of a check as text for people.
 
-use super::{CheckReport, ContactSummary};
+use super::{CheckReport, ContactFit, ContactSummary};
 use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Report, Style, count, followed};
+use crate::report::{LoadSharing, Report, Style, count, followed};
 use crate::units::Unit;
 use anstyle::AnsiColor;
 
@@ -93,6 +93,9 @@ impl Text<'_> {
             }
         };
         self.line(&determinacy);
+        for line in self.report.sharing.iter().flat_map(LoadSharing::in_words) {
+            self.line(&line);
+        }
     }
 
     fn inertia(&mut self) {
@@ -153,6 +156,7 @@ impl Text<'_> {
         let contacts = report.contacts.iter().map(|contact| contact_row(contact, [&force, &speed]));
         let header = ["contact", "mu", "mu_static", &force.title("preload"), &speed.title("sliding")];
         self.table(&header, &contacts.collect::<Vec<_>>(), 1);
+        self.fits();
         self.speeds_and_stops();
         let coordinates = report.coordinates.iter().map(|coordinate| {
             vec![
@@ -166,6 +170,31 @@ impl Text<'_> {
         });
         let header = ["coordinate", "kind", "positive direction", "drive", "value", "rate"];
         self.table(&header, &coordinates.collect::<Vec<_>>(), 4);
+    }
+
+    /// How contacts fit that share their load.
+    fn fits(&mut self) {
+        let (report, units) = (self.report, &self.report.units);
+        let [length, stiffness] = ["m", "N/m"].map(|si| units.of(si));
+        let fits = report.contacts.iter().filter_map(|contact| Some((&contact.name, contact.fit.as_ref()?)));
+        let row = |(name, fit): (&String, &ContactFit)| {
+            vec![
+                name.clone(),
+                length.number(fit.play),
+                length.number(fit.misalignment),
+                fit.stiffness.map_or(String::new(), |value| stiffness.number(value)),
+            ]
+        };
+        let rows: Vec<Vec<String>> = fits.map(row).collect();
+        if !rows.is_empty() {
+            let header = [
+                "contact",
+                &length.title("play"),
+                &length.title("misalignment"),
+                &stiffness.title("stiffness"),
+            ];
+            self.table(&header, &rows, 1);
+        }
     }
 
     /// What the tables do not show: friction over velocity, end stops.

@@ -9,6 +9,7 @@ mod end;
 mod finite;
 mod json;
 pub(crate) mod page;
+mod sharing;
 mod speed;
 pub(crate) mod table;
 mod text;
@@ -19,6 +20,7 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
+pub use sharing::{Elasticity, LoadSharing, StiffnessRatios};
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
@@ -124,6 +126,9 @@ pub struct SolveReport {
     /// it was not asked (margins are not, drives prescribe the motion).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_rest: Option<FromRest>,
+    /// How redundant guides share their load; absent if no constraint is redundant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sharing: Option<LoadSharing>,
     /// What parameters known within bounds leave certain; absent if there are none. Everything else in the
     /// report holds for the middle of their ranges.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -4,8 +4,9 @@ use super::number::number;
 use super::page::Page;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
-    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, UncertainMode,
+    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, LoadSharing, ModeEndCause,
+    ModeMargin, PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status,
+    UncertainMode,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
@@ -120,6 +121,9 @@ impl Text<'_> {
         if let Some(steps) = self.report.steps_from_drawing {
             self.line(&followed(steps));
         }
+        for line in self.report.sharing.iter().flat_map(LoadSharing::in_words) {
+            self.line(&line);
+        }
         self.line("");
     }
 
@@ -127,7 +131,7 @@ impl Text<'_> {
         let report = self.report;
         self.status(report.status, &report.verdict_in_words());
         let search = match &report.patterns {
-            Some(patterns) => tried(patterns),
+            Some(patterns) => tried(patterns, self.report.sharing.is_some()),
             None => {
                 format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
             }
@@ -385,7 +389,7 @@ impl Text<'_> {
 }
 
 /// "All 8 sign patterns were tried: 3 with a solution, 5 without."
-fn tried(counts: &PatternSummary) -> String {
+fn tried(counts: &PatternSummary, is_shared: bool) -> String {
     let outcomes = [
         (counts.solution, "with a solution"),
         (counts.boundary, "on the boundary of a solution"),
@@ -410,7 +414,8 @@ fn tried(counts: &PatternSummary) -> String {
         _ => format!("{tried}: {}.", parts.join(", ")),
     };
     if counts.gap_patterns > 0 {
-        let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
+        let what = if is_shared { "open contacts" } else { "preload gaps" };
+        let _ = write!(line, " So were {} patterns with {what}.", counts.gap_patterns);
     }
     line
 }

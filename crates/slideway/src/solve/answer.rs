@@ -21,8 +21,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SharedLoad, SingularMode,
     SolutionSet, UndecidedPattern,
 };
-use crate::report::{self, Proof, SolveReport, SpeedChange, Status, Stopping};
-use crate::sharing::Elasticity;
+use crate::report::{self, Elasticity, Proof, SolveReport, SpeedChange, Status, Stopping};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -114,6 +113,7 @@ impl<'a> Answer<'a> {
             margins: None,
             margins_missing: None,
             from_rest: None,
+            sharing: None,
             uncertainty: None,
             influence: self.influence_summary(),
             condition: self.equations.condition(),

@@ -31,6 +31,7 @@ mod margins;
 mod mode_problem;
 mod no_sliding;
 mod parts;
+mod sharing;
 mod stages;
 mod state;
 mod trail;
@@ -46,6 +47,7 @@ pub(crate) use mode_problem::{
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
+pub(crate) use sharing::load_sharing;
 pub(crate) use stages::{ProblemData, Stages, rougher};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
@@ -157,6 +159,7 @@ pub fn solve_with(
     })?;
     let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
     report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
+    sharing::add(&mut report, &stages, options.margins)?;
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok());
         from_rest::add(&mut report, model, progress);

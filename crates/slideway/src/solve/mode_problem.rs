@@ -62,12 +62,24 @@ pub fn mode_problem(
     influence: &Influence,
     velocity_signs: &DVector<f64>,
 ) -> Result<ModeProblem, Faults> {
-    let coefficients = influence_coefficients(mechanism, influence, velocity_signs);
-    let problem = ModeProblem::from_influence(&coefficients).map_err(|_| overflow())?;
+    let problem = determinate_problem(mechanism, influence, velocity_signs)?;
     match shared_load(mechanism, self_stresses(influence))? {
         Some(shared) => problem.with_shared_load(&shared).map_err(|_| overflow()),
         None => Ok(problem),
     }
+}
+
+/// The mode problem without the rows by which redundant guides share their load.
+///
+/// # Errors
+/// A fault if a number is beyond the range of floating point.
+pub(super) fn determinate_problem(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    velocity_signs: &DVector<f64>,
+) -> Result<ModeProblem, Faults> {
+    let coefficients = influence_coefficients(mechanism, influence, velocity_signs);
+    ModeProblem::from_influence(&coefficients).map_err(|_| overflow())
 }
 
 /// The normal forces of the self-stresses, without rounding: a row for each contact.

@@ -11,7 +11,8 @@ use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coo
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::{ModeProblem, SharedLoad};
-use crate::sharing::{Elasticity, elasticity, shared_load};
+use crate::report::Elasticity;
+use crate::sharing::{elasticity, shared_load};
 use nalgebra::DVector;
 
 /// A model in its state, ready for its mode problem.

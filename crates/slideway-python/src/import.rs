@@ -1,0 +1,62 @@
+//! Models to complete, from drawings.
+
+use crate::fault::in_python;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use slideway::import::{DRAWING_LIMIT, ImportFault, ImportOptions, Unit, dxf};
+use std::path::PathBuf;
+
+/// The text of a model file with the outlines and points of a drawing, to be completed with joints, masses and
+/// coordinates.
+///
+/// Each layer becomes a body: its greatest closed line is the outline, circles and points are its points, texts
+/// beside them their names. The layer `ground` gives points of ground. What is left out stands in comments.
+///
+/// Parameters
+/// ----------
+/// path : str or path
+///     The drawing, a text (ASCII) DXF file.
+/// unit : str, optional
+///     Unit of length of the drawing: "in", "ft", "mm", "cm", "m", "km", "um" or "dm". Default: the one that it
+///     says.
+/// title : str, optional
+///     The title of the model. Default: the name of the file without its ending.
+///
+/// Returns
+/// -------
+/// str
+///     The text, for a file that an editor completes and `Model.load` reads.
+///
+/// Raises
+/// ------
+/// ValueError
+///     What keeps the drawing from being read, with its line.
+/// OSError
+///     The file cannot be read.
+///
+/// Examples
+/// --------
+/// >>> import pathlib, slideway, tempfile
+/// >>> drawing = pathlib.Path(tempfile.mkdtemp(), "crank.dxf")
+/// >>> lines = "0 SECTION 2 ENTITIES 0 CIRCLE 8 crank 10 0 20 0 40 60 0 ENDSEC 0 EOF"
+/// >>> _ = drawing.write_text("\n".join(lines.split()))
+/// >>> "[bodies.crank]" in slideway.import_dxf(drawing, unit="mm")
+/// True
+#[pyfunction]
+#[pyo3(signature = (path, *, unit = None, title = None))]
+pub(crate) fn import_dxf(
+    py: Python<'_>,
+    path: PathBuf,
+    unit: Option<&str>,
+    title: Option<String>,
+) -> PyResult<String> {
+    let refused = |fault: ImportFault| PyValueError::new_err(in_python(&fault.to_string()));
+    let unit: Option<Unit> = unit.map(str::parse).transpose().map_err(PyValueError::new_err)?;
+    if std::fs::metadata(&path)?.len() > DRAWING_LIMIT {
+        return Err(refused(ImportFault::DrawingTooLarge { limit: DRAWING_LIMIT }));
+    }
+    let text = String::from_utf8(std::fs::read(&path)?).map_err(|_| refused(ImportFault::Encoding))?;
+    let stem = || path.file_stem().and_then(|stem| stem.to_str()).map(str::to_owned);
+    let options = ImportOptions { title: title.or_else(stem), unit };
+    py.detach(|| dxf(&text, &options)).map_err(refused)
+}

@@ -1,0 +1,76 @@
+//! How redundant guides share a load.
+
+use serde::Serialize;
+
+/// What is taken for the elasticity of contacts that share a load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elasticity {
+    /// The stiffnesses of the model.
+    Given,
+    /// The faces are rigid: there is play or misalignment, but no stiffness.
+    Rigid,
+    /// All contacts have the same stiffness: there is neither play nor misalignment, so that only ratios count.
+    Equal,
+}
+
+/// How redundant guides share a load.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct LoadSharing {
+    /// Degree of redundancy: the number of independent self-stresses.
+    pub self_stresses: usize,
+    /// The contacts that share a load, in groups that do not act on one another by self-stresses.
+    pub groups: Vec<Vec<String>>,
+    /// What is taken for their elasticity.
+    pub elasticity: Elasticity,
+    /// Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for rigid
+    /// faces, and where there are too many patterns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_ratios: Option<StiffnessRatios>,
+}
+
+/// The contact modes for stiffnesses of a tenth to ten times those of the model, contact by contact.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct StiffnessRatios {
+    /// How many combinations of 1/10, 1 and 10 were tried, in rounded numbers; beyond four contacts they are a
+    /// sample of all.
+    pub tried: usize,
+    /// Whether each has the same contact modes as the model.
+    pub same: bool,
+    /// The other contact modes that were met: one sign or 0 for each contact.
+    pub others: Vec<String>,
+}
+
+impl LoadSharing {
+    /// In words.
+    pub(crate) fn in_words(&self) -> Vec<String> {
+        let groups: Vec<String> = self.groups.iter().map(|group| group.join(", ")).collect();
+        let how = match self.elasticity {
+            Elasticity::Given => "by the stiffness, play and misalignment of each",
+            Elasticity::Rigid => "by their play and misalignment, with rigid faces, as no stiffness is given",
+            Elasticity::Equal => "in equal stiffness, as none is given",
+        };
+        let degree = match self.self_stresses {
+            1 => "1 self-stress".to_owned(),
+            several => format!("{several} self-stresses"),
+        };
+        let mut lines =
+            vec![format!("Redundant guides with {degree}: {} share their load {how}.", groups.join("; "))];
+        if let Some(ratios) = &self.stiffness_ratios {
+            let tried = ratios.tried;
+            lines.push(if ratios.same {
+                format!("The contact modes are the same for stiffness ratios from 0.1 to 10 ({tried} combinations).")
+            } else if ratios.others.is_empty() {
+                format!("Not all of these contact modes remain for stiffness ratios from 0.1 to 10 ({tried} combinations).")
+            } else {
+                format!(
+                    "They depend on stiffness ratios: between 0.1 and 10 ({tried} combinations) there are also the signs {}.",
+                    ratios.others.join(", ")
+                )
+            });
+        }
+        lines
+    }
+}

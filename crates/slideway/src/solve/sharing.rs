@@ -1,0 +1,74 @@
+//! How redundant guides share their load, and whether other stiffnesses would change the answer.
+
+use super::mode_problem::{determinate_problem, self_stresses};
+use super::stages::Stages;
+use crate::attainability::ratios;
+use crate::fault::Faults;
+use crate::influence::Influence;
+use crate::mechanism::Mechanism;
+use crate::modes::{Limits, ModeProblem, SharedLoad, enumerate};
+use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
+use crate::sharing::{elasticity, groups, shared_load};
+use nalgebra::DVector;
+use std::collections::BTreeSet;
+
+/// Adds what is said of redundant guides to a report; nothing for determinate mechanisms. Other stiffnesses are
+/// tried if `ratios` are asked for.
+pub(super) fn add(report: &mut SolveReport, stages: &Stages, ratios: bool) -> Result<(), Faults> {
+    let Some(mut sharing) = load_sharing(&stages.mechanism, &stages.influence)? else { return Ok(()) };
+    if let (Some(shared), true) = (stages.shared_load()?, ratios && sharing.elasticity != Elasticity::Rigid) {
+        sharing.stiffness_ratios = stiffness_ratios(stages, &shared)?;
+    }
+    report.sharing = Some(sharing);
+    Ok(())
+}
+
+/// How redundant guides share their load; none if nothing is in excess.
+///
+/// # Errors
+/// Nothing says how.
+pub(crate) fn load_sharing(
+    mechanism: &Mechanism,
+    influence: &Influence,
+) -> Result<Option<LoadSharing>, Faults> {
+    let stresses = self_stresses(influence);
+    let Some(shared) = shared_load(mechanism, stresses.clone())? else { return Ok(None) };
+    let name = |k: &usize| mechanism.contacts[*k].name.to_string();
+    Ok(Some(LoadSharing {
+        self_stresses: shared.cut.len(),
+        groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
+        elasticity: elasticity(mechanism, &stresses)?,
+        stiffness_ratios: None,
+    }))
+}
+
+/// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if there are too
+/// many patterns.
+fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
+    let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
+    let Some(as_given) = patterns(&problem, shared) else { return Ok(None) };
+    let sharing: Vec<usize> = (0..shared.compliance.len()).filter(|&k| shared.shares(k)).collect();
+    let mut others = BTreeSet::new();
+    let (mut tried, mut same) = (0, true);
+    for factors in ratios(sharing.len()) {
+        let mut compliance: DVector<f64> = shared.compliance.clone();
+        sharing.iter().zip(&factors).for_each(|(&k, factor)| compliance[k] /= *factor);
+        let Some(found) = patterns(&problem, &SharedLoad { compliance, ..shared.clone() }) else {
+            return Ok(None);
+        };
+        tried += 1;
+        same &= found == as_given;
+        others.extend(found.difference(&as_given).cloned());
+    }
+    Ok(Some(StiffnessRatios { tried, same, others: others.into_iter().collect() }))
+}
+
+/// The patterns of all states, in rounded numbers; none if there are too many.
+fn patterns(problem: &ModeProblem, shared: &SharedLoad) -> Option<BTreeSet<String>> {
+    let found = enumerate(&problem.with_shared_load(shared).ok()?, &Limits::default()).ok()?;
+    let pressed = found.solutions.iter().map(|solution| {
+        super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
+    });
+    let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
+    Some(pressed.chain(open).collect())
+}
