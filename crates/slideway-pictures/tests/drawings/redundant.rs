@@ -221,3 +221,29 @@ fn all_pads_of_a_block_are_drawn() {
     let solved = sheet(Shown::Solution(1));
     assert!(solved.description.contains("times as large as they are"), "{}", solved.description);
 }
+
+/// What a page says of shared loads: how they are shared, that a contact is open, and how far each is displaced, in
+/// the unit of the model.
+#[test]
+fn pages_tell_how_a_load_is_shared() {
+    let model = slideway::model::Model::parse(RAILS).unwrap();
+    let report = slideway::solve::solve(&model).unwrap();
+    let parts = slideway_pictures::page::solve_parts(&report);
+    assert!(parts[0].contains("Redundant guides with 2 self-stresses"), "{}", parts[0]);
+    assert!(parts[0].contains("by the stiffness, play and misalignment of each"), "{}", parts[0]);
+    let [_, solution] = &parts[..] else { panic!("one solution") };
+    assert!(solution.contains("Deflection in mm") && solution.contains("lower: open"), "{solution}");
+    let deflection = report.solutions[0].contacts[0].deflection.unwrap();
+    // At constant speed the pull overcomes the load and the friction at both ends of the upper rail.
+    let pull = report.solutions[0].drives[0].effort;
+    assert!((pull - 10.0 - 2.0 * 0.3 * report.solutions[0].contacts[0].normal_force).abs() < 1e-9);
+    // Half the play, and what the face gives.
+    let expected = -(0.1e-3 + report.solutions[0].contacts[0].normal_force / 5e4);
+    assert!((deflection - expected).abs() < 1e-12, "{deflection} {expected}");
+    let shown = format!("\u{2212}{:.4}", -1e3 * expected);
+    assert!(solution.contains(&shown), "{shown}: {solution}");
+    let single = slideway::gallery::find("drawer").unwrap().text;
+    let report = slideway::solve::solve(&slideway::model::Model::parse(single).unwrap()).unwrap();
+    let parts = slideway_pictures::page::solve_parts(&report);
+    assert!(parts.iter().all(|part| !part.contains("Deflection") && !part.contains("Redundant")));
+}
