@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _display, _motion, _sweep, reports
-from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
+from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
 
 
 __all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "import_dxf", "lcp", "merge", "mode_problem", "png", "printable", "solve", "templates", "theme"]
@@ -110,7 +110,7 @@ class Mechanism:
     def __deepcopy__(self, /, _memo: object) -> Mechanism: ...
     def __new__(cls, /, title: str | None = None, *, gravity: Value | Pair | None = None, time: Value | None = None) -> Mechanism: ...
     def __repr__(self, /) -> str: ...
-    def block_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu: Value | BySide | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, pad: Pair | None = None, front: ContactValues | None = None, rear: ContactValues | None = None) -> str:
+    def block_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu: Value | BySide | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None, front: ContactValues | None = None, rear: ContactValues | None = None, supports: Mapping[str, SupportValues] | None = None) -> str:
         """
         Adds a block slider: a carriage, sledge or bushing with a contact at each end.
 
@@ -349,7 +349,7 @@ class Mechanism:
         >>> m.force("push", drawer, at=(0, 0.1), components=("20 N", 0))
         'push'
         """
-    def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, pad: Pair | None = None) -> str:
+    def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
         """
         Adds a guided slider: it is pressed on one side along its whole length, with one normal force and a couple.
 
@@ -422,7 +422,7 @@ class Mechanism:
         >>> m.parameter("L", "400 mm")
         'L'
         """
-    def pin_in_slot(self, /, name: str, pin: str, slot: str, *, at: Pair, mu: Value | BySide, along: Value | None = None, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, stiffness: Value | None = None, pad: Pair | None = None) -> str:
+    def pin_in_slot(self, /, name: str, pin: str, slot: str, *, at: Pair, mu: Value | BySide, along: Value | None = None, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
         """
         Adds a pin of the first body in a slot of the second: one contact.
 
