@@ -358,7 +358,7 @@ pub enum FaultKind {
     StiffnessOfSome { contacts: Vec<String> },
     #[error("{} share a load, but with rigid faces and no play nothing says how", listed(contacts))]
     RigidWithoutPlay { contacts: Vec<String> },
-    #[error("a press fit (negative play) is not supported yet: {}", listed(contacts))]
+    #[error("press fits (negative play) are not computed: {}", listed(contacts))]
     PressFit { contacts: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },

@@ -37,6 +37,9 @@ fn complete_examples_can_be_solved() {
 }
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
+    if folder.is_file() {
+        return vec![folder.to_owned()];
+    }
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let is_source = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "rs");
     entries

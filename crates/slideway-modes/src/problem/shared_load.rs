@@ -165,7 +165,7 @@ impl ModeProblem {
     /// ```
     /// use nalgebra::{dmatrix, dvector, DMatrix};
     /// use slideway_modes::{enumerate, Limits, ModeProblem, SharedLoad};
-    /// // Two parallel pads of equal stiffness without friction carry 10 N, the second one with 2 mm less room.
+    /// // Two parallel pads of equal stiffness carry 10 N without friction, the first with 2 mm of play at each face.
     /// let none = DMatrix::zeros(2, 2);
     /// let plus = DMatrix::identity(2, 2);
     /// let one = ModeProblem::new(plus.clone(), -plus, none.clone(), none, dvector![10.0, 0.0])?;
@@ -177,7 +177,7 @@ impl ModeProblem {
     ///     misalignment: dvector![0.0, 0.0],
     /// })?;
     /// let solutions = enumerate(&shared, &Limits::default())?;
-    /// assert!((solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
+    /// assert!((&solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_shared_load(&self, shared: &SharedLoad) -> Result<Self, ModeProblemError> {

@@ -7,9 +7,11 @@
 //! N = -K (g + delta g'),    Y g'' = sum_k c_k^sigma |N_k| - N(0) - sum_k d_k^sigma,    sigma = sign N
 //! ```
 //!
-//! is linear as long as no contact changes side. There the motion is exact: powers of one matrix exponential
+//! is linear as long as no contact changes side, opens or closes: redundant contacts have gaps `E g + d0`, and
+//! forces only beyond their clearance. There the motion is exact: powers of one matrix exponential
 //! for steps that are halved until the change of side lies within the last.
 
+use super::shared::SharedGaps;
 use super::spectrum::{eigenvalues, is_real};
 use crate::modes::{ContactState, ModeProblem, Side};
 use nalgebra::{DMatrix, DVector, LU};
@@ -35,6 +37,8 @@ const START: f64 = 0.5;
 pub(super) struct Rest<'s> {
     pub(super) states: &'s [ContactState],
     pub(super) normal_force: &'s DVector<f64>,
+    /// The gaps, of redundant contacts those that are not cut.
+    pub(super) gap: DVector<f64>,
 }
 
 /// How a motion ends.
@@ -54,9 +58,10 @@ pub(super) struct FastMotion<'p> {
     /// Y^-1, with a little inertia where there is none.
     mobility: DMatrix<f64>,
     stiffness: Vec<f64>,
+    shared: Option<&'p SharedGaps>,
     /// delta (s).
     damping: f64,
-    steps: HashMap<Vec<bool>, Steps>,
+    steps: HashMap<Vec<ContactState>, Steps>,
 }
 
 /// exp(A h) for steps h, the greatest first: (g, g', 1) to (g, g', 1).
@@ -66,13 +71,22 @@ struct Steps {
 
 impl<'p> FastMotion<'p> {
     /// With half of the critical damping of the slowest motion without friction; none if that is not known.
-    pub(super) fn new(problem: &'p ModeProblem, mobility: DMatrix<f64>, stiffness: &[f64]) -> Option<Self> {
-        let frictionless = &mobility * DMatrix::from_diagonal(&DVector::from_column_slice(stiffness));
+    pub(super) fn new(
+        problem: &'p ModeProblem,
+        mobility: DMatrix<f64>,
+        stiffness: &[f64],
+        shared: Option<&'p SharedGaps>,
+    ) -> Option<Self> {
+        let frictionless = &mobility
+            * match shared {
+                Some(shared) => shared.stiff(&shared.gaps.transpose(), stiffness),
+                None => DMatrix::from_diagonal(&DVector::from_column_slice(stiffness)),
+            };
         let slowest = eigenvalues(&frictionless)?.iter().map(|value| value.re).fold(f64::INFINITY, f64::min);
         let damping = 1.0 / slowest.sqrt();
         let stiffness = stiffness.to_vec();
         let steps = HashMap::new();
-        damping.is_finite().then_some(Self { problem, mobility, stiffness, damping, steps })
+        damping.is_finite().then_some(Self { problem, mobility, stiffness, shared, damping, steps })
     }
 
     /// Where the motion leads to on both sides of a solution with one unstable motion: started along that
@@ -83,18 +97,22 @@ impl<'p> FastMotion<'p> {
         let damped = self.damping * lambda;
         let rate = f64::midpoint(-damped, (damped * damped - 4.0 * lambda).sqrt());
         let factor = -(1.0 + self.damping * rate);
-        let forces = DVector::from_fn(gaps.len(), |k, _| factor * self.stiffness[k] * gaps[k]);
+        let (deflections, opened) = (self.deflections(&from.gap), self.of_gaps(&gaps));
         Some([1.0, -1.0].map(|direction| {
-            // The first contact that changes side on the straight way N + t direction forces.
-            let ways = (0..gaps.len()).map(|k| -from.normal_force[k] / (direction * forces[k]));
+            // The first contact that changes side, opens or closes on the straight way.
+            let ways = (0..opened.len()).map(|k| match from.states[k] {
+                ContactState::Gap => {
+                    let change = -direction * factor * opened[k];
+                    (self.clearance(k).copysign(change) - deflections[k]) / change
+                }
+                _ => -from.normal_force[k] / (direction * factor * self.stiffness[k] * opened[k]),
+            });
             let way = ways.filter(|way| *way > 0.0).fold(f64::INFINITY, f64::min);
             if way.is_infinite() {
                 return End::Beyond;
             }
             let amount = direction * START * way;
-            let gap = DVector::from_fn(gaps.len(), |k, _| {
-                amount * gaps[k] - from.normal_force[k] / self.stiffness[k]
-            });
+            let gap = &gaps * amount + &from.gap;
             self.end(&gap, &(&gaps * (amount * rate)), from, targets)
         }))
     }
@@ -118,8 +136,26 @@ impl<'p> FastMotion<'p> {
         gaps.iter().all(|gap| gap.is_finite()).then_some((lambda.re, gaps))
     }
 
-    /// C S K of a mode.
+    /// The gaps of all contacts from those that are not cut.
+    fn of_gaps(&self, gaps: &DVector<f64>) -> DVector<f64> {
+        self.shared.map_or_else(|| gaps.clone(), |shared| &shared.gaps * gaps)
+    }
+
+    /// The deflections of all contacts.
+    fn deflections(&self, gaps: &DVector<f64>) -> DVector<f64> {
+        self.shared.map_or_else(|| gaps.clone(), |shared| &shared.gaps * gaps + &shared.offset)
+    }
+
+    fn clearance(&self, k: usize) -> f64 {
+        self.shared.map_or(0.0, |shared| shared.clearance[k])
+    }
+
+    /// C S K of a mode; of redundant contacts `(C S)_kept K E`.
     fn stiff(&self, states: &[ContactState]) -> DMatrix<f64> {
+        if let Some(shared) = self.shared {
+            let mode = super::mode_matrix(self.problem, states).select_rows(&shared.kept);
+            return shared.stiff(&mode, &self.stiffness);
+        }
         let mut matrix = super::mode_matrix(self.problem, states);
         for (mut column, stiffness) in matrix.column_iter_mut().zip(&self.stiffness) {
             column *= *stiffness;
@@ -137,7 +173,7 @@ impl<'p> FastMotion<'p> {
         let (mut level, mut quiet) = (DOUBLINGS, 0);
         let mut work = 0;
         while work < WORK {
-            let pressed = self.pressed(&state);
+            let pressed = self.states(&state);
             if !self.steps.contains_key(&pressed) {
                 let steps = self.steps_of(&pressed);
                 self.steps.insert(pressed.clone(), steps);
@@ -145,7 +181,7 @@ impl<'p> FastMotion<'p> {
             let steps = &self.steps[&pressed];
             let next = &steps.powers[level] * &state;
             work += state.len() * state.len();
-            if self.pressed(&next) == pressed {
+            if self.states(&next) == pressed {
                 state = next;
                 quiet += 1;
             } else if level + 1 < steps.powers.len() {
@@ -171,51 +207,93 @@ impl<'p> FastMotion<'p> {
     fn has_ended(
         &self,
         state: &DVector<f64>,
-        pressed: &[bool],
+        states: &[ContactState],
         scale: f64,
         from: &Rest<'_>,
         targets: &[Rest<'_>],
     ) -> Option<End> {
-        let greatest = (0..pressed.len()).map(|k| self.force(state, k).abs()).fold(0.0, f64::max);
+        let forces: Vec<f64> = (0..states.len()).map(|k| self.force(state, k)).collect();
+        let greatest = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
         if greatest > BEYOND * scale {
             return Some(End::Beyond);
         }
+        let rates = self.of_gaps(&rates(state));
         let is_near = |target: &Rest<'_>| {
             let distance = NEAR * (target.normal_force - from.normal_force).amax();
-            (0..pressed.len()).all(|k| {
-                let rate = self.stiffness[k] * self.damping * state[pressed.len() + k];
-                pressed[k] == (target.states[k] == ContactState::Positive)
-                    && (self.force(state, k) - target.normal_force[k]).abs() <= distance
+            (0..states.len()).all(|k| {
+                let rate = self.stiffness[k] * self.damping * rates[k];
+                states[k] == target.states[k]
+                    && (forces[k] - target.normal_force[k]).abs() <= distance
                     && rate.abs() <= distance
             })
         };
         targets.iter().position(is_near).map(End::Target)
     }
 
-    /// N_k = -kappa (g + delta g')
-    fn force(&self, state: &DVector<f64>, k: usize) -> f64 {
-        -self.stiffness[k] * (state[k] + self.damping * state[self.stiffness.len() + k])
-    }
-
-    fn pressed(&self, state: &DVector<f64>) -> Vec<bool> {
-        (0..self.stiffness.len()).map(|k| self.force(state, k) >= 0.0).collect()
-    }
-
-    fn steps_of(&self, pressed: &[bool]) -> Steps {
-        let contacts = pressed.len();
-        let sides: Vec<Side> =
-            pressed.iter().map(|positive| if *positive { Side::Positive } else { Side::Negative }).collect();
-        let states: Vec<ContactState> = sides.iter().map(|side| ContactState::from(*side)).collect();
-        let stiff = &self.mobility * self.stiff(&states);
-        let mut load = self.problem.right_hand_side().clone();
-        for (k, side) in sides.iter().enumerate() {
-            load += self.problem.jumps(*side).column(k);
+    /// g + delta g' of a contact.
+    fn damped(&self, state: &DVector<f64>, k: usize) -> f64 {
+        let gaps = (state.len() - 1) / 2;
+        let kept = |gap: usize| state[gap] + self.damping * state[gaps + gap];
+        match self.shared {
+            None => kept(k),
+            Some(shared) => {
+                let terms = (0..gaps).map(|gap| shared.gaps[(k, gap)] * kept(gap));
+                shared.offset[k] + terms.sum::<f64>()
+            }
         }
-        let mut generator = DMatrix::zeros(2 * contacts + 1, 2 * contacts + 1);
-        generator.view_mut((0, contacts), (contacts, contacts)).fill_with_identity();
-        generator.view_mut((contacts, 0), (contacts, contacts)).copy_from(&-&stiff);
-        generator.view_mut((contacts, contacts), (contacts, contacts)).copy_from(&(&stiff * -self.damping));
-        generator.view_mut((contacts, 2 * contacts), (contacts, 1)).copy_from(&(&self.mobility * -load));
+    }
+
+    /// What a contact does: it is pressed where g + delta g' is beyond its clearance.
+    fn state(&self, state: &DVector<f64>, k: usize) -> ContactState {
+        let (damped, clearance) = (self.damped(state, k), self.clearance(k));
+        if damped <= -clearance {
+            ContactState::Positive
+        } else if damped >= clearance {
+            ContactState::Negative
+        } else {
+            ContactState::Gap
+        }
+    }
+
+    fn states(&self, state: &DVector<f64>) -> Vec<ContactState> {
+        (0..self.stiffness.len()).map(|k| self.state(state, k)).collect()
+    }
+
+    /// N_k = -kappa (g + delta g' + sigma clearance)
+    fn force(&self, state: &DVector<f64>, k: usize) -> f64 {
+        match self.state(state, k).side() {
+            None => 0.0,
+            Some(side) => -self.stiffness[k] * (self.damped(state, k) + side.sign() * self.clearance(k)),
+        }
+    }
+
+    /// What acts where all gaps are closed: N(0) + sum d_k, and the forces of misalignment and clearance.
+    fn load(&self, states: &[ContactState]) -> DVector<f64> {
+        let mut load = self.problem.right_hand_side().clone();
+        for (k, state) in states.iter().enumerate() {
+            let jump = |side: Side| self.problem.jumps(side).column(k);
+            match state.side() {
+                Some(side) => load += jump(side),
+                None => load += (jump(Side::Positive) + jump(Side::Negative)) / 2.0,
+            }
+        }
+        let Some(shared) = self.shared else { return load };
+        let closed = DVector::from_fn(states.len(), |k, _| {
+            let sign = states[k].side().map_or(0.0, Side::sign);
+            self.stiffness[k] * (shared.offset[k] + sign * shared.clearance[k])
+        });
+        (load + super::mode_matrix(self.problem, states) * closed).select_rows(&shared.kept)
+    }
+
+    fn steps_of(&self, states: &[ContactState]) -> Steps {
+        let stiff = &self.mobility * self.stiff(states);
+        let gaps = stiff.nrows();
+        let load = self.load(states);
+        let mut generator = DMatrix::zeros(2 * gaps + 1, 2 * gaps + 1);
+        generator.view_mut((0, gaps), (gaps, gaps)).fill_with_identity();
+        generator.view_mut((gaps, 0), (gaps, gaps)).copy_from(&-&stiff);
+        generator.view_mut((gaps, gaps), (gaps, gaps)).copy_from(&(&stiff * -self.damping));
+        generator.view_mut((gaps, 2 * gaps), (gaps, 1)).copy_from(&(&self.mobility * -load));
         let step = STEP / stiff.norm().sqrt();
         let mut powers = vec![exponential(&(generator * (step / f64::from(1 << HALVINGS))))];
         for _ in 0..HALVINGS + DOUBLINGS {
@@ -225,6 +303,12 @@ impl<'p> FastMotion<'p> {
         powers.reverse();
         Steps { powers }
     }
+}
+
+/// g' of a state (g, g', 1).
+fn rates(state: &DVector<f64>) -> DVector<f64> {
+    let gaps = (state.len() - 1) / 2;
+    state.rows(gaps, gaps).into_owned()
 }
 
 /// exp of a small matrix by its series.

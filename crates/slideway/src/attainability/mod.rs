@@ -50,6 +50,8 @@ pub struct Candidate {
     pub states: Vec<ContactState>,
     /// The normal forces (N).
     pub normal_force: DVector<f64>,
+    /// The deflections of redundant contacts, where they are known (m).
+    pub deflections: Vec<Option<f64>>,
 }
 
 /// A mechanism in its state whose guides are slightly elastic.
@@ -232,17 +234,26 @@ impl<'p> ElasticGuides<'p> {
     /// What each unattainable solution separates.
     fn fates(&self, candidates: &[Candidate], all: &mut [Attainability]) {
         let few = self.stiffness.len() <= MOST_CONTACTS_OF_FATES && candidates.len() <= MOST_SOLUTIONS;
+        let is_rigid = self.shared.as_ref().is_some_and(|shared| shared.rigid);
         let none = all.iter().all(|one| one.verdict != Verdict::Unattainable);
-        let (Some(inertia), true) = (&self.inertia, few && !none && self.shared.is_none()) else { return };
+        let (Some(inertia), true) = (&self.inertia, few && !none && !is_rigid) else { return };
         let Some(mobility) = inertia.inverse(VANISHING_SHARE) else { return };
         let stays = |one: &Attainability| matches!(one.verdict, Verdict::Attainable | Verdict::Flutter);
         let numbers: Vec<usize> = (0..all.len()).filter(|&index| stays(&all[index])).collect();
-        let rest = |index: usize| Rest {
-            states: &candidates[index].states,
-            normal_force: &candidates[index].normal_force,
+        let rest = |index: usize| {
+            let Candidate { states, normal_force, deflections } = &candidates[index];
+            let deflection = |k: usize| {
+                deflections.get(k).copied().flatten().unwrap_or(-normal_force[k] / self.stiffness[k])
+            };
+            let kept = |shared: &SharedGaps| shared.kept.iter().map(|&k| deflection(k)).collect::<Vec<_>>();
+            let gap = self.shared.as_ref().map_or_else(|| (0..states.len()).map(deflection).collect(), kept);
+            Rest { states, normal_force, gap: DVector::from_vec(gap) }
         };
         let targets: Vec<Rest<'_>> = numbers.iter().map(|&index| rest(index)).collect();
-        let Some(mut motion) = FastMotion::new(self.problem, mobility, &self.stiffness) else { return };
+        let Some(mut motion) = FastMotion::new(self.problem, mobility, &self.stiffness, self.shared.as_ref())
+        else {
+            return;
+        };
         for (index, one) in all.iter_mut().enumerate() {
             if one.verdict == Verdict::Unattainable {
                 let ends = motion.ends(&rest(index), &targets);

@@ -14,8 +14,8 @@ use crate::ids::ContactId;
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
-use crate::sharing::NO_STRESS;
-use nalgebra::DMatrix;
+use crate::sharing::{NO_STRESS, shared_load};
+use nalgebra::{DMatrix, DVector};
 
 /// The gaps of redundant contacts.
 #[derive(Debug, Clone)]
@@ -24,6 +24,12 @@ pub(super) struct SharedGaps {
     pub(super) kept: Vec<usize>,
     /// E: all gaps from those of the contacts that are not cut (contacts x kept).
     pub(super) gaps: DMatrix<f64>,
+    /// The deflections of all contacts where the gaps of the kept ones are closed: misalignment (m).
+    pub(super) offset: DVector<f64>,
+    /// Half of the play of all contacts (m).
+    pub(super) clearance: DVector<f64>,
+    /// Whether faces are rigid, so that there is no fast motion.
+    pub(super) rigid: bool,
     /// (C S)_kept without friction, all contacts pressed.
     frictionless: DMatrix<f64>,
 }
@@ -48,8 +54,21 @@ impl SharedGaps {
             Some(number) => -stress(kept[column], number),
             None => f64::from(u8::from(kept[column] == contact)),
         });
-        // sigma e_k, and -sigma Z of a cut contact, times sigma: E^T.
-        Some(Self { frictionless: gaps.transpose(), kept, gaps })
+        let forces = DMatrix::from_fn(contacts, cut.len(), stress);
+        let shared = shared_load(mechanism, forces.clone()).ok().flatten()?;
+        // Z^T (d + e) = 0 with d = 0 at the kept contacts.
+        let open = forces.transpose() * &shared.misalignment;
+        let offset = DVector::from_fn(contacts, |k, _| position(k).map_or(0.0, |number| -open[number]));
+        let clearance = |k: usize, _| if shared.shares(k) { shared.clearance[k] } else { 0.0 };
+        Some(Self {
+            offset,
+            clearance: DVector::from_fn(contacts, clearance),
+            rigid: shared.compliance.iter().all(|compliance| *compliance == 0.0),
+            // sigma e_k, and -sigma Z of a cut contact, times sigma: E^T.
+            frictionless: gaps.transpose(),
+            kept,
+            gaps,
+        })
     }
 
     /// The stiffness matrix of a mode, `(C S)_kept K E`, from `C S`.

@@ -171,15 +171,14 @@ impl<'i> Pencil<'i> {
         if right.ncols() == 0 {
             return Some(Vec::new());
         }
-        let block = match self.shared {
-            Some(shared) => left.transpose() * shared.stiff(&self.mode, stiffness) * right,
-            None => {
-                let mut stiff = right.clone();
-                for (mut row, stiffness) in stiff.row_iter_mut().zip(stiffness) {
-                    row *= *stiffness;
-                }
-                left.transpose() * &self.mode * stiff
+        let block = if let Some(shared) = self.shared {
+            left.transpose() * shared.stiff(&self.mode, stiffness) * right
+        } else {
+            let mut stiff = right.clone();
+            for (mut row, stiffness) in stiff.row_iter_mut().zip(stiffness) {
+                row *= *stiffness;
             }
+            left.transpose() * &self.mode * stiff
         };
         eigenvalues(&LU::new(self.inertia.vanishing(ratios)).solve(&block)?)
     }

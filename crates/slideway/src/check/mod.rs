@@ -351,7 +351,7 @@ fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySumma
         constraints: mobility.constraints,
         independent: mobility.independent,
         degrees_of_freedom: mobility.degrees_of_freedom(),
-        determinate: redundancy.is_none(),
+        determinate: redundancy.is_none() && mechanism.excess.is_empty(),
         singular_position: redundancy.is_some_and(|redundancy| redundancy.only_here),
         joints_in_excess: redundancy.map_or(vec![], |r| r.joints.iter().map(name).collect()),
         suggestion: redundancy.and_then(|redundancy| redundancy.suggestion.clone()),
@@ -425,7 +425,7 @@ fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: boo
         preload: contact.preload,
         sliding_velocity: assembled
             .then(|| configuration.contact(mechanism, ContactId(index)).sliding_velocity),
-        fit: mechanism.excess.shares(ContactId(index)).then(|| ContactFit {
+        fit: mechanism.excess.shares(ContactId(index)).then_some(ContactFit {
             play: contact.play,
             misalignment: contact.misalignment,
             stiffness: contact.stiffness,

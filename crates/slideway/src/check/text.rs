@@ -82,6 +82,9 @@ impl Text<'_> {
         ));
         let determinacy = if mobility.determinate {
             "Statically determinate: no constraint is redundant.".to_owned()
+        } else if mobility.constraints == mobility.independent {
+            // Further supports of one block.
+            "Statically indeterminate: contacts are redundant.".to_owned()
         } else {
             let excess = mobility.constraints - mobility.independent;
             let excess = count(excess, "constraint is", "constraints are");

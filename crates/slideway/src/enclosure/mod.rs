@@ -40,10 +40,10 @@ use crate::interval::Interval;
 use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
-use crate::modes::OpenContacts;
 use crate::modes::certificate::{
     IntervalInfluence, IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
 };
+use crate::modes::{OpenContacts, SharedLoad};
 use crate::sharing::shared_load;
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
@@ -152,6 +152,8 @@ pub struct EnclosedModeProblem {
     pub problem: IntervalModeProblem,
     /// Which contacts may be open: others between their faces are in preload gaps.
     pub open: OpenContacts,
+    /// Bounds of how redundant guides share their load; none if nothing is in excess.
+    pub shared: Option<SharedLoad<Interval>>,
     /// Bounds of the couples of guided sliders, in the order of the joints.
     pub couples: Vec<EnclosedCouple>,
     /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
@@ -249,13 +251,15 @@ pub fn enclosure(
     let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
     let influence = coefficients.influence(&unknowns)?;
     let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
-    let problem =
-        match shared_load(&mechanism, coefficients.self_stresses(&unknowns)).map_err(NotEnclosed::Values)? {
-            Some(shared) => problem.with_shared_load(&shared)?,
-            None => problem,
-        };
+    let stresses = coefficients.self_stresses(&unknowns);
+    let shared = shared_load(&mechanism, stresses).map_err(NotEnclosed::Values)?;
+    let problem = match &shared {
+        Some(shared) => problem.with_shared_load(shared)?,
+        None => problem,
+    };
     Ok(EnclosedModeProblem {
         open: mechanism.excess.open.clone(),
+        shared,
         influence,
         problem,
         couples: coefficients.couples(&unknowns),

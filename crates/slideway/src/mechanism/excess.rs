@@ -5,7 +5,7 @@
 //! as many contacts are *cut*, whose normal forces become unknowns of their own (force method). The choice is
 //! the same in every position, so that all numbers that are made with it change continuously.
 
-use super::{JointKind, Mechanism, Slider, rot90};
+use super::{Attachment, JointKind, Mechanism, Slider, rot90};
 use crate::ids::{ContactId, Frame};
 use crate::model::SliderKind;
 use crate::modes::OpenContacts;
@@ -51,7 +51,8 @@ struct Row {
 impl Mechanism {
     /// The excess in the drawing; nothing if the coordinates leave none, or the rows are independent.
     pub(super) fn found_excess(&self) -> Excess {
-        let (reactions, contacts) = self.reaction_rows();
+        let (reactions, contacts): (Vec<Row>, Vec<Option<ContactId>>) =
+            self.reaction_rows().into_iter().unzip();
         let excess =
             |rows: &[Row]| (rows.len() + self.coordinates.len()).saturating_sub(3 * self.bodies.len());
         if excess(&reactions) == 0 {
@@ -84,14 +85,7 @@ impl Mechanism {
         let mut rows = Vec::new();
         for joint in &self.joints {
             match &joint.kind {
-                JointKind::Hinge(ends) => {
-                    for axis in [Vector2::x(), Vector2::y()] {
-                        let mut row = self.row(1);
-                        self.displace(&mut row, ends[0].frame, ends[0].position, axis);
-                        self.displace(&mut row, ends[1].frame, ends[1].position, -axis);
-                        rows.push(row);
-                    }
-                }
+                JointKind::Hinge(ends) => rows.extend(self.hinge_rows(ends, 1)),
                 JointKind::Slider(slider) => {
                     rows.push(self.normal_row(slider, 0.0, 2));
                     if slider.kind != SliderKind::Pin {
@@ -104,37 +98,34 @@ impl Mechanism {
     }
 
     /// The rows of hinges and rotation locks, which are taken first, and of the contacts.
-    fn reaction_rows(&self) -> (Vec<Row>, Vec<Option<ContactId>>) {
-        let (mut rows, mut contacts) = (Vec::new(), Vec::new());
-        for (joint, row) in self.joints.iter().flat_map(|joint| match &joint.kind {
-            JointKind::Hinge(_) => vec![(joint, 0), (joint, 1)],
-            JointKind::Slider(slider) => (0..slider.contacts.len())
-                .chain((slider.kind == SliderKind::Guided).then_some(1))
-                .map(|row| (joint, row))
-                .collect(),
-        }) {
+    fn reaction_rows(&self) -> Vec<(Row, Option<ContactId>)> {
+        let mut rows = Vec::new();
+        for joint in &self.joints {
             match &joint.kind {
-                JointKind::Hinge(ends) => {
-                    let axis = if row == 0 { Vector2::x() } else { Vector2::y() };
-                    let mut row = self.row(0);
-                    self.displace(&mut row, ends[0].frame, ends[0].position, axis);
-                    self.displace(&mut row, ends[1].frame, ends[1].position, -axis);
-                    rows.push(row);
-                    contacts.push(None);
+                JointKind::Hinge(ends) => rows.extend(self.hinge_rows(ends, 0).map(|row| (row, None))),
+                JointKind::Slider(slider) => {
+                    let normal = |contact: &ContactId| {
+                        let offset = self.contacts[contact.index()].offset;
+                        (self.normal_row(slider, offset, 1), Some(*contact))
+                    };
+                    rows.extend(slider.contacts.iter().map(normal));
+                    if slider.kind == SliderKind::Guided {
+                        rows.push((self.rotation_row(slider), None));
+                    }
                 }
-                JointKind::Slider(slider) => match slider.contacts.get(row) {
-                    Some(&contact) => {
-                        rows.push(self.normal_row(slider, self.contacts[contact.index()].offset, 1));
-                        contacts.push(Some(contact));
-                    }
-                    None => {
-                        rows.push(self.rotation_row(slider));
-                        contacts.push(None);
-                    }
-                },
             }
         }
-        (rows, contacts)
+        rows
+    }
+
+    /// Both ends of a hinge move alike.
+    fn hinge_rows(&self, ends: &[Attachment; 2], rank: u8) -> [Row; 2] {
+        [Vector2::x(), Vector2::y()].map(|axis| {
+            let mut row = self.row(rank);
+            self.displace(&mut row, ends[0].frame, ends[0].position, axis);
+            self.displace(&mut row, ends[1].frame, ends[1].position, -axis);
+            row
+        })
     }
 
     fn row(&self, rank: u8) -> Row {

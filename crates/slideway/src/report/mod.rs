@@ -227,6 +227,10 @@ pub struct Solution {
     pub signs: Vec<i8>,
     /// Whether some contact is about to change side: its normal force is zero within rounding.
     pub on_boundary: bool,
+    /// Contacts of redundant guides without normal force that do not settle where the block is within its play: it
+    /// floats.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub floating: Vec<String>,
     /// What is proven of it.
     pub certificate: CertificateKind,
     /// By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at
@@ -338,6 +342,8 @@ pub enum MarginsMissing {
     BetweenFaces,
     /// Nothing presses a contact, so that its preload may rub at either face.
     NothingPresses,
+    /// The block floats within the play of redundant guides.
+    Floats,
 }
 
 impl MarginsMissing {
@@ -346,6 +352,7 @@ impl MarginsMissing {
         match self {
             Self::TooManyModes => "there are too many modes",
             Self::BetweenFaces => "a guided slider is between its faces",
+            Self::Floats => "the block floats within its play",
             Self::NothingPresses => "nothing presses a contact whose preload differs by side",
         }
     }

@@ -161,7 +161,15 @@ impl Text<'_> {
         self.headed(title, &format!("   {signs}"));
         let contacts = &solution.contacts;
         let pressed = contacts.iter().zip(solution.pattern.bytes()).filter(|(_, state)| *state != b'0');
-        let about_to_change = are(pressed.map(|(contact, _)| contact).filter(|contact| contact.side == 0));
+        let floats = |contact: &&Contact| solution.floating.contains(&contact.name);
+        let unpressed = pressed.map(|(contact, _)| contact).filter(|contact| contact.side == 0);
+        let about_to_change = are(unpressed.filter(|contact| !floats(contact)));
+        if !solution.floating.is_empty() {
+            self.line(&format!(
+                "  Floats within its play: {} carry nothing, and nothing tells where between its faces the block is.",
+                solution.floating.join(", ")
+            ));
+        }
         let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
             if let Some(are) = about_to_change {
@@ -170,7 +178,7 @@ impl Text<'_> {
             if let Some(are) = guided_in_gap {
                 self.line(&format!("  On the boundary: only while {are} exactly without normal force."));
             }
-        } else if solution.certificate == CertificateKind::OnBoundary {
+        } else if solution.certificate == CertificateKind::OnBoundary && solution.floating.is_empty() {
             self.line("  On the boundary within rounding: a normal force or the determinant may be zero.");
         }
         if solution.certificate == CertificateKind::NotProven {

@@ -120,13 +120,30 @@ impl<'a> Answer<'a> {
         })
     }
 
+    /// The contacts without normal force where the others do not hold the block: it floats within its play.
+    fn floating(&self, signs: &[i8]) -> Vec<usize> {
+        let open = &self.mechanism.excess.open;
+        let state = |sign: &i8| match sign {
+            1 => ContactState::Positive,
+            -1 => ContactState::Negative,
+            _ => ContactState::Gap,
+        };
+        if open.holds(&signs.iter().map(state).collect::<Vec<_>>()) {
+            return Vec::new();
+        }
+        (0..signs.len()).filter(|&k| signs[k] == 0 && open.shares(k)).collect()
+    }
+
     /// By how much a contact is displaced against its guide (m): -(delta + f N) where it is pressed towards +n,
     /// delta - f N towards -n, between -delta and delta where it is open; none where it shares no load, or only
-    /// ratios of stiffnesses are known.
+    /// ratios of stiffnesses are known, and where the block floats.
     fn deflection(&self, state: &State<'_>, contact: usize) -> Option<f64> {
         let shared = self.shared.as_ref().filter(|_| {
             self.mechanism.excess.shares(ContactId(contact)) && self.elasticity != Some(Elasticity::Equal)
         })?;
+        if self.floating(&state.signs).contains(&contact) {
+            return None;
+        }
         let (clearance, compliance) = (shared.clearance[contact], shared.compliance[contact]);
         let yielding = compliance * state.normal_force[contact];
         Some(match state.pattern[contact] {
@@ -141,12 +158,9 @@ impl<'a> Answer<'a> {
     fn keep(&self, state: &State<'_>, states: &mut States, tipping: &mut Tipped) {
         for faces in self.faces(state) {
             let kept = self.kept(&faces.state(state), tipping);
-            if !self.mechanism.excess.open.is_solution(faces.states()) {
-                &mut states.gaps
-            } else {
-                &mut states.solutions
-            }
-            .extend(kept);
+            let is_solution = self.mechanism.excess.open.is_solution(faces.states());
+            let kind = if is_solution { &mut states.solutions } else { &mut states.gaps };
+            kind.extend(kept);
         }
     }
 
@@ -262,11 +276,15 @@ impl<'a> Answer<'a> {
         let friction = self.friction(state);
         let residuals = self.residuals(state, unknowns, &friction);
         let orientation: f64 = state.pattern.iter().map(|contact| contact.sign()).product();
+        let floating = self.floating(&state.signs);
+        let is_about_to_change = |k: &usize| state.signs[*k] == 0 && !floating.contains(k);
         report::Solution {
             pattern: pattern(state.pattern),
             patterns: state.patterns.clone(),
             signs: state.signs.clone(),
-            on_boundary: state.on_boundary,
+            on_boundary: state.on_boundary
+                && (floating.is_empty() || (0..state.signs.len()).any(|k| is_about_to_change(&k))),
+            floating: floating.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect(),
             certificate: self.certificate(state),
             margin: None,
             determinant: state.determinant,

@@ -22,7 +22,11 @@ impl Answer<'_> {
         let inside: Vec<usize> =
             (0..solutions.len()).filter(|&index| !is_on_boundary(&solutions[index])).collect();
         for solution in solutions.iter_mut() {
-            solution.attainability = not_computed("a contact is about to change side");
+            solution.attainability = not_computed(if solution.floating.is_empty() {
+                "a contact is about to change side"
+            } else {
+                "the block floats within its play"
+            });
         }
         if inside.is_empty() {
             return Ok(());
@@ -72,5 +76,6 @@ fn candidate(solution: &Solution) -> Candidate {
             solution.contacts.len(),
             solution.contacts.iter().map(|contact| contact.normal_force),
         ),
+        deflections: solution.contacts.iter().map(|contact| contact.deflection).collect(),
     }
 }

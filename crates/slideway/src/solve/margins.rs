@@ -36,6 +36,9 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
     // mode that could be followed.
     let is_free = |k: usize| data.free_face(&all.line.has_jump, k).is_some();
     let hanging = |state: &report::Solution| {
+        if !state.floating.is_empty() {
+            return Some(MarginsMissing::Floats);
+        }
         let free = (0..state.signs.len()).filter(|&k| state.signs[k] == 0 && is_free(k));
         let is_between =
             |k: usize| state.contacts[k].couple.is_some() && state.contacts[k].preload_share.is_some();
@@ -59,7 +62,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
-        uniqueness: enclosed.and_then(|enclosed| all.uniqueness(&enclosed.influence)),
+        uniqueness: enclosed.and_then(|enclosed| all.uniqueness(enclosed)),
         critical_contact: critical_contact(data),
     });
 }
@@ -100,13 +103,17 @@ impl Growth {
 
     /// The factor up to which every load has exactly one solution, where a determinant is proven to change its
     /// sign; none if there is no such factor, or with jumps.
-    fn uniqueness(&self, influence: &IntervalInfluence) -> Option<f64> {
+    fn uniqueness(&self, enclosed: &EnclosedModeProblem) -> Option<f64> {
         if self.line.has_jump.iter().any(|&jump| jump) {
             return None;
         }
         let sign_at = |factor: f64, pattern: &[ContactState]| {
-            let problem = IntervalModeProblem::from_influence(&rougher(influence, factor)?).ok()?;
-            proven_determinant_sign(&problem, pattern)
+            let rougher = rougher(&enclosed.influence, factor)?;
+            let problem = IntervalModeProblem::from_influence(&rougher).ok()?;
+            match &enclosed.shared {
+                Some(shared) => proven_determinant_sign(&problem.with_shared_load(shared).ok()?, pattern),
+                None => proven_determinant_sign(&problem, pattern),
+            }
         };
         self.line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
     }

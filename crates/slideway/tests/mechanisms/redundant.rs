@@ -5,7 +5,7 @@ use crate::random_mechanisms::cases;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use serde::Deserialize;
-use slideway::report::{Proof, Report, SolveReport, Style, Verdict};
+use slideway::report::{Fate, Proof, Report, SolveReport, Style, Verdict};
 use std::fmt::Write as _;
 
 const REFERENCE: &str = include_str!("../../../../reference/redundant.toml");
@@ -64,7 +64,8 @@ struct Contact {
 struct Force {
     body: String,
     at: [f64; 2],
-    force: [f64; 2],
+    #[serde(rename = "force")]
+    components: [f64; 2],
 }
 
 #[derive(Deserialize)]
@@ -166,7 +167,7 @@ impl Case {
             writeln!(
                 text,
                 "[loads.load{index}]\ntype = \"force\"\nat = \"{}.load{index}\"\ncomponents = [{}, {}]",
-                force.body, force.force[0], force.force[1]
+                force.body, force.components[0], force.components[1]
             )
             .unwrap();
         }
@@ -277,6 +278,42 @@ fn the_reference_cases_have_their_solutions() {
     }
 }
 
+/// Theory of redundant guides, section 4: left rail tight, mu = 1. A stiff simulation returned from 0.95 of the tilt
+/// of the wedged state, and jammed from 1.05.
+#[test]
+fn the_wedged_state_is_the_threshold_to_jamming() {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    let case = reference.case.iter().find(|case| case.name == "drawer_left_rail_tight").unwrap();
+    let report = report_on(&case.text());
+    let wedged = report.solutions.iter().find(|solution| !solution.pattern.contains('0')).unwrap();
+    let sliding = report.solutions.iter().position(|solution| solution.pattern.contains('0')).unwrap();
+    let mut fates = wedged.attainability.separates.unwrap();
+    fates.sort_by_key(|fate| *fate == Fate::Jamming);
+    assert_eq!(fates, [Fate::Solution(sliding + 1), Fate::Jamming]);
+}
+
+/// Nothing presses: the block floats, in one state. At mu = 1 another one is wedged: of the moments about the
+/// middle, `0.4 m (N_L + N_R) = 0.3 m 2 mu (N_L - N_R)`, and both rails tilt alike, `N_L - N_R = k (delta_R -
+/// delta_L) = 10 N`, so that `N_L = 12.5 N, N_R = 2.5 N`.
+#[test]
+fn an_unloaded_block_floats_in_one_state() {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    let mut case = reference.case.into_iter().find(|case| case.name == "drawer_left_rail_tight").unwrap();
+    case.drives[0].at[1] = 0.0;
+    let report = report_on(&case.text());
+    let (floating, others): (Vec<_>, Vec<_>) =
+        report.solutions.iter().partition(|solution| !solution.floating.is_empty());
+    let [floating] = floating[..] else { panic!("{}", text(&report)) };
+    assert_eq!(floating.floating.len(), 4);
+    assert!(floating.contacts.iter().all(|contact| contact.deflection.is_none()));
+    assert!(text(&report).contains("Floats within its play"));
+    let [wedged] = others[..] else { panic!("{}", text(&report)) };
+    let forces: Vec<f64> = wedged.contacts.iter().map(|contact| contact.normal_force.abs()).collect();
+    for (force, expected) in forces.iter().zip([12.5, 12.5, 2.5, 2.5]) {
+        assert!(close(*force, expected, 12.5), "{forces:?}");
+    }
+}
+
 /// A rigid body that slides along x on rails along x: contacts at (x, y) with their law.
 #[derive(Debug, Clone)]
 struct Carriage {
@@ -312,7 +349,7 @@ impl Carriage {
         );
         for (rail, pads) in self.contacts.chunks(self.per_rail()).enumerate() {
             let (y, half) = self.rails[rail];
-            let (middle, length) = ((pads[0].x + pads[1].x) / 2.0, pads[0].x - pads[1].x);
+            let (middle, length) = (f64::midpoint(pads[0].x, pads[1].x), pads[0].x - pads[1].x);
             writeln!(
                 text,
                 "[joints.rail{rail}]\ntype = \"block_slider\"\nblock = \"body\"\nat = [{middle}, {y}]\nalong = 0\nlength = {length}\nheight = {}\npreload_line = \"centre\"",
@@ -388,7 +425,11 @@ impl Carriage {
                 }
             });
             if fits {
-                let sign = |state: &i8| ['-', '0', '+'][(state + 1) as usize];
+                let sign = |state: &i8| match state {
+                    0 => '0',
+                    1.. => '+',
+                    _ => '-',
+                };
                 found.push((
                     states.iter().map(sign).collect::<String>(),
                     (0..count).map(|k| solution[1 + k]).collect::<Vec<f64>>(),

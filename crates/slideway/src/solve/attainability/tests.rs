@@ -95,7 +95,7 @@ impl Case {
 fn attainability(guides: &ElasticGuides<'_>, sides: &[Side]) -> Attainability {
     let states = sides.iter().map(|side| ContactState::from(*side)).collect();
     let normal_force = DVector::from_iterator(sides.len(), sides.iter().map(|side| side.sign()));
-    guides.attainability(&[Candidate { states, normal_force }]).swap_remove(0)
+    guides.attainability(&[Candidate { states, normal_force, deflections: Vec::new() }]).swap_remove(0)
 }
 
 #[test]
