@@ -408,12 +408,13 @@ MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force"
 - `"pressure"`: Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
 - `"efficiency"`: Not a factor but the least efficiency."""
 
-MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses"]
+MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses", "floats"]
 """Why margins of friction were not computed.
 
 - `"too_many_modes"`: There are too many modes.
 - `"between_faces"`: A guided slider is between its faces, which is no mode that could be followed.
-- `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face."""
+- `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face.
+- `"floats"`: The block floats within the play of redundant guides."""
 
 MetEnd = Literal["range", "margin", "jump", "no_position"]
 """Why an interval ends in which the wanted margin is met.
@@ -2389,6 +2390,9 @@ class Solution(_mixins.Solution, Record):
     """Sign of each normal force, 0 where it vanishes."""
     on_boundary: bool
     """Whether some contact is about to change side: its normal force is zero within rounding."""
+    floating: tuple[str, ...] = ()
+    """Contacts of redundant guides without normal force that do not settle where the block is within its play:
+    it floats."""
     certificate: CertificateKind
     """What is proven of it."""
     margin: ModeMargin | None = None

@@ -24,7 +24,9 @@ use slideway::model::Settings;
 pub(crate) use state::GROUND;
 use state::{Refused, State, found};
 use std::sync::{Mutex, PoisonError};
-use values::{BlockEnd, CoordinateValues, End, Gravity, Said, SliderValues, Support, optional, optional_pair};
+use values::{
+    BlockEnd, CoordinateValues, End, Gravity, Said, SliderValues, Support, optional, optional_pair,
+};
 
 /// A mechanism that is put together in code.
 ///
