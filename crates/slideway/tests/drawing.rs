@@ -315,7 +315,7 @@ fn guides_that_share_a_load() {
     let track = d.block_slider("track", nut, GROUND).at([1.0, 0.0]).length(1.0).mu(0.1).id();
     d.force("side", bar).at([0.35, 0.1]).components(["30 N", "-40 N"]);
     d.slide("s", guide).rate(0.3);
-    d.slide("t", track).rate(0.1);
+    d.slide("u", track).rate(0.1);
     let built = solve(&d.build().unwrap()).unwrap();
     let read = solve(&Model::parse(&text).unwrap()).unwrap();
     let [built, read] = [&built, &read].map(|report| {

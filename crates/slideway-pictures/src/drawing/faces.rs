@@ -43,8 +43,8 @@ impl Polyline {
         if !goes_on && (along <= first[0] || along >= last[0]) {
             return if along <= first[0] { first[1] } else { last[1] };
         }
-        let pieces = self.0.windows(2).map(|piece| [piece[0], piece[1]]);
-        let piece = pieces.clone().find(|piece| along <= piece[1][0]).or(pieces.last());
+        let mut pieces = self.0.windows(2).map(|piece| [piece[0], piece[1]]);
+        let piece = pieces.clone().find(|piece| along <= piece[1][0]).or(pieces.next_back());
         piece.map_or(first[1], between)
     }
 }

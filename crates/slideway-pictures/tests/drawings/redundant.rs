@@ -215,7 +215,7 @@ fn all_pads_of_a_block_are_drawn() {
         .filter_map(|shape| if let Shape::Area(corners) = shape { Some(corners.clone()) } else { None })
         .flatten()
         .collect();
-    for end in length.iter() {
+    for end in *length {
         assert!(pads.iter().any(|corner| (corner.x - end.x).abs() < 1e-9), "a pad at either end");
     }
     let solved = sheet(Shown::Solution(1));
