@@ -56,6 +56,36 @@ def test_the_example_of_klepp_is_the_model_of_the_gallery() -> None:
         assert one.friction_forces == pytest.approx(other.friction_forces, rel=1e-9)
 
 
+def bar_on_pads(**pads: Any) -> Mechanism:
+    """A bar 0.6 m long on two pads and others, pushed down and pulled at a handle."""
+    m = Mechanism()
+    bar = m.body("bar", mass=5, centre=(0, 0), inertia=0.2)
+    guide = m.block_slider("guide", bar, GROUND, at=(0, 0), length=0.6, mu=0, play="0.2 mm", stiffness=1e5, **pads)
+    m.force("down", bar, at=(0.1, 0), components=(30, -40))
+    m.slide("s", guide, rate=0.3)
+    return m
+
+
+def test_pads_that_share_a_load() -> None:
+    (two,) = bar_on_pads().build().solve()
+    # Moments about either end: 40 N at 0.4 m of 0.6 m.
+    assert two.normal_forces == pytest.approx([40 * 0.4 / 0.6, 40 * 0.2 / 0.6])
+    assert [contact.deflection for contact in two.contacts] == [None, None]
+    # The line of the guide is lower at the pad between by more than its load could press it: it is open, and lies on
+    # the straight line between the ends, which are pressed through half their play and their stiffness.
+    pads = {"middle": {"at": 0.1, "misalignment": "-1 mm", "play": "3 mm"}}
+    (three,) = bar_on_pads(supports=pads).build().solve()
+    assert three.pattern == "++0"
+    assert three.normal_forces == pytest.approx([*two.normal_forces, 0.0])
+    ends = [-1e-4 - force / 1e5 for force in two.normal_forces]
+    straight = ends[0] * 4 / 6 + ends[1] * 2 / 6
+    assert [contact.deflection for contact in three.contacts] == pytest.approx([*ends, straight + 1e-3])
+    report = bar_on_pads(supports=pads, rear={"play": 0, "stiffness": 2e5}).build().solve()
+    assert report.sharing is not None
+    assert report.sharing.groups == (("guide.front", "guide.rear", "guide.middle"),)
+    assert report.solutions[0].contacts[1].deflection == pytest.approx(-two.normal_forces[1] / 2e5)
+
+
 def test_everything_there_is() -> None:
     m = Mechanism("All", gravity=(0, -9.81))
     arm = m.body("arm", mass="1 kg", centre=np.array([0.5, 0.0]), rectangle=[1, "10 mm"])
@@ -140,6 +170,11 @@ def test_unknown_names_have_suggestions(add: Any, message: str) -> None:
         (lambda m: slider(m, mu={"plus": 1, "minus": None}), TypeError, "mu\\[\"minus\"\\] must be"),
         (lambda m: slider(m, front={"mue": 1}), ValueError, "front has no \"mue\"; did you mean \"mu\""),
         (lambda m: slider(m, front={"mu": np.nan}), ValueError, "front\\[\"mu\"\\] must be"),
+        (lambda m: slider(m, supports=[0.1]), TypeError, "supports must be a mapping of mappings"),
+        (lambda m: slider(m, supports={"a": 0.1}), TypeError, "supports must be a mapping of mappings"),
+        (lambda m: slider(m, supports={"a": {}}), ValueError, "supports\\[\"a\"\\] must have \"at\""),
+        (lambda m: slider(m, supports={"a": {"at": 0, "paly": 0}}), ValueError, "did you mean \"play\""),
+        (lambda m: slider(m, front={"at": 0}), ValueError, "front has no \"at\""),
         (lambda m: slider(m, rear={"carried_by_guide": 1}), TypeError, "must be True or False"),
         (lambda m: slider(m, rear=3), TypeError, "rear must be a mapping"),
         (lambda m: slider(m, rear={3: 3}), TypeError, "the keys of rear must be texts"),

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _display, _motion, _sweep, reports
-from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
+from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
 """
 # Simpler types for the same, and what containers hold, which maturin does not tell.
 SIMPLER = {

@@ -262,3 +262,73 @@ fn pads_of_one_end_take_precedence() {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} instead of {expected}");
     }
 }
+
+/// A bar on three pads as the builder writes it, and as a file has it: the same answer. The third pad counts among the
+/// contacts, so that handles of later joints are theirs.
+#[test]
+fn guides_that_share_a_load() {
+    let text = r#"
+        [bodies.bar]
+        mass = 5
+        moment_of_inertia = 0.2
+        centre_of_mass = [0, 0]
+        [points]
+        handle = ["0.35 m", "0.1 m"]
+        [joints.guide]
+        type = "block_slider"
+        block = "bar"
+        at = [0, 0]
+        along = 0
+        length = "600 mm"
+        mu = 0.2
+        play = "0.2 mm"
+        stiffness = "1e5 N/m"
+        rear = { misalignment = "-0.05 mm" }
+        supports = { middle = { at = "60 mm", misalignment = "0.1 mm", play = "0.3 mm" } }
+        [loads.side]
+        type = "force"
+        at = "bar.handle"
+        components = ["30 N", "-40 N"]
+        [coordinates.s]
+        slide = "guide"
+        rate = 0.3
+    "#
+    .replace("[bodies.bar]", "[bodies.bar]\n        points = [\"handle\"]");
+    let mut d = Drawing::new();
+    let bar = d.body("bar").mass(5).inertia(0.2).centre([0, 0]).id();
+    let guide = d
+        .block_slider("guide", bar, GROUND)
+        .at([0, 0])
+        .length("600 mm")
+        .mu(0.2)
+        .play("0.2 mm")
+        .stiffness("1e5 N/m")
+        .rear(|rear| {
+            rear.misalignment("-0.05 mm");
+        })
+        .support("middle", "6 cm", |_| {})
+        .support("middle", "60 mm", |middle| {
+            middle.misalignment("0.1 mm").play("0.3 mm");
+        })
+        .id();
+    let nut = d.body("nut").mass(1).centre([1, 0]).inertia(0.1).id();
+    let track = d.block_slider("track", nut, GROUND).at([1.0, 0.0]).length(1.0).mu(0.1).id();
+    d.force("side", bar).at([0.35, 0.1]).components(["30 N", "-40 N"]);
+    d.slide("s", guide).rate(0.3);
+    d.slide("u", track).rate(0.1);
+    let built = solve(&d.build().unwrap()).unwrap();
+    let read = solve(&Model::parse(&text).unwrap()).unwrap();
+    let [built, read] = [&built, &read].map(|report| {
+        let [solution] = &report.solutions[..] else { panic!("one solution") };
+        solution.clone()
+    });
+    assert_eq!(read.contacts.len(), 3);
+    for (one, other) in built.contacts.iter().zip(&read.contacts) {
+        assert_eq!(one.name, other.name);
+        assert!((one.normal_force - other.normal_force).abs() < 1e-9, "{one:?} {other:?}");
+        let [one, other] = [one, other].map(|contact| contact.deflection.unwrap());
+        assert!((one - other).abs() < 1e-15, "{one} {other}");
+    }
+    assert_eq!(built.contact(guide.rear()).name, "guide.rear");
+    assert_eq!(built.contact(track.front()).name, "track.front");
+}

@@ -39,6 +39,7 @@ impl Painter<'_> {
         }
         wedges.into_iter().for_each(|body| self.plates(body));
         self.pads();
+        self.supports();
         self.centres_of_mass();
     }
 
@@ -131,11 +132,11 @@ impl Painter<'_> {
                 continue;
             }
             self.area(Class::Slot, slide.channel());
-            let half = slide.half_channel();
             let [from, to] = slide.guide_reach;
             for (is_open, end) in [(slide.open[0], from), (slide.open[1], to)] {
                 if is_open {
-                    let mouth = slide.guide.rectangle([end - 1.5, end + 1.5], [-half + 0.7, half - 0.7]);
+                    let [lower, upper] = [-1.0, 1.0].map(|side| slide.outer_face(end, side));
+                    let mouth = slide.guide.rectangle([end - 1.5, end + 1.5], [lower + 0.7, upper - 0.7]);
                     self.area(Class::Body, mouth.clone());
                     self.area(Class::Slot, mouth);
                 }
@@ -150,7 +151,7 @@ impl Painter<'_> {
                 continue;
             }
             self.area(Class::Slot, slide.channel());
-            let (rod, half) = (slide.guide, 0.5 * slide.height);
+            let rod = slide.guide;
             let shift = (slide.block.origin - rod.origin).dot(&rod.along);
             let reach = slide.block_reach.map(|end| end + shift);
             // It hides the ends of the free space, also where the sleeve is tipped.
@@ -158,9 +159,9 @@ impl Painter<'_> {
             let reach =
                 [reach[0].max(slide.guide_reach[0]) - over, reach[1].min(slide.guide_reach[1]) + over];
             let class = if slide.guide_frame == Frame::Ground { Class::Paper } else { Class::Body };
-            self.area(class, rod.rectangle(reach, [-half, half]));
-            for side in [-half, half] {
-                self.line(Class::Edge, vec![rod.at(reach[0], side), rod.at(reach[1], side)]);
+            self.area(class, slide.rod(reach));
+            for side in [-1.0, 1.0] {
+                self.line(Class::Edge, slide.rod_line(reach, side));
             }
         }
     }
@@ -337,7 +338,7 @@ impl Painter<'_> {
                     self.name(&joint.name, place, unit(Point::new(-1.0, -1.0), Point::x()));
                 }
                 JointKind::Slider(_) => {
-                    let Some(slide) = self.sliders[index] else { continue };
+                    let Some(slide) = self.slide(JointId(index)) else { continue };
                     // The arrow of its velocity names it.
                     if self.options.values && self.velocity(JointId(index)).is_some() {
                         continue;

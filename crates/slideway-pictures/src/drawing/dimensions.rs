@@ -30,7 +30,7 @@ impl Painter<'_> {
                     (place - slide.guide.origin).dot(&slide.guide.along)
                 })
                 .collect();
-            let (from, to) = if let [front, rear] = places[..] {
+            let (from, to) = if let [front, rear, ..] = places[..] {
                 (rear, front)
             } else {
                 let half = 0.5 * length * self.view.scale;

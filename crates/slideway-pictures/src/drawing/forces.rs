@@ -8,7 +8,7 @@ use super::sliders::Slide;
 use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::mechanism::Mechanism;
-use slideway::model::{CarriedBy, SliderKind};
+use slideway::model::SliderKind;
 
 /// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
 const AT_REST: f64 = 1e-9;
@@ -59,22 +59,6 @@ impl Painter<'_> {
                 self.friction(&slide, ContactId(index), state.side, forces, scale);
             }
         }
-    }
-
-    /// The place of the face where the block is pressed, as it is drawn: the corner of whatever carries the
-    /// contact; in the middle if it is not pressed at all.
-    fn face(&self, slide: &Slide, contact: ContactId, side: f64) -> Point {
-        let place = self.view.place(self.configuration.contact(self.mechanism, contact).point);
-        let is_of_block = self.mechanism.contacts[contact.index()].carried_by == CarriedBy::Block;
-        let carrier = if is_of_block { slide.block } else { slide.guide };
-        let half = if is_of_block == slide.around { slide.half_channel() } else { 0.5 * slide.height };
-        let across = match side {
-            side if side > 0.0 => -half,
-            side if side < 0.0 => half,
-            _ => 0.0,
-        };
-        let along = (place - carrier.origin).dot(&carrier.along);
-        carrier.at(along, if slide.around { -across } else { across })
     }
 
     fn reaction(&mut self, slide: &Slide, contact: ContactId, forces: ContactForces, scale: f64) {

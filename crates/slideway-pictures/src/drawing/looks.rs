@@ -10,7 +10,7 @@
 //!   belt on rollers;
 //! - two pins of a body in one slot are the shoes of a carriage.
 //!
-//! A face is drawn as one only where the contact does not pull at it.
+//! A face is drawn as one only where the contact does not pull at it, and has no play that counts.
 
 use super::ContactStates;
 use super::bodies::lean;
@@ -87,7 +87,9 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
         let pulls =
             |side: f64| slider.contacts.iter().any(|contact| side * states.side(contact.index()) < 0.0);
         looks[id.index()] = match look {
-            Look::Face(side) | Look::Flank(side) if pulls(side) => Look::Walls,
+            Look::Face(side) | Look::Flank(side) if pulls(side) || states.has_deflections(slider) => {
+                Look::Walls
+            }
             look => look,
         };
     }

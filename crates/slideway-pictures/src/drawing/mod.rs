@@ -5,16 +5,19 @@
 //!
 //! Real guides have hardly any play, so that a tipped block looks like any other. A drawing of a contact mode
 //! widens the guides by a few units and moves the whole mechanism so that each block lies on the faces that
-//! it touches ([`slideway::configuration::Configuration::displaced`]).
+//! it touches ([`slideway::configuration::Configuration::displaced`]). Guides that share a load are drawn with
+//! their own play, misalignment and deflections, all magnified alike.
 
 mod bodies;
 mod dimensions;
+mod faces;
 mod forces;
 mod labels;
 mod loads;
 mod looks;
 mod outline;
 mod paragraph;
+mod play;
 mod scene;
 mod sheet;
 mod sliders;
@@ -32,6 +35,7 @@ pub(crate) use sheet::{EXAGGERATED, answer, nice};
 
 use labels::Label;
 use looks::{Look, looks};
+use play::Play;
 use sliders::Slide;
 use slideway::configuration::Configuration;
 use slideway::ids::JointId;
@@ -61,6 +65,11 @@ pub struct ContactState {
     pub side: f64,
     /// Its forces, if they are known.
     pub forces: Option<ContactForces>,
+    /// By how much the block is displaced against its guide, towards +n (m), if that is known: where redundant
+    /// contacts share a load.
+    pub deflection: Option<f64>,
+    /// Whether such a contact touches neither face.
+    pub is_open: bool,
 }
 
 /// Forces of a contact on its block; signs as in theory, section 1.
@@ -77,16 +86,18 @@ pub struct ContactForces {
 impl ContactStates {
     /// What a solution says of contacts and drives.
     pub fn of(solution: &Solution) -> Self {
-        let state = |contact: &slideway::report::Contact| ContactState {
+        let state = |(contact, sign): (&slideway::report::Contact, char)| ContactState {
             side: f64::from(contact.side),
             forces: Some(ContactForces {
                 normal: contact.normal_force,
                 friction: contact.friction_force,
                 couple: contact.couple.unwrap_or(0.0),
             }),
+            deflection: contact.deflection,
+            is_open: contact.deflection.is_some() && sign == '0',
         };
         Self {
-            contacts: solution.contacts.iter().map(state).collect(),
+            contacts: solution.contacts.iter().zip(solution.pattern.chars()).map(state).collect(),
             efforts: solution.drives.iter().map(|drive| drive.effort).collect(),
         }
     }
@@ -145,17 +156,19 @@ pub fn scene(
     let play = Play { mechanism, configuration, states, view, looks: &looks };
     let played = if options.play { play.displaced() } else { None };
     let is_exaggerated = played.is_some() && play.gaps().any(|gap| gap > 0.0);
+    let magnification = played.as_ref().and_then(|played| played.magnification);
     let mut painter = Painter {
         mechanism,
         actual: configuration,
-        configuration: played.as_ref().map_or(configuration, |(moved, _)| moved),
-        play: played.as_ref().map(|(_, part)| *part),
+        configuration: played.as_ref().map_or(configuration, |played| &played.configuration),
+        play: played.as_ref().map(|played| played.part),
+        magnification,
         states,
         view,
         options,
         looks,
         sliders: Vec::new(),
-        scene: Scene { is_exaggerated, ..Scene::default() },
+        scene: Scene { is_exaggerated, magnification, ..Scene::default() },
         labels: Vec::new(),
     };
     painter.sliders = painter.slides();
@@ -165,6 +178,7 @@ pub fn scene(
     painter.loads();
     if options.force_scale.is_some() {
         painter.contact_forces();
+        painter.open_contacts();
     }
     if options.dimensions {
         painter.dimensions();
@@ -203,46 +217,6 @@ impl SceneOptions {
     }
 }
 
-/// Greatest rotation (rad) and displacement (drawing units) that a contact mode gives a body.
-const GREATEST_ROTATION: f64 = 0.25;
-const GREATEST_DISPLACEMENT: f64 = 60.0;
-
-/// What decides where the blocks lie in their guides.
-struct Play<'a> {
-    mechanism: &'a Mechanism,
-    configuration: &'a Configuration,
-    states: &'a ContactStates,
-    view: &'a View,
-    looks: &'a [Look],
-}
-
-impl Play<'_> {
-    /// The full play at every contact, in drawing units.
-    fn gaps(&self) -> impl Iterator<Item = f64> {
-        self.mechanism.contacts.iter().map(|contact| {
-            let look = self.looks[contact.joint.index()];
-            sliders::gap(self.mechanism, (contact.joint, look), self.configuration, self.view)
-        })
-    }
-
-    /// The configuration with play, and the part of the full play: less where levers magnify it. None where
-    /// the state is singular.
-    fn displaced(&self) -> Option<(Configuration, f64)> {
-        let scale = self.view.scale;
-        let full: Vec<f64> =
-            self.gaps().enumerate().map(|(index, gap)| -self.states.side(index) * gap / scale).collect();
-        [1.0, 0.7, 0.5, 0.3, 0.15, 0.05].into_iter().find_map(|part| {
-            let displacements: Vec<f64> = full.iter().map(|displacement| part * displacement).collect();
-            let moved = self.configuration.displaced(self.mechanism, &displacements)?;
-            let is_near = moved.poses.iter().zip(&self.configuration.poses).all(|(new, old)| {
-                (new.angle() - old.angle()).abs() < GREATEST_ROTATION
-                    && (new.position - old.position).norm() * scale < GREATEST_DISPLACEMENT
-            });
-            is_near.then_some((moved, part))
-        })
-    }
-}
-
 /// A scene that is being drawn.
 struct Painter<'a> {
     mechanism: &'a Mechanism,
@@ -251,6 +225,8 @@ struct Painter<'a> {
     configuration: &'a Configuration,
     /// Part of the full play; nothing where no contact mode is shown.
     play: Option<f64>,
+    /// By how much guides that share a load have their play, misalignment and deflections magnified.
+    magnification: Option<f64>,
     states: &'a ContactStates,
     view: &'a View,
     options: &'a SceneOptions,
@@ -319,7 +295,7 @@ impl Painter<'_> {
     }
 
     fn slide(&self, joint: JointId) -> Option<Slide> {
-        self.sliders.get(joint.index()).copied().flatten()
+        self.sliders.get(joint.index()).cloned().flatten()
     }
 }
 

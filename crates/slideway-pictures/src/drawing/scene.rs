@@ -35,7 +35,7 @@ pub enum Class {
     Spring,
     /// A damper.
     Damper,
-    /// A pad at an end of a travel.
+    /// A pad at an end of a travel, or of a block that has more than two.
     Pad,
     /// Outline of the symbol of a centre of mass.
     MassRing,
@@ -128,8 +128,11 @@ pub struct Bounds {
 pub struct Scene {
     /// The shapes.
     pub elements: Vec<Element>,
-    /// Whether the play of guides is drawn greater than it is.
+    /// Whether guides are drawn with a play that can be seen instead of their own.
     pub is_exaggerated: bool,
+    /// By how much the play, the misalignment and the deflections of guides that share a load are magnified; none
+    /// without such guides.
+    pub magnification: Option<f64>,
 }
 
 impl Bounds {

@@ -4,7 +4,9 @@ use super::forces::forces_on;
 use super::paragraph::{LINE, beside, paragraph};
 use super::scene::{Bounds, Class, Point, Scene, Shape};
 use super::units::{in_units_of, known_forces};
-use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene, signs};
+use super::{
+    ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, number, quantity, scene, signs,
+};
 use crate::plot::figure::changes;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
@@ -31,6 +33,16 @@ const MARGIN: f64 = 24.0;
 
 /// What is said of a picture whose guides have play that can be seen.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
+
+/// By how much play and what else is small are magnified in a drawing, in words.
+fn scale_of_play(scene: &Scene) -> Option<String> {
+    let Some(magnification) = scene.magnification else {
+        return scene.is_exaggerated.then(|| EXAGGERATED.to_owned());
+    };
+    let times = number(magnification);
+    let others = if scene.is_exaggerated { "; the play of the other guides is exaggerated" } else { "" };
+    Some(format!("Play, misalignment and deflections are drawn {times} times as large as they are{others}."))
+}
 
 /// Which solutions are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -235,7 +247,7 @@ impl Drawn<'_> {
         let mut lines: Vec<String> =
             solution.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode)).collect();
         lines.push(solution.attainability.in_words());
-        lines.extend(scene.is_exaggerated.then(|| EXAGGERATED.to_owned()));
+        lines.extend(scale_of_play(&scene));
         let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
         let force_scale = (greatest > 0.0).then_some(force_scale);
         Panel { scene, caption: Caption { heading, lines }, force_scale }

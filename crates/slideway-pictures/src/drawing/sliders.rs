@@ -2,6 +2,7 @@
 
 use super::bodies::SUPPORT;
 use super::bodies::edge;
+use super::faces::Station;
 use super::looks::{Look, corners, on_rail_of, sliders};
 use super::outline::{Local, capsule, turned, upper_side};
 use super::scene::{Class, Point};
@@ -31,7 +32,7 @@ const MARK: f64 = 30.0;
 pub(super) const WALL: f64 = 6.0;
 
 /// A sliding joint in drawing units.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Slide {
     pub(super) kind: SliderKind,
     pub(super) look: Look,
@@ -54,8 +55,10 @@ pub(super) struct Slide {
     pub(super) stops: [Option<EndStop>; 2],
     /// Drawn distance of the rubbing faces.
     pub(super) height: f64,
-    /// Play on either side.
+    /// Play on either side, the greatest where it differs.
     pub(super) gap: f64,
+    /// The contacts of a guide that shares its load, by their places along it; none of any other.
+    pub(super) stations: Vec<Station>,
 }
 
 impl Slide {
@@ -96,33 +99,41 @@ impl Slide {
     /// The outline of the outer part, with its walls.
     pub(super) fn housing(&self) -> Vec<Point> {
         let (_, local, [from, to]) = self.outer();
-        let half = self.half_channel() + WALL;
         let end = |is_open: bool| if is_open || self.around { 0.0 } else { WALL };
         if self.kind == SliderKind::Pin {
-            return capsule(local.at(from, 0.0), local.at(to, 0.0), half);
+            return self.slot([from, to], WALL);
         }
         match self.look {
             Look::Face(side) => {
                 let face = -side * self.half_channel();
                 local.rectangle([from, to], [face, face - side * WALL])
             }
-            _ => local.rectangle([from - end(self.open[0]), to + end(self.open[1])], [-half, half]),
+            _ => self.between_faces([from - end(self.open[0]), to + end(self.open[1])], WALL),
         }
     }
 
     /// The free space in the outer part.
     pub(super) fn channel(&self) -> Vec<Point> {
-        let (_, local, [from, to]) = self.outer();
-        let half = self.half_channel();
-        if self.kind == SliderKind::Pin {
-            return capsule(local.at(from, 0.0), local.at(to, 0.0), half);
+        let (_, _, reach) = self.outer();
+        if self.kind == SliderKind::Pin { self.slot(reach, 0.0) } else { self.between_faces(reach, 0.0) }
+    }
+
+    /// The slot of a pin, or `beyond` further out: with round ends, unless its faces bend.
+    fn slot(&self, reach: [f64; 2], beyond: f64) -> Vec<Point> {
+        if self.stations.len() > 1 {
+            return self.between_faces(reach, beyond);
         }
-        local.rectangle([from, to], [-half, half])
+        let [lower, upper] = [-1.0, 1.0].map(|side| self.outer_face(0.0, side));
+        let [from, to] = reach.map(|end| self.guide.at(end, 0.5 * (lower + upper)));
+        capsule(from, to, 0.5 * (upper - lower) + beyond)
     }
 
     /// The inner part.
     pub(super) fn core(&self) -> Vec<Point> {
         let (_, local, [from, to]) = self.inner();
+        if self.around && !self.stations.is_empty() {
+            return self.rod([from, to]);
+        }
         let half = 0.5 * self.height;
         let torn = self.torn.map(|is_torn| is_torn && !self.around);
         let mut outline = edge(&local, from, torn[0], half);
@@ -203,6 +214,7 @@ impl Painter<'_> {
                 slide.guide_reach = reach;
             }
         }
+        self.join_rails(&mut slides);
         let floors: Vec<[Point; 2]> = slides.iter().flatten().filter_map(Slide::floor).collect();
         slides.iter_mut().flatten().for_each(|slide| slide.end_at(&floors));
         slides
@@ -210,11 +222,35 @@ impl Painter<'_> {
 
     /// From where to where the rail of a first shoe reaches: as far as the guides of all its shoes.
     fn rail(&self, joint: JointId, slides: &[Option<Slide>]) -> Option<[f64; 2]> {
-        let first = slides[joint.index()].filter(|slide| slide.look == Look::Shoe { is_first: true })?;
-        let all = on_rail_of(self.mechanism, joint).into_iter().filter_map(|id| slides[id.index()]);
+        let first =
+            slides[joint.index()].as_ref().filter(|slide| slide.look == Look::Shoe { is_first: true })?;
+        let on_rail = on_rail_of(self.mechanism, joint);
+        let all = on_rail.iter().filter_map(|id| slides[id.index()].as_ref());
         let ends = all.flat_map(|slide| slide.guide_reach.map(|end| slide.guide.at(end, 0.0)));
         ends.map(|end| [(end - first.guide.origin).dot(&first.guide.along); 2])
             .reduce(|[least, greatest], [other, _]| [least.min(other), greatest.max(other)])
+    }
+
+    /// The rail that is drawn with its first shoe bends at all of them.
+    fn join_rails(&self, slides: &mut [Option<Slide>]) {
+        for index in 0..slides.len() {
+            let Some(first) = slides[index].as_ref() else { continue };
+            if first.look != (Look::Shoe { is_first: true }) {
+                continue;
+            }
+            let on_rail = on_rail_of(self.mechanism, JointId(index));
+            let all = on_rail.iter().filter_map(|id| slides[id.index()].as_ref());
+            let mut stations: Vec<Station> = all
+                .flat_map(|slide| {
+                    let shift = (slide.guide.origin - first.guide.origin).dot(&first.guide.along);
+                    slide.stations.iter().map(move |at| Station { along: at.along + shift, ..*at })
+                })
+                .collect();
+            stations.sort_by(|one, other| one.along.total_cmp(&other.along));
+            if let Some(first) = &mut slides[index] {
+                first.stations = stations;
+            }
+        }
     }
 
     fn slide_of(&self, joint: JointId, slider: &Slider) -> Slide {
@@ -227,7 +263,7 @@ impl Painter<'_> {
         let block = if is_belt { guide } else { block };
         let is_pin = slider.kind == SliderKind::Pin;
         let scale = self.view.scale;
-        let half = 0.5 * slider.length * scale;
+        let half = self.half_length(slider);
         let beyond = if is_pin { 32.0 } else { (0.9 * half).clamp(22.0, 44.0) };
         let [least, greatest] = if is_belt {
             [0.0; 2]
@@ -252,7 +288,9 @@ impl Painter<'_> {
         let rear = reach(0, -if open[0] { greatest } else { least });
         let front = reach(1, if open[1] { least } else { greatest });
         let full = gap(self.mechanism, (joint, look), self.configuration, self.view);
-        let gap = self.play.map_or(NO_PLAY, |part| part * full);
+        let stations = if look.has_play() { self.stations(slider, &guide) } else { Vec::new() };
+        let own_gap = stations.iter().map(|at| at.clearance + at.yielding.abs() + at.offset.abs());
+        let gap = own_gap.reduce(f64::max).unwrap_or_else(|| self.play.map_or(NO_PLAY, |part| part * full));
         let mut slide = Slide {
             kind: slider.kind,
             look,
@@ -268,6 +306,7 @@ impl Painter<'_> {
             stops: [None; 2],
             height,
             gap: if look.has_play() { gap } else { 0.0 },
+            stations,
         };
         self.within_plate(&mut slide);
         slide.stops = self.end_stops(joint, slider, &slide);
@@ -275,6 +314,14 @@ impl Painter<'_> {
             *end = stop.map_or(*end, |stop| stop.wall);
         }
         slide
+    }
+
+    /// Half the length of a block, which reaches over all its supports.
+    fn half_length(&self, slider: &Slider) -> f64 {
+        let of_block = |id: &&ContactId| self.mechanism.contacts[id.index()].carried_by == CarriedBy::Block;
+        let supports = slider.contacts.iter().skip(2).filter(of_block);
+        let beyond = supports.map(|id| self.mechanism.contacts[id.index()].offset.abs());
+        self.view.scale * beyond.fold(0.5 * slider.length, f64::max)
     }
 
     fn drawn_height(&self, slider: &Slider, look: Look) -> f64 {
@@ -360,11 +407,8 @@ impl Painter<'_> {
         for (joint, slider) in sliders(mechanism) {
             let Some(slide) = self.slide(joint) else { continue };
             if self.is_behind_plate(&slide) {
-                let [from, to] = slide.guide_reach;
-                let half = slide.half_channel();
-                for side in [-half, half] {
-                    let ends = vec![slide.guide.at(from, side), slide.guide.at(to, side)];
-                    self.line(Class::HiddenWall, ends);
+                for side in [-1.0, 1.0] {
+                    self.line(Class::HiddenWall, slide.face_line(slide.guide_reach, side, 0.0));
                 }
             } else if slide.look == Look::Rollers {
                 self.rollers(&slide, &slider.contacts);
@@ -380,16 +424,19 @@ impl Painter<'_> {
     }
 
     fn walls(&mut self, slide: &Slide) {
-        let (_, local, [from, to]) = slide.outer();
-        let half = slide.half_channel();
+        let (_, _, reach) = slide.outer();
         // n points to the left of u in a world with y upwards, and y points down here: the wall at +n has its
         // outer side to the left of the way along u.
         let block_side = if let Look::Face(side) = slide.look { side } else { 0.0 };
-        let walls = [(from, to, half), (to, from, -half)];
-        for (start, end, side) in walls.into_iter().filter(|(.., side)| side * block_side <= 0.0) {
-            let (start, end) = (local.at(start, side), local.at(end, side));
-            self.line(Class::Wall, vec![start, end]);
-            self.hatching(start, end);
+        for side in [1.0, -1.0].into_iter().filter(|side| side * block_side <= 0.0) {
+            let mut wall = slide.face_line(reach, side, 0.0);
+            if side < 0.0 {
+                wall.reverse();
+            }
+            self.line(Class::Wall, wall.clone());
+            for piece in wall.windows(2) {
+                self.hatching(piece[0], piece[1]);
+            }
         }
         for (side, stop) in [-1.0, 1.0].into_iter().zip(slide.stops) {
             if let Some(stop) = stop {
@@ -404,8 +451,8 @@ impl Painter<'_> {
         self.area(Class::Fixed, slide.core());
         if slide.around {
             let reach = slide.half_end();
-            self.end_wall(&local, from, -reach);
-            self.end_wall(&local, to, reach);
+            self.end_wall(&slide.guide_end(from), from, -reach);
+            self.end_wall(&slide.guide_end(to), to, reach);
         } else {
             let inset = half.min(6.0);
             let mut at = from + inset;

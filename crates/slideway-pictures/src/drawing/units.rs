@@ -5,7 +5,7 @@ use slideway::configuration::Configuration;
 use slideway::mechanism::{LoadKind, Mechanism};
 use slideway::report::{Solution, SolveReport};
 
-/// The mechanism in the units of a report, in which its numbers stand; forces in the unit in which most of those that
+/// The mechanism in this state, in the units of a report, in which its numbers stand; forces in the unit in which most of those that
 /// are drawn read well.
 pub(super) fn in_units_of(
     report: Option<&SolveReport>,
@@ -14,6 +14,10 @@ pub(super) fn in_units_of(
 ) -> Mechanism {
     let units = report.map_or(&mechanism.units, |report| &report.model.units).clone();
     let mut in_units = mechanism.clone();
+    // Misalignments may depend on where the mechanism is. Where they are not defined, there is no solution to draw.
+    if configuration.put_friction(&mut in_units).is_err() {
+        in_units = mechanism.clone();
+    }
     in_units.units = units.suited_to_most("N", &forces(mechanism, configuration, report));
     in_units
 }

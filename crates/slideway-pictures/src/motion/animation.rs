@@ -214,6 +214,7 @@ impl<'h> Painted<'h> {
                 friction: contact.friction_force.unwrap_or(0.0),
                 couple: 0.0,
             }),
+            ..ContactState::default()
         });
         let states = ContactStates { contacts: contacts.collect(), efforts: sample.efforts.clone() };
         scene(&self.history.mechanism, &sample.configuration, &states, &self.view, &self.options)

@@ -5,7 +5,7 @@ use super::{Figure, Page, all, text};
 use crate::drawing::svg::{self, Colours, Frame};
 use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::limits::{LimitsReport, ModeLimits};
-use slideway::report::{JointMode, Proof, Solution, SolveReport, followed, precise};
+use slideway::report::{JointMode, LoadSharing, Proof, Solution, SolveReport, followed, precise};
 use slideway::units::{Unit, Units};
 
 /// Everything between the ends of `body`.
@@ -76,13 +76,17 @@ pub(super) fn answer(report: &SolveReport) -> String {
     };
     format!(
         "<p>{},\n{},\n{}{drives}.\nState: {}{followed}.</p>\n\
-         <p class=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}",
+         <p class=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}{}",
         count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
         count(model.bodies, "body", "bodies"),
         count(model.contacts, "contact", "contacts"),
         coordinates.join("; "),
         text(&crate::drawing::answer(report)),
         all(&report.open, |line| format!("<p>{}</p>\n", text(line))),
+        all(report.sharing.iter().flat_map(LoadSharing::in_words), |line| format!(
+            "<p>{}</p>\n",
+            text(&line)
+        )),
     )
 }
 
@@ -125,12 +129,17 @@ fn solutions(states: &[(String, &Solution)], units: &Units) -> String {
 pub(super) fn state(heading: &str, solution: &Solution, units: &Units) -> String {
     let [force, friction, sliding] = [("Normal force", "N"), ("Friction", "N"), ("Sliding", "m/s")]
         .map(|(what, si)| text(&units.of(si).title(what)));
+    let deflection = if has_deflections(solution) {
+        format!("\n<th class=\"number\">{}</th>", text(&units.of("m").title("Deflection")))
+    } else {
+        String::new()
+    };
     let joints: Vec<String> = solution.joints.iter().map(|joint| joint_mode(joint, ": ")).collect();
     let end = if joints.is_empty() { "" } else { "." };
     format!(
         "<section class=\"state\">\n<h3>{}</h3>\n<p>{}{end}\n{}</p>\n<div class=\"wide\">\n\
          <table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">{force}</th>\
-         <th class=\"number\">{friction}</th>\n<th class=\"number\">{sliding}</th></tr></thead>\n<tbody>\n{}\
+         <th class=\"number\">{friction}</th>\n<th class=\"number\">{sliding}</th>{deflection}</tr></thead>\n<tbody>\n{}\
          </tbody>\n</table>\n<table class=\"rest\">\n<thead><tr><th>Of</th><th>What</th><th class=\"number\">Value</th>\
          <th>Unit</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n</section>\n",
         text(heading),
@@ -145,11 +154,23 @@ fn joint_mode(joint: &JointMode, between: &str) -> String {
     format!("{}{between}{}", text(&joint.name), text(&joint.mode))
 }
 
+/// Whether contacts share a load, so that it is known how far they are displaced.
+fn has_deflections(solution: &Solution) -> bool {
+    solution.contacts.iter().any(|contact| contact.deflection.is_some())
+}
+
 fn contacts(solution: &Solution, units: &Units) -> String {
-    let [force, speed] = ["N", "m/s"].map(|si| units.of(si));
+    let [force, speed, length] = ["N", "m/s", "m"].map(|si| units.of(si));
     all(&solution.contacts, |contact| {
+        let deflection = if has_deflections(solution) {
+            let value = contact.deflection.map(|value| number(length.number_of(value)));
+            format!("<td class=\"number\">{}</td>", value.unwrap_or_default())
+        } else {
+            String::new()
+        };
         format!(
-            "<tr><td>{}</td><td class=\"number\">{}</td>\n<td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+            "<tr><td>{}</td><td class=\"number\">{}</td>\n<td class=\"number\">{}</td><td class=\"number\">{}</td>\
+             {deflection}</tr>\n",
             text(&contact.name),
             number(force.number_of(contact.normal_force)),
             number(force.number_of(contact.friction_force)),

@@ -12,6 +12,7 @@ mod gallery;
 mod looks;
 mod random;
 mod raster;
+mod redundant;
 mod stops;
 
 use slideway::configuration::Configuration;

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _display, _motion, _sweep, reports
-from ._values import BySide, ContactValues, End, Pair, Progress, Range, Value
+from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
 
 
 __all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "import_dxf", "lcp", "merge", "mode_problem", "png", "printable", "solve", "templates", "theme"]
@@ -110,7 +110,7 @@ class Mechanism:
     def __deepcopy__(self, /, _memo: object) -> Mechanism: ...
     def __new__(cls, /, title: str | None = None, *, gravity: Value | Pair | None = None, time: Value | None = None) -> Mechanism: ...
     def __repr__(self, /) -> str: ...
-    def block_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu: Value | BySide | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, pad: Pair | None = None, front: ContactValues | None = None, rear: ContactValues | None = None) -> str:
+    def block_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu: Value | BySide | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None, front: ContactValues | None = None, rear: ContactValues | None = None, supports: Mapping[str, SupportValues] | None = None) -> str:
         """
         Adds a block slider: a carriage, sledge or bushing with a contact at each end.
 
@@ -143,13 +143,22 @@ class Mechanism:
         centred_preload : bool
             The preload's friction acts on the centre line. Default: at the pressed face.
         stiffness : float or str
-            Stiffness of the guide at a contact (N/m), for attainability.
+            Stiffness of the guide at a contact (N/m), for attainability, and for how redundant contacts share a load.
+        play : float or str
+            Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+        misalignment : float or str
+            How far the guide's line is displaced at a contact (m), towards positive normal force, which counts where
+            redundant contacts share a load; may depend on coordinates. Default: 0.
         pad : pair
             Length and width of the area in contact at a contact (m), for the bearing pressure.
         front, rear : mapping
             What differs at the end in the direction of `along`, or at the other: `mu`, `mu_static`, `preload`,
-            `stiffness`, `pad`, `centred_preload`, and `carried_by_guide`, for a contact that stays at a place of
-            the guide.
+            `stiffness`, `play`, `misalignment`, `pad`, `centred_preload`, and `carried_by_guide`, for a contact that
+            stays at a place of the guide.
+        supports : mapping
+            Further contacts by their names, which share the load with the others, such as
+            `{"middle": {"at": 0.02, "play": "0.1 mm"}}`: `at` is the distance from the middle of the block in the
+            direction of `along` (m), everything else as for `front`.
 
         Returns
         -------
@@ -168,6 +177,9 @@ class Mechanism:
         >>> drawer = m.body("drawer", mass=2, inertia=0.05, centre=(0, 0.1))
         >>> m.block_slider("rail", drawer, slideway.GROUND, at=(0, 0), length=0.4, mu=0.2, front={"mu": 0.3})
         'rail'
+        >>> pads = {"middle": {"at": "50 mm", "misalignment": "0.1 mm"}}
+        >>> m.block_slider("tube", drawer, slideway.GROUND, at=(0, 0.2), length=0.4, mu=0.2, play="0.2 mm", supports=pads)
+        'tube'
         >>> m.block_slider("other", "drawr", slideway.GROUND, at=(0, 0), length=0.4, mu=0.2)
         Traceback (most recent call last):
             ...
@@ -349,7 +361,7 @@ class Mechanism:
         >>> m.force("push", drawer, at=(0, 0.1), components=("20 N", 0))
         'push'
         """
-    def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, pad: Pair | None = None) -> str:
+    def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
         """
         Adds a guided slider: it is pressed on one side along its whole length, with one normal force and a couple.
 
@@ -358,8 +370,10 @@ class Mechanism:
         name : str
         block, guide : str
             Its bodies; either can be `GROUND`.
-        at, length, along, height, around, travel, restitution, mu, mu_static, preload, centred_preload, stiffness, pad
+        at, length, along, height, around, travel, restitution, mu, mu_static, preload, centred_preload
             As for `block_slider`; `length` is that of the pressed face.
+        stiffness, play, misalignment, pad
+            As for `block_slider`.
 
         Returns
         -------
@@ -422,7 +436,7 @@ class Mechanism:
         >>> m.parameter("L", "400 mm")
         'L'
         """
-    def pin_in_slot(self, /, name: str, pin: str, slot: str, *, at: Pair, mu: Value | BySide, along: Value | None = None, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, stiffness: Value | None = None, pad: Pair | None = None) -> str:
+    def pin_in_slot(self, /, name: str, pin: str, slot: str, *, at: Pair, mu: Value | BySide, along: Value | None = None, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
         """
         Adds a pin of the first body in a slot of the second: one contact.
 
@@ -433,7 +447,7 @@ class Mechanism:
             Its bodies; either can be `GROUND`.
         at : pair
             The pin in the drawing (m).
-        along, travel, restitution, mu, mu_static, preload, stiffness, pad
+        along, travel, restitution, mu, mu_static, preload, stiffness, play, misalignment, pad
             As for `block_slider`; `along` is the direction of the slot.
 
         Returns

@@ -34,7 +34,7 @@ class BySide(TypedDict):
 
 
 class ContactValues(TypedDict, total=False):
-    """What differs at one end of a block."""
+    """What differs at one contact of a block."""
 
     mu: Value | BySide
     """Coefficient of kinetic friction."""
@@ -44,9 +44,20 @@ class ContactValues(TypedDict, total=False):
     """Friction at zero normal force (N)."""
     stiffness: Value
     """Stiffness of the guide (N/m)."""
+    play: Value
+    """Total play between the two faces (m)."""
+    misalignment: Value
+    """How far the guide's line is displaced there (m)."""
     pad: Pair
     """Length and width of the area in contact (m)."""
     carried_by_guide: bool
     """The contact stays at a place of the guide."""
     centred_preload: bool
     """The preload's friction acts on the centre line."""
+
+
+class SupportValues(ContactValues):
+    """A further contact of a block."""
+
+    at: Value
+    """How far from the middle of the block, in the direction of `along` (m)."""

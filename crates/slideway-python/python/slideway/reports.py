@@ -38,6 +38,7 @@ __all__ = [
     "ColourBy",
     "Column",
     "Contact",
+    "ContactFit",
     "ContactRange",
     "ContactSummary",
     "Continuum",
@@ -73,6 +74,7 @@ __all__ = [
     "Efficiency",
     "EfficiencyKind",
     "EigenvalueUnit",
+    "Elasticity",
     "End",
     "EndKind",
     "EndReaction",
@@ -104,6 +106,7 @@ __all__ = [
     "LimitsMethod",
     "LimitsReport",
     "LoadReport",
+    "LoadSharing",
     "LockedMode",
     "MapAxis",
     "MapClass",
@@ -156,6 +159,7 @@ __all__ = [
     "SpeedLimits",
     "StatisticsReport",
     "Status",
+    "StiffnessRatios",
     "Stopping",
     "Stroke",
     "Tally",
@@ -258,6 +262,14 @@ EigenvalueUnit = Literal["1/s^2", "1/kg"]
 
 - `"1/s^2"`: The model gives the stiffness of every contact.
 - `"1/kg"`: For a stiffness of 1 N/m at every contact."""
+
+Elasticity = Literal["given", "rigid", "equal"]
+"""What is taken for the elasticity of contacts that share a load.
+
+- `"given"`: The stiffnesses of the model.
+- `"rigid"`: The faces are rigid: there is play or misalignment, but no stiffness.
+- `"equal"`: All contacts have the same stiffness: there is neither play nor misalignment, so that only ratios
+count."""
 
 End = Literal["plain", "marked", "diverges"]
 """The end of a curve.
@@ -396,12 +408,13 @@ MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force"
 - `"pressure"`: Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
 - `"efficiency"`: Not a factor but the least efficiency."""
 
-MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses"]
+MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses", "floats"]
 """Why margins of friction were not computed.
 
 - `"too_many_modes"`: There are too many modes.
 - `"between_faces"`: A guided slider is between its faces, which is no mode that could be followed.
-- `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face."""
+- `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face.
+- `"floats"`: The block floats within the play of redundant guides."""
 
 MetEnd = Literal["range", "margin", "jump", "no_position"]
 """Why an interval ends in which the wanted margin is met.
@@ -765,7 +778,7 @@ class CauseReport(Record):
 class CheckReport(Report):
     """What a model consists of, and what stands in the way of solving it."""
 
-    _absent = {"steps_from_drawing": None}
+    _absent = {"sharing": None, "steps_from_drawing": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -780,6 +793,8 @@ class CheckReport(Report):
     """What is perhaps not meant, though it does not stand in the way."""
     mobility: MobilitySummary
     """Degrees of freedom and determinacy."""
+    sharing: LoadSharing | None
+    """How redundant guides share their load; absent if no constraint is redundant, or it cannot be told."""
     inertia: InertiaSummary
     """Inertia of the motions that the joints leave."""
     condition: float | None
@@ -864,6 +879,21 @@ class Contact(Record):
     """Mean bearing pressure, the normal force over length and width of the pad (Pa); absent without a pad."""
     preload_share: float | None = None
     """In a preload gap: the share of the preload friction at the face of positive normal force."""
+    deflection: float | None = None
+    """Of a contact that shares its load with others: by how much the block is displaced against its guide there,
+    towards +n (m); within its play where the contact is open."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactFit(Record):
+    """How a contact fits that shares its load with others."""
+
+    play: float
+    """Total play between its faces (m)."""
+    misalignment: float
+    """How far the guide's line is displaced there, towards +n (m)."""
+    stiffness: float | None = None
+    """Stiffness of a face (N/m), if the model gives it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -896,6 +926,8 @@ class ContactSummary(Record):
     """Preload (N), likewise."""
     sliding_velocity: float | None
     """Sliding velocity (m/s), if the state could be assembled."""
+    fit: ContactFit | None = None
+    """Of a contact that shares its load with others: how it fits."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1702,6 +1734,21 @@ class LoadReport(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class LoadSharing(Record):
+    """How redundant guides share a load."""
+
+    self_stresses: int
+    """Degree of redundancy: the number of independent self-stresses."""
+    groups: tuple[tuple[str, ...], ...]
+    """The contacts that share a load, in groups that do not act on one another by self-stresses."""
+    elasticity: Elasticity
+    """What is taken for their elasticity."""
+    stiffness_ratios: StiffnessRatios | None = None
+    """Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for
+    rigid faces, and where there are too many patterns."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class LockedMode(Record):
     """A mode with a vanishing determinant and no solution."""
 
@@ -2343,6 +2390,9 @@ class Solution(_mixins.Solution, Record):
     """Sign of each normal force, 0 where it vanishes."""
     on_boundary: bool
     """Whether some contact is about to change side: its normal force is zero within rounding."""
+    floating: tuple[str, ...] = ()
+    """Contacts of redundant guides without normal force that do not settle where the block is within its play:
+    it floats."""
     certificate: CertificateKind
     """What is proven of it."""
     margin: ModeMargin | None = None
@@ -2376,7 +2426,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"steps_from_drawing": None, "patterns": None, "margins": None, "margins_missing": None, "from_rest": None, "uncertainty": None}
+    _absent = {"steps_from_drawing": None, "patterns": None, "margins": None, "margins_missing": None, "from_rest": None, "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2433,6 +2483,8 @@ class SolveReport(_mixins.SolveReport, Report):
     from_rest: FromRest | None
     """Where some coordinate slows down: what the same loads do from rest in the same position; absent where it
     was not asked (margins are not, drives prescribe the motion)."""
+    sharing: LoadSharing | None
+    """How redundant guides share their load; absent if no constraint is redundant."""
     uncertainty: Uncertainty | None
     """What parameters known within bounds leave certain; absent if there are none. Everything else in the report
     holds for the middle of their ranges."""
@@ -2484,6 +2536,19 @@ class StatisticsReport(Record):
     """Events."""
     sampled: SampledReport | None = None
     """Unproven rest under loads that vary with time, if there is any."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StiffnessRatios(Record):
+    """The contact modes for stiffnesses of a tenth to ten times those of the model, contact by contact."""
+
+    tried: int
+    """How many combinations of 1/10, 1 and 10 were tried, in rounded numbers; beyond four contacts they are a
+    sample of all."""
+    same: bool
+    """Whether each has the same contact modes as the model."""
+    others: tuple[str, ...]
+    """The other contact modes that were met: one sign or 0 for each contact."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -24,7 +24,9 @@ use slideway::model::Settings;
 pub(crate) use state::GROUND;
 use state::{Refused, State, found};
 use std::sync::{Mutex, PoisonError};
-use values::{BlockEnd, CoordinateValues, End, Gravity, Said, SliderValues, optional, optional_pair};
+use values::{
+    BlockEnd, CoordinateValues, End, Gravity, Said, SliderValues, Support, optional, optional_pair,
+};
 
 /// A mechanism that is put together in code.
 ///
@@ -209,8 +211,10 @@ impl Mechanism {
         travel: "Pair | None" = None, restitution: "Value | None" = None,
         mu: "Value | BySide | None" = None, mu_static: "Value | None" = None,
         preload: "Value | BySide | None" = None, centred_preload: "bool" = false,
-        stiffness: "Value | None" = None, pad: "Pair | None" = None,
-        front: "ContactValues | None" = None, rear: "ContactValues | None" = None) -> "str")]
+        stiffness: "Value | None" = None, play: "Value | None" = None,
+        misalignment: "Value | None" = None, pad: "Pair | None" = None,
+        front: "ContactValues | None" = None, rear: "ContactValues | None" = None,
+        supports: "Mapping[str, SupportValues] | None" = None) -> "str")]
     fn block_slider(
         &self,
         py: Python<'_>,
@@ -229,24 +233,28 @@ impl Mechanism {
         preload: Option<&Bound<'_, PyAny>>,
         centred_preload: bool,
         stiffness: Option<&Bound<'_, PyAny>>,
+        play: Option<&Bound<'_, PyAny>>,
+        misalignment: Option<&Bound<'_, PyAny>>,
         pad: Option<&Bound<'_, PyAny>>,
         front: Option<&Bound<'_, PyAny>>,
         rear: Option<&Bound<'_, PyAny>>,
+        supports: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
-        let contacts = [mu, mu_static, preload, stiffness, pad];
+        let contacts = [mu, mu_static, preload, stiffness, play, misalignment, pad];
         let values = SliderValues::new(at, [along, travel, restitution], contacts)?;
         let (length, height) = (quantity("length", length)?, optional("height", height)?);
         let front = front.map(|front| BlockEnd::new("front", front)).transpose()?;
         let rear = rear.map(|rear| BlockEnd::new("rear", rear)).transpose()?;
+        let supports = Support::all(supports)?;
         self.add_slider(py, (name, ["block", "guide"], [block, guide]), |drawing, [block, guide]| {
             let slider = values.say(drawing.block_slider(name, block, guide)).length(length);
-            slider
+            let slider = slider
                 .with(height, SliderBuilder::<BlockSlider>::height)
                 .when(around, SliderBuilder::<BlockSlider>::around)
                 .when(centred_preload, SliderBuilder::<BlockSlider>::centred_preload)
                 .with(front, |slider, front| slider.front(|contact| front.say(contact)))
-                .with(rear, |slider, rear| slider.rear(|contact| rear.say(contact)))
-                .id()
+                .with(rear, |slider, rear| slider.rear(|contact| rear.say(contact)));
+            supports.into_iter().fold(slider, |slider, support| support.say(slider)).id()
         })
     }
 
@@ -257,6 +265,7 @@ impl Mechanism {
         around: "bool" = false, travel: "Pair | None" = None, restitution: "Value | None" = None,
         mu_static: "Value | None" = None, preload: "Value | BySide | None" = None,
         centred_preload: "bool" = false, stiffness: "Value | None" = None,
+        play: "Value | None" = None, misalignment: "Value | None" = None,
         pad: "Pair | None" = None) -> "str")]
     fn guided_slider(
         &self,
@@ -276,9 +285,11 @@ impl Mechanism {
         preload: Option<&Bound<'_, PyAny>>,
         centred_preload: bool,
         stiffness: Option<&Bound<'_, PyAny>>,
+        play: Option<&Bound<'_, PyAny>>,
+        misalignment: Option<&Bound<'_, PyAny>>,
         pad: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
-        let contacts = [Some(mu), mu_static, preload, stiffness, pad];
+        let contacts = [Some(mu), mu_static, preload, stiffness, play, misalignment, pad];
         let values = SliderValues::new(at, [along, travel, restitution], contacts)?;
         let (length, height) = (quantity("length", length)?, optional("height", height)?);
         self.add_slider(py, (name, ["block", "guide"], [block, guide]), |drawing, [block, guide]| {
@@ -296,7 +307,8 @@ impl Mechanism {
     #[pyo3(signature = (name: "str", pin: "str", slot: "str", *, at: "Pair", mu: "Value | BySide",
         along: "Value | None" = None, travel: "Pair | None" = None, restitution: "Value | None" = None,
         mu_static: "Value | None" = None, preload: "Value | BySide | None" = None,
-        stiffness: "Value | None" = None, pad: "Pair | None" = None) -> "str")]
+        stiffness: "Value | None" = None, play: "Value | None" = None,
+        misalignment: "Value | None" = None, pad: "Pair | None" = None) -> "str")]
     fn pin_in_slot(
         &self,
         py: Python<'_>,
@@ -311,9 +323,11 @@ impl Mechanism {
         mu_static: Option<&Bound<'_, PyAny>>,
         preload: Option<&Bound<'_, PyAny>>,
         stiffness: Option<&Bound<'_, PyAny>>,
+        play: Option<&Bound<'_, PyAny>>,
+        misalignment: Option<&Bound<'_, PyAny>>,
         pad: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
-        let contacts = [Some(mu), mu_static, preload, stiffness, pad];
+        let contacts = [Some(mu), mu_static, preload, stiffness, play, misalignment, pad];
         let values = SliderValues::new(at, [along, travel, restitution], contacts)?;
         self.add_slider(py, (name, ["pin", "slot"], [pin, slot]), |drawing, [pin, slot]| {
             values.say(drawing.pin_in_slot(name, pin, slot)).id()

@@ -4,7 +4,9 @@ use crate::arguments::{pair, quantity, two};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyMapping, PyString};
-use slideway::drawing::{ContactBuilder, CoordinateBuilder, Quantity, SliderBuilder, SliderHandle};
+use slideway::drawing::{
+    BlockSlider, ContactBuilder, CoordinateBuilder, Quantity, SliderBuilder, SliderHandle,
+};
 use slideway::fault::nearest;
 
 /// An argument that may be left out.
@@ -67,20 +69,23 @@ impl BySide {
     }
 }
 
-/// What is said of all contacts of a joint, or of one end of a block.
+/// What is said of all contacts of a joint, or of one contact of a block.
 #[derive(Default)]
 pub(super) struct ContactValues {
     mu: Option<BySide>,
     mu_static: Option<Quantity>,
     preload: Option<BySide>,
     stiffness: Option<Quantity>,
+    play: Option<Quantity>,
+    misalignment: Option<Quantity>,
     pad: Option<[Quantity; 2]>,
 }
 
 impl ContactValues {
-    /// `mu`, `mu_static`, `preload`, `stiffness` and `pad`, in this order, of an argument with these names.
-    pub(super) fn new(of: impl Fn(&str) -> String, given: [Given<'_, '_>; 5]) -> PyResult<Self> {
-        let [mu, mu_static, preload, stiffness, pad] = given;
+    /// `mu`, `mu_static`, `preload`, `stiffness`, `play`, `misalignment` and `pad`, in this order, of an argument
+    /// with these names.
+    pub(super) fn new(of: impl Fn(&str) -> String, given: [Given<'_, '_>; 7]) -> PyResult<Self> {
+        let [mu, mu_static, preload, stiffness, play, misalignment, pad] = given;
         let by_side =
             |name: &str, given: Given<'_, '_>| given.map(|given| BySide::new(&of(name), given)).transpose();
         Ok(Self {
@@ -88,16 +93,29 @@ impl ContactValues {
             mu_static: optional(&of("mu_static"), mu_static)?,
             preload: by_side("preload", preload)?,
             stiffness: optional(&of("stiffness"), stiffness)?,
+            play: optional(&of("play"), play)?,
+            misalignment: optional(&of("misalignment"), misalignment)?,
             pad: optional_pair(&of("pad"), pad)?,
         })
     }
 }
 
-/// What can be said of one end of a block.
-pub(super) const OF_AN_END: [&str; 7] =
-    ["mu", "mu_static", "preload", "stiffness", "pad", "carried_by_guide", "centred_preload"];
+/// What can be said of one contact of a block; of a further support, where it is, too.
+const OF_A_SUPPORT: [&str; 10] = [
+    "mu",
+    "mu_static",
+    "preload",
+    "stiffness",
+    "play",
+    "misalignment",
+    "pad",
+    "carried_by_guide",
+    "centred_preload",
+    "at",
+];
+const OF_AN_END: &[&str] = OF_A_SUPPORT.split_at(9).0;
 
-/// One end of a block.
+/// One contact of a block.
 pub(super) struct BlockEnd {
     values: ContactValues,
     carried_by_guide: bool,
@@ -105,18 +123,23 @@ pub(super) struct BlockEnd {
 }
 
 impl BlockEnd {
+    /// What differs at an end.
     pub(super) fn new(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let given = given.cast::<PyMapping>().map_err(|_| {
             PyTypeError::new_err(format!("{name} must be a mapping, such as {name}={{\"mu\": 0.2}}"))
         })?;
+        Self::of_keys(name, given, OF_AN_END)
+    }
+
+    fn of_keys(name: &str, given: &Bound<'_, PyMapping>, known: &[&str]) -> PyResult<Self> {
         for key in given.keys()? {
             let key: String = key
                 .extract()
                 .map_err(|_| PyTypeError::new_err(format!("the keys of {name} must be texts")))?;
-            if !OF_AN_END.contains(&key.as_str()) {
-                let meant = nearest(&key, OF_AN_END);
+            if !known.contains(&key.as_str()) {
+                let meant = nearest(&key, known.iter().copied());
                 let meant = meant.map_or_else(
-                    || format!("it has {}", OF_AN_END.join(", ")),
+                    || format!("it has {}", known.join(", ")),
                     |near| format!("did you mean {near:?}?"),
                 );
                 return Err(PyValueError::new_err(format!("{name} has no {key:?}; {meant}")));
@@ -130,7 +153,9 @@ impl BlockEnd {
                 Err(_) => Err(PyTypeError::new_err(format!("{name}[{key:?}] must be True or False"))),
             },
         };
-        let values = [of("mu")?, of("mu_static")?, of("preload")?, of("stiffness")?, of("pad")?];
+        let [mu, mu_static, preload] = [of("mu")?, of("mu_static")?, of("preload")?];
+        let [stiffness, play, misalignment] = [of("stiffness")?, of("play")?, of("misalignment")?];
+        let values = [mu, mu_static, preload, stiffness, play, misalignment, of("pad")?];
         let values = values.each_ref().map(Option::as_ref);
         Ok(Self {
             values: ContactValues::new(|key| format!("{name}[{key:?}]"), values)?,
@@ -140,7 +165,7 @@ impl BlockEnd {
     }
 
     pub(super) fn say(self, contact: &mut ContactBuilder<'_>) {
-        let ContactValues { mu, mu_static, preload, stiffness, pad } = self.values;
+        let ContactValues { mu, mu_static, preload, stiffness, play, misalignment, pad } = self.values;
         match mu {
             Some(BySide::Both(mu)) => contact.mu(mu),
             Some(BySide::Each([plus, minus])) => contact.mu_by_side(plus, minus),
@@ -148,6 +173,8 @@ impl BlockEnd {
         }
         .with(mu_static, ContactBuilder::mu_static)
         .with(stiffness, ContactBuilder::stiffness)
+        .with(play, ContactBuilder::play)
+        .with(misalignment, ContactBuilder::misalignment)
         .with(pad, ContactBuilder::pad)
         .when(self.carried_by_guide, ContactBuilder::carried_by_guide)
         .when(self.centred_preload, ContactBuilder::centred_preload);
@@ -156,6 +183,44 @@ impl BlockEnd {
             Some(BySide::Each([plus, minus])) => contact.preload_by_side(plus, minus),
             None => contact,
         };
+    }
+}
+
+/// A further support of a block.
+pub(super) struct Support {
+    pub(super) name: String,
+    pub(super) at: Quantity,
+    pub(super) contact: BlockEnd,
+}
+
+impl Support {
+    /// Those of the argument `supports`: a mapping for each name.
+    pub(super) fn all(given: Given<'_, '_>) -> PyResult<Vec<Self>> {
+        let Some(given) = given else { return Ok(Vec::new()) };
+        let wanted = || {
+            let example = "supports={\"middle\": {\"at\": 0.1}}";
+            PyTypeError::new_err(format!("supports must be a mapping of mappings, such as {example}"))
+        };
+        let given = given.cast::<PyMapping>().map_err(|_| wanted())?;
+        let mut supports = Vec::new();
+        for entry in given.items()? {
+            let (name, values): (String, Bound<'_, PyAny>) = entry.extract().map_err(|_| wanted())?;
+            let values = values.cast::<PyMapping>().map_err(|_| wanted())?;
+            let of = format!("supports[{name:?}]");
+            if !values.contains("at")? {
+                return Err(PyValueError::new_err(format!(
+                    "{of} must have \"at\", its distance from the middle"
+                )));
+            }
+            let at = quantity(&format!("{of}[\"at\"]"), &values.get_item("at")?)?;
+            let contact = BlockEnd::of_keys(&of, values, &OF_A_SUPPORT)?;
+            supports.push(Self { name, at, contact });
+        }
+        Ok(supports)
+    }
+
+    pub(super) fn say(self, slider: SliderBuilder<'_, BlockSlider>) -> SliderBuilder<'_, BlockSlider> {
+        slider.support(&self.name, self.at, |contact| self.contact.say(contact))
     }
 }
 
@@ -173,7 +238,7 @@ impl SliderValues {
     pub(super) fn new(
         at: &Bound<'_, PyAny>,
         given: [Given<'_, '_>; 3],
-        contacts: [Given<'_, '_>; 5],
+        contacts: [Given<'_, '_>; 7],
     ) -> PyResult<Self> {
         let [along, travel, restitution] = given;
         Ok(Self {
@@ -186,7 +251,7 @@ impl SliderValues {
     }
 
     pub(super) fn say<S: SliderHandle>(self, slider: SliderBuilder<'_, S>) -> SliderBuilder<'_, S> {
-        let ContactValues { mu, mu_static, preload, stiffness, pad } = self.contacts;
+        let ContactValues { mu, mu_static, preload, stiffness, play, misalignment, pad } = self.contacts;
         slider
             .at(self.at)
             .with(self.along, SliderBuilder::along)
@@ -202,6 +267,8 @@ impl SliderValues {
                 BySide::Each([plus, minus]) => slider.preload_by_side(plus, minus),
             })
             .with(stiffness, SliderBuilder::stiffness)
+            .with(play, SliderBuilder::play)
+            .with(misalignment, SliderBuilder::misalignment)
             .with(pad, SliderBuilder::pad)
     }
 }

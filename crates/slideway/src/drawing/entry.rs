@@ -40,10 +40,10 @@ impl Table {
     }
 
     fn in_one_line(&self) -> Quantity {
-        let inner: Vec<(&str, Quantity)> =
-            self.inner.iter().map(|(key, table)| (key.as_str(), table.in_one_line())).collect();
+        let inner: Vec<(String, Quantity)> =
+            self.inner.iter().map(|(key, table)| (written_key(key), table.in_one_line())).collect();
         let values = self.values.iter().map(|(key, value)| (key.as_str(), value));
-        Quantity::table(values.chain(inner.iter().map(|(key, value)| (*key, value))))
+        Quantity::table(values.chain(inner.iter().map(|(key, value)| (key.as_str(), value))))
     }
 
     /// One line for each key.

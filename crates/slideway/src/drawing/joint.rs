@@ -209,9 +209,20 @@ macro_rules! contact_properties {
             $self.set("preload", by_side(plus, minus))
         }
 
-        /// Stiffness of the guide at a contact (N/m), for attainability.
+        /// Stiffness of the guide at a contact (N/m), for attainability, and for how redundant contacts share a load.
         pub fn stiffness($self: $receiver, stiffness: impl Into<Quantity>) -> $receiver {
             $self.set("stiffness", stiffness.into())
+        }
+
+        /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+        pub fn play($self: $receiver, play: impl Into<Quantity>) -> $receiver {
+            $self.set("play", play.into())
+        }
+
+        /// How far the guide's line is displaced at a contact, towards +n (m), which counts where redundant contacts
+        /// share a load; may depend on coordinates. Default: 0.
+        pub fn misalignment($self: $receiver, displacement: impl Into<Quantity>) -> $receiver {
+            $self.set("misalignment", displacement.into())
         }
 
         /// Length and width of the area in contact at a contact (m), for the bearing pressure.
@@ -271,9 +282,25 @@ impl SliderBuilder<'_, BlockSlider> {
         of(&mut ContactBuilder(self.table().inner("rear")));
         self
     }
+
+    /// A further contact, so far from the middle of the block in the direction of `along` (m): with it the block is
+    /// redundantly guided. A name that was given before is that of the same contact.
+    pub fn support(
+        mut self,
+        name: &str,
+        at: impl Into<Quantity>,
+        of: impl FnOnce(&mut ContactBuilder<'_>),
+    ) -> Self {
+        let support = self.table().inner("supports").inner(name);
+        let is_new = support.is_empty();
+        support.set("at", at.into());
+        of(&mut ContactBuilder(support));
+        self.drawing.contacts += usize::from(is_new);
+        self
+    }
 }
 
-/// One end of a block.
+/// One contact of a block.
 #[derive(Debug)]
 pub struct ContactBuilder<'t>(&'t mut Table);
 

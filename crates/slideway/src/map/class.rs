@@ -258,4 +258,35 @@ mod tests {
         }
         assert!(finite > 10, "{finite} finite margins");
     }
+
+    /// A drawer on two rails with equal runners, pulled a = 0.25 m beside its middle, contacts L = 0.4 m apart, locks
+    /// at mu = L / (2 a) = 0.8 (theory of redundant guides, closed forms): its margin is 0.8/mu.
+    #[test]
+    fn margins_of_a_drawer_on_two_rails_are_those_of_the_closed_form() {
+        let rail = |name: &str, y: &str| {
+            format!(
+                "[joints.{name}]\ntype = \"block_slider\"\nblock = \"drawer\"\nat = [0, \"{y} m\"]\nalong = 0\n\
+                 length = \"0.4 m\"\nmu = \"mu\"\n"
+            )
+        };
+        let text = format!(
+            "[parameters]\nmu = 0.3\n[bodies.drawer]\nmass = 8\nmoment_of_inertia = 1\ncentre_of_mass = \"middle\"\n\
+             points = [\"handle\", \"middle\"]\n[points]\nmiddle = [0, 0]\n\
+             handle = [\"0.2 m\", \"0.25 m\"]\n{}{}[loads.resistance]\n\
+             type = \"force\"\nat = \"drawer.middle\"\ncomponents = [\"-10 N\", 0]\n[coordinates.x]\n\
+             slide = \"left\"\nrate = 0.3\n[drives.pull]\ncoordinate = \"x\"\n\
+             force = {{ at = \"drawer.handle\", direction = 0 }}\n",
+            rail("left", "0.3"),
+            rail("right", "-0.3")
+        );
+        let model = Model::parse(&text).expect("sound");
+        for mu in [0.1, 0.2, 0.35, 0.5, 0.6, 0.7, 0.78] {
+            let settings = Settings::default().parameter("mu", mu.to_string());
+            let stages = Stages::new(&model.with(&settings).expect("sound")).expect("solvable");
+            let parts = stages.parts(1.0).expect("finite numbers");
+            let Some(ClassMeaning::Margin { from, to }) = margin(&parts) else { panic!("a margin at {mu}") };
+            let factor = 0.8 / mu;
+            assert!(from <= factor && factor < to.unwrap_or(f64::INFINITY), "{mu}: {from} {to:?}");
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! How redundant guides share a load.
 
+use super::text::spaced;
 use serde::Serialize;
 
 /// What is taken for the elasticity of contacts that share a load.
@@ -44,8 +45,8 @@ pub struct StiffnessRatios {
 }
 
 impl LoadSharing {
-    /// In words.
-    pub(crate) fn in_words(&self) -> Vec<String> {
+    /// In words, one sentence or more in each line.
+    pub fn in_words(&self) -> Vec<String> {
         let groups: Vec<String> = self.groups.iter().map(|group| group.join(", ")).collect();
         let how = match self.elasticity {
             Elasticity::Given => "by the stiffness, play and misalignment of each",
@@ -65,9 +66,11 @@ impl LoadSharing {
             } else if ratios.others.is_empty() {
                 format!("Not all of these contact modes remain for stiffness ratios from 0.1 to 10 ({tried} combinations).")
             } else {
+                let others: Vec<String> = ratios.others.iter().map(|signs| spaced(signs)).collect();
                 format!(
-                    "The contact modes depend on stiffness ratios: between 0.1 and 10 ({tried} combinations) there are also the signs {}.",
-                    ratios.others.join(", ")
+                    "The contact modes depend on stiffness ratios: from 0.1 to 10 ({tried} combinations) there are also \
+                     the signs {}.",
+                    others.join(", ")
                 )
             });
         }

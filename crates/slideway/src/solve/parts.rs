@@ -1,6 +1,7 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
 use super::faces::{FreeFace, with_either_side};
+use super::mode_problem::self_stresses;
 use super::stages::ProblemData;
 use crate::ids::JointId;
 use crate::influence::Influence;
@@ -20,6 +21,8 @@ const SAME: f64 = 1e-13;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Parts {
     columns: BySide<DMatrix<f64>>,
+    /// The columns without friction that grows with the pressure.
+    frictionless: BySide<DMatrix<f64>>,
     jumps: BySide<DMatrix<f64>>,
     right_hand_side: DVector<f64>,
     bounds: Vec<OutputBound>,
@@ -44,14 +47,28 @@ impl Parts {
             })
         };
         // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
+        let cut = influence.layout().cut();
+        let stress_of = |k: usize| cut.iter().position(|contact| contact.index() == k);
+        let stresses = self_stresses(influence);
+        // c_k^sigma = sigma e_k - sigma Z_k of a cut contact; the rows of self-stresses know no friction.
+        let frictionless = |side: Side| {
+            let upper = DMatrix::from_fn(contacts, contacts, |row, k| match (stress_of(row), stress_of(k)) {
+                (Some(_), _) => problem.columns(side)[(row, k)],
+                (None, stress) => {
+                    let own = f64::from(u8::from(row == k));
+                    side.sign() * stress.map_or(own, |stress| own - stresses[(row, stress)])
+                }
+            });
+            extended(&upper, &|row, k| {
+                stress_of(k).map_or(0.0, |stress| -side.sign() * row.times(&influence.self_stresses[stress]))
+            })
+        };
         let side = |side: Side| {
             let face = usize::from(side == Side::Negative);
             let gamma = |row: &ConstraintRow, k: usize| row.times(&influence.columns[k][face]);
-            let cut = influence.layout().cut();
             let columns = extended(problem.columns(side), &|row, k| {
                 let friction = -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k];
-                let stress = cut.iter().position(|contact| contact.index() == k);
-                stress.map_or(friction, |stress| {
+                stress_of(k).map_or(friction, |stress| {
                     friction - side.sign() * row.times(&influence.self_stresses[stress])
                 })
             });
@@ -80,6 +97,10 @@ impl Parts {
         let has_jump = problem.jumps_of_contacts();
         Self {
             columns: BySide { positive: cp, negative: cn },
+            frictionless: BySide {
+                positive: frictionless(Side::Positive),
+                negative: frictionless(Side::Negative),
+            },
             jumps: BySide { positive: dp, negative: dn },
             right_hand_side,
             bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
@@ -140,6 +161,8 @@ impl Parts {
         }
         each(|parts| &mut parts.columns.positive, |parts| &parts.columns.positive, &mut sum);
         each(|parts| &mut parts.columns.negative, |parts| &parts.columns.negative, &mut sum);
+        each(|parts| &mut parts.frictionless.positive, |parts| &parts.frictionless.positive, &mut sum);
+        each(|parts| &mut parts.frictionless.negative, |parts| &parts.frictionless.negative, &mut sum);
         each(|parts| &mut parts.jumps.positive, |parts| &parts.jumps.positive, &mut sum);
         each(|parts| &mut parts.jumps.negative, |parts| &parts.jumps.negative, &mut sum);
         let all = || weighted.iter().map(|(_, parts)| *parts);
@@ -154,13 +177,9 @@ impl Parts {
         Some(sum)
     }
 
-    /// The same contacts without friction that grows with their pressure: `c_k^sigma = sigma e_k`.
+    /// The same contacts without friction that grows with their pressure.
     pub(crate) fn without_pressure_friction(&self) -> Self {
-        let (rows, contacts) = self.columns.positive.shape();
-        let mut parts = self.clone();
-        parts.columns.positive = DMatrix::identity(rows, contacts);
-        parts.columns.negative = -DMatrix::identity(rows, contacts);
-        parts
+        Self { columns: self.frictionless.clone(), ..self.clone() }
     }
 
     /// Whether the states of a pattern are solutions: each contact is pressed, or open.
