@@ -417,13 +417,16 @@ fn tried(counts: &PatternSummary, is_shared: bool) -> String {
         (total, 0) => format!("All {total} sign patterns were tried"),
         (total, undecided) => format!("{} of {total} sign patterns were decided", total - undecided),
     };
+    // A pattern with open contacts may be the one with a solution.
+    if is_shared && counts.gap_patterns > 0 {
+        return format!("{tried}, and {} with open contacts.", counts.gap_patterns);
+    }
     let mut line = match parts.as_slice() {
         [_] if counts.no_solution == counts.total => format!("{tried}: none has a solution."),
         _ => format!("{tried}: {}.", parts.join(", ")),
     };
     if counts.gap_patterns > 0 {
-        let what = if is_shared { "open contacts" } else { "preload gaps" };
-        let _ = write!(line, " So were {} patterns with {what}.", counts.gap_patterns);
+        let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
     }
     line
 }
