@@ -103,7 +103,7 @@ pub fn warnings(model: &Model) -> Faults {
     found
 }
 
-/// A warning for each parameter that is known within bounds: only [`crate::solve`] tells what holds for all of
+/// A warning for each parameter that is known within bounds: only [`mod@crate::solve`] tells what holds for all of
 /// them, other questions take their middle.
 pub fn ranges_at_middle(model: &Model) -> Faults {
     let mut found = Faults::default();
