@@ -1,6 +1,7 @@
 //! From a mechanism's influence coefficients to the pure numbers of its mode problem.
 
 use super::no_sliding::why;
+use super::sharing::check_assembly;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
@@ -64,7 +65,10 @@ pub fn mode_problem(
 ) -> Result<ModeProblem, Faults> {
     let problem = determinate_problem(mechanism, influence, velocity_signs)?;
     match shared_load(mechanism, self_stresses(influence))? {
-        Some(shared) => problem.with_shared_load(&shared).map_err(|_| overflow()),
+        Some(shared) => {
+            check_assembly(mechanism, influence, &shared)?;
+            problem.with_shared_load(&shared).map_err(|_| overflow())
+        }
         None => Ok(problem),
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn add(report: &mut SolveReport, stages: &Stages, ratios: bool) -> Re
 /// How redundant guides share their load; none if nothing is in excess.
 ///
 /// # Errors
-/// Nothing says how, or rigid guides are out of line by more than their play.
+/// Nothing says how.
 pub(crate) fn load_sharing(
     mechanism: &Mechanism,
     influence: &Influence,
@@ -35,18 +35,32 @@ pub(crate) fn load_sharing(
     let Some(shared) = shared_load(mechanism, stresses.clone())? else { return Ok(None) };
     let name = |k: &usize| mechanism.contacts[*k].name.to_string();
     let elasticity = elasticity(mechanism, &stresses)?;
-    if elasticity == Elasticity::Rigid && cannot_be_assembled(influence, &shared) {
-        let sharing = (0..mechanism.contacts.len()).filter(|&k| shared.shares(k));
-        let kind = FaultKind::OutOfLine { contacts: sharing.map(|k| name(&k)).collect() };
-        let joint = mechanism.contacts[shared.cut[0]].joint;
-        return Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into());
-    }
     Ok(Some(LoadSharing {
         self_stresses: shared.cut.len(),
         groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
         elasticity,
         stiffness_ratios: None,
     }))
+}
+
+/// Refuses rigid guides that are out of line by more than their play.
+///
+/// # Errors
+/// A fault that names the contacts that share a load.
+pub(super) fn check_assembly(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    shared: &SharedLoad,
+) -> Result<(), Faults> {
+    let is_rigid = shared.compliance.iter().all(|compliance| *compliance == 0.0);
+    if !is_rigid || !cannot_be_assembled(influence, shared) {
+        return Ok(());
+    }
+    let sharing = mechanism.contacts.iter().enumerate().filter(|(k, _)| shared.shares(*k));
+    let kind =
+        FaultKind::OutOfLine { contacts: sharing.map(|(_, contact)| contact.name.to_string()).collect() };
+    let joint = mechanism.contacts[shared.cut[0]].joint;
+    Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into())
 }
 
 /// Whether rigid faces leave no room for the guides: then, and only then, the minimum of

@@ -2,6 +2,7 @@
 
 use super::mode_problem::{mode_problem, self_stresses, velocity_signs};
 use super::parts::Parts;
+use super::sharing::check_assembly;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
@@ -76,7 +77,11 @@ impl Stages {
         let accuracy = influences.accuracy();
         let influence = Influence::of(influences);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        Ok(Self { mechanism, configuration, influence, velocity_signs, accuracy })
+        let stages = Self { mechanism, configuration, influence, velocity_signs, accuracy };
+        if let Some(shared) = stages.shared_load()? {
+            check_assembly(&stages.mechanism, &stages.influence, &shared)?;
+        }
+        Ok(stages)
     }
 
     /// How redundant guides share their load; none if nothing is in excess.
