@@ -3,10 +3,7 @@
 
 use crate::Layout;
 use slideway::report::defined;
-use slideway::sweep::Rows;
-
-/// Bytes of a word of a status, a kind, a verdict.
-const WORD: usize = 12;
+use slideway::sweep::{Breakpoint, PointStatus, RowKind, RowVerdict, Rows};
 
 /// A field of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,7 +64,7 @@ pub(crate) fn fields(layout: &Layout) -> Vec<Field> {
     let number = |(at, (name, _)): (usize, &(String, &'static str))| {
         field(name, Meaning::Number(at), FieldKind::Number)
     };
-    let word = |(name, meaning)| field(name, meaning, FieldKind::Word(WORD));
+    let word = |(name, meaning): (&str, Meaning)| field(name, meaning, FieldKind::Word(longest(meaning)));
     let count = |(name, meaning)| field(name, meaning, FieldKind::Count);
     let varied = layout.varied.len();
     let mut fields = vec![field("point", Meaning::Point, FieldKind::Point)];
@@ -83,7 +80,7 @@ pub(crate) fn fields(layout: &Layout) -> Vec<Field> {
     fields.push(if layout.numbered {
         field("branch", Meaning::Branch, FieldKind::Branch)
     } else {
-        field("determinant_sign", Meaning::DeterminantSign, FieldKind::Word(1))
+        word(("determinant_sign", Meaning::DeterminantSign))
     });
     fields.push(field("pattern", Meaning::Pattern, FieldKind::Word(layout.contacts.max(1))));
     if layout.attainability {
@@ -92,6 +89,19 @@ pub(crate) fn fields(layout: &Layout) -> Vec<Field> {
     let behind = |(at, column)| number((varied + at, column));
     fields.extend(layout.numbers.iter().enumerate().map(behind));
     fields
+}
+
+/// Bytes of the longest word that tells this of a row.
+fn longest(meaning: Meaning) -> usize {
+    let lengths: Vec<usize> = match meaning {
+        Meaning::Breakpoint => Breakpoint::ALL.map(|breakpoint| breakpoint.word().len()).to_vec(),
+        Meaning::Status => PointStatus::ALL.map(|status| status.word().len()).to_vec(),
+        Meaning::Kind => RowKind::ALL.map(|kind| kind.word().len()).to_vec(),
+        Meaning::Attainability => RowVerdict::ALL.map(|verdict| verdict.word().len()).to_vec(),
+        Meaning::DeterminantSign => vec![1],
+        _ => Vec::new(),
+    };
+    lengths.into_iter().max().unwrap_or(0)
 }
 
 /// Bytes of a record.
@@ -134,4 +144,60 @@ pub(crate) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
 /// The sign of a determinant; nothing if it is not known.
 fn sign(is_negative: Option<bool>) -> &'static [u8] {
     is_negative.map_or(b"", |is_negative| if is_negative { b"-" } else { b"+" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use slideway::sweep::RowHead;
+
+    /// Every word stands whole in its field.
+    #[test]
+    fn words_are_not_cut() {
+        let layout = Layout {
+            varied: Vec::new(),
+            numbers: Vec::new(),
+            contacts: 1,
+            attainability: true,
+            numbered: true,
+        };
+        let head = RowHead {
+            point: 0,
+            breakpoint: Breakpoint::No,
+            inserted: false,
+            status: PointStatus::None,
+            solutions: 0,
+            gap_states: 0,
+            rejected: 0,
+            kind: RowKind::Nothing,
+            branch: 0,
+            verdict: RowVerdict::NotComputed,
+            negative_determinant: None,
+        };
+        let heads: Vec<RowHead> = Breakpoint::ALL
+            .map(|breakpoint| RowHead { breakpoint, ..head })
+            .into_iter()
+            .chain(PointStatus::ALL.map(|status| RowHead { status, ..head }))
+            .chain(RowKind::ALL.map(|kind| RowHead { kind, ..head }))
+            .chain(RowVerdict::ALL.map(|verdict| RowHead { verdict, ..head }))
+            .collect();
+        let patterns = vec![b'+'; heads.len()];
+        let table = Rows {
+            contacts: 1,
+            varied: 0,
+            width: 0,
+            heads,
+            numbers: Vec::new(),
+            patterns,
+            refusals: Vec::new(),
+            points: 0,
+        };
+        let records = rows(&layout, &table);
+        for (head, record) in table.heads.iter().zip(records.chunks_exact(size(&layout))) {
+            let words = [head.breakpoint.word(), head.status.word(), head.kind.word(), head.verdict.word()];
+            let text: Vec<u8> = record.iter().copied().filter(|byte| *byte != 0).collect();
+            let expected = [words[0], words[1], words[2], "+", words[3]].concat();
+            assert_eq!(String::from_utf8_lossy(&text), expected);
+        }
+    }
 }
