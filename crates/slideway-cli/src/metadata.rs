@@ -1,9 +1,8 @@
 //! What a table tells of this run.
 
 use crate::input::Input;
-use slideway::printable;
-use slideway_tables::Metadata;
-use std::ffi::{OsStr, OsString};
+use slideway_tables::{Metadata, quoted};
+use std::ffi::OsString;
 
 /// Arguments that do not change a table.
 const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
@@ -41,25 +40,6 @@ fn of_sweep(arguments: impl Iterator<Item = OsString>) -> impl Iterator<Item = O
 fn command(arguments: impl Iterator<Item = OsString>) -> String {
     let kept = arguments.skip(1).filter(|word| !LEFT_OUT.iter().any(|left_out| word == left_out));
     kept.fold("slideway".to_owned(), |command, word| format!("{command} {}", quoted(&word)))
-}
-
-/// A word as a shell takes it: plain, in quotes, or, if it is not printable or no UTF-8, byte by byte where
-/// it has to be.
-pub(crate) fn quoted(word: &OsStr) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
-    match word.to_str() {
-        Some(text) if !text.is_empty() && text.chars().all(plain) => text.to_owned(),
-        Some(text) if printable::line(text) == text => format!("'{}'", text.replace('\'', "'\\''")),
-        _ => {
-            let bytes = word.as_encoded_bytes().iter().map(|byte| match byte {
-                b'\n' => "\\n".to_owned(),
-                b'\'' | b'\\' => format!("\\{}", char::from(*byte)),
-                b' '..=b'~' => char::from(*byte).to_string(),
-                other => format!("\\{other:03o}"),
-            });
-            format!("$'{}'", bytes.collect::<String>())
-        }
-    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,12 @@
 mod command;
 
 use command::{Run, command, slideway};
+use slideway::model::Settings;
+use slideway::progress::Progress;
+use slideway::sweep::{Breakpoints, GridAxis, SampledAxis, Sampling, Shard, Spread, SweepOptions};
+use slideway_tables::{Control, ShardedSweep, shard_path, write_shard};
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
@@ -72,6 +77,35 @@ fn merged_shards_are_one_run() {
         }
         let (merged, whole) = (merge(&results, &[]), slideway(&sweep));
         assert_eq!((merged.stdout, merged.stderr), (whole.stdout, whole.stderr));
+    }
+}
+
+/// A program that has numbers and no command line, such as the Python package, writes the same bytes.
+#[test]
+fn numbers_make_the_same_shards_as_texts() {
+    let folder = TempDir::new().unwrap();
+    let (typed, made) = (folder.path().join("typed"), folder.path().join("made"));
+    let model = fs::read_to_string(command::top().join("models/drawer.toml")).unwrap();
+    let settings = Settings::default().position("x", "10 mm").parameter("a", 0.25);
+    let list = GridAxis::listed("mu", [0.1, 0.25, 1.0 / 3.0]);
+    let line = SweepOptions::grid([list.clone()]).breakpoints(false);
+    let sampling = Sampling { count: 9, spread: Spread::Random, seed: 3 };
+    let samples = SweepOptions::samples(sampling, [SampledAxis::normal("mu", 0.3, 0.05)]).breakpoints(false);
+    let list = ["--vary", "mu=0.1,0.25,0.3333333333333333"];
+    let sampled = ["--vary", "mu=normal(0.3, 0.05)", "--samples", "9", "--seed", "3"];
+    for (options, words) in [(line, [&list[..], &["--no-breakpoints"]].concat()), (samples, sampled.to_vec())] {
+        let command = [&DRAWER[..], &["--set", "a=0.25", "--at", "x=10 mm"], &words].concat();
+        assert_eq!(shard(&command, "1/1", &typed).code, 0);
+        let sharded =
+            ShardedSweep::typed(("models/drawer.toml", &model), (&settings, &options), "no such command");
+        let sweep = sharded.sweep(Breakpoints::default()).unwrap();
+        let mut callback = |_: &Progress| ControlFlow::Continue(());
+        let mut control = Control { goes_on: &|| true, callback: &mut callback };
+        let one = Shard::new(1, 1).unwrap();
+        write_shard(&sharded, (&sweep, one), (&made, false), &mut control).unwrap();
+        let [typed, made] = [&typed, &made].map(|folder| shard_path(folder, one));
+        assert!(fs::read(&typed).unwrap() == fs::read(&made).unwrap(), "{words:?}");
+        [typed, made].map(|path| fs::remove_file(path).unwrap());
     }
 }
 

@@ -1,8 +1,10 @@
 //! A report as Python holds it: plain data that become objects when they are asked for.
 
 use crate::fault::Texts;
+use crate::plot::Plot;
 use crate::to_python::{fields, instance, to_python};
 use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slideway::Report;
@@ -139,7 +141,7 @@ impl Answer {
 
     fn in_class<'py>(self, py: Python<'py>, class: &str) -> PyResult<Bound<'py, PyAny>> {
         let attributes = PyDict::new(py);
-        attributes.set_item("_answer", self.into_pyobject(py)?)?;
+        attributes.set_item(intern!(py, "_answer"), self.into_pyobject(py)?)?;
         instance(py, class, attributes)
     }
 
@@ -192,26 +194,26 @@ impl Answer {
         parts.ok_or_else(|| PyTypeError::new_err("this answer has no parts"))
     }
 
-    /// The plot as SVG.
+    /// The plot or the map as SVG.
     fn plot_svg(&self, theme_name: &str) -> PyResult<String> {
-        let theme = theme(theme_name)?;
-        let asked = self.asked()?;
-        if let Some(map) = self.is::<MapReport>() {
-            return slideway_pictures::map::to_svg(map, &asked.settings, theme).map_err(not_finite);
+        match self.is::<MapReport>() {
+            Some(map) => slideway_pictures::map::to_svg(map, &self.asked()?.settings, theme(theme_name)?)
+                .map_err(not_finite),
+            None => self.plot()?.svg(theme_name),
         }
-        slideway_pictures::plot::to_svg(&self.plotted()?, theme).map_err(not_finite)
     }
 
-    /// The plot as plain data.
-    #[pyo3(signature = () -> "reports.Figure")]
-    fn figure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.plotted()?)
-    }
-
-    /// What the panels of the plot show in frames of this width and height (px, of which small text has 13).
-    #[pyo3(signature = (width, height) -> "list[reports.DrawnPanel]")]
-    fn drawn<'py>(&self, py: Python<'py>, width: f64, height: f64) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &slideway_pictures::plot::drawn(&self.plotted()?, [width, height]))
+    /// The plot.
+    fn plot(&self) -> PyResult<Plot> {
+        use slideway::{drive::DriveReport, size::SizeReport};
+        use slideway_pictures::plot::{drive_figure, limits_figure, size_figure};
+        let figure = match (self.is::<LimitsReport>(), &self.curves) {
+            (Some(report), Some(curves)) => Some(limits_figure(report, curves)),
+            _ => self.is::<SizeReport>().map(size_figure),
+        };
+        let figure = figure.or_else(|| self.is::<DriveReport>().and_then(drive_figure));
+        let figure = figure.ok_or_else(|| PyTypeError::new_err("this answer has no plot"))?;
+        Ok(Plot { figure: figure.changed_by(&self.asked()?.settings) })
     }
 
     /// A map in words and colours.
@@ -230,17 +232,5 @@ impl Answer {
 impl Answer {
     fn map(&self) -> PyResult<&MapReport> {
         self.is().ok_or_else(|| PyTypeError::new_err("this is no map"))
-    }
-
-    fn plotted(&self) -> PyResult<slideway_pictures::plot::Figure> {
-        use slideway::{drive::DriveReport, size::SizeReport};
-        use slideway_pictures::plot::{drive_figure, limits_figure, size_figure};
-        let figure = match (self.is::<LimitsReport>(), &self.curves) {
-            (Some(report), Some(curves)) => Some(limits_figure(report, curves)),
-            _ => self.is::<SizeReport>().map(size_figure),
-        };
-        let figure = figure.or_else(|| self.is::<DriveReport>().and_then(drive_figure));
-        let figure = figure.ok_or_else(|| PyTypeError::new_err("this answer has no plot"))?;
-        Ok(figure.changed_by(&self.asked()?.settings))
     }
 }

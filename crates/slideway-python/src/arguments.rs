@@ -4,11 +4,11 @@ use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString};
+use slideway::Model;
+use slideway::choice::Choice;
 use slideway::drawing::Quantity;
 use slideway::limits::Vary;
 use slideway::model::{Setting, SettingKind, Settings, Value};
-use slideway::modes::{Limits, SearchOptions};
-use slideway::{Model, UnitSystem};
 
 /// A number in SI units, or a text with a unit or an expression, such as `"75 deg"`.
 pub(crate) fn value(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
@@ -143,34 +143,15 @@ pub(crate) fn varied(ranges: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<Vary>> 
     Ok(varied)
 }
 
-/// The limits of a search.
-pub(crate) fn search(max_nodes: Option<u64>, max_found: Option<usize>) -> SearchOptions {
-    let defaults = SearchOptions::default();
-    let limits = Limits { solutions: max_found.unwrap_or(defaults.limits.solutions), ..defaults.limits };
-    SearchOptions { nodes: max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
-}
-
-/// The system of units of this name.
-pub(crate) fn units(name: &str) -> PyResult<UnitSystem> {
-    match name {
-        "as-typed" => Ok(UnitSystem::AsTyped),
-        "SI" => Ok(UnitSystem::Si),
-        "mm" => Ok(UnitSystem::Millimetres),
-        _ => Err(PyValueError::new_err(format!("units must be 'as-typed', 'SI' or 'mm', not {name:?}"))),
-    }
-}
-
-/// The quantity of a plot of this name.
-pub(crate) fn plotted(name: &str) -> PyResult<slideway::limits::Quantity> {
-    use slideway::limits::Quantity;
-    match name {
-        "normal-force" => Ok(Quantity::NormalForce),
-        "friction" => Ok(Quantity::Friction),
-        "acceleration" => Ok(Quantity::Acceleration),
-        "effort" => Ok(Quantity::Effort),
-        _ => {
-            let known = "'normal-force', 'friction', 'acceleration' or 'effort'";
-            Err(PyValueError::new_err(format!("quantity must be {known}, not {name:?}")))
+/// One of a few by its word.
+pub(crate) fn choice<C: Choice>(argument: &str, word: &str) -> PyResult<C> {
+    let known = || {
+        let words: Vec<String> = C::CHOICES.iter().map(|(_, word, _)| format!("'{word}'")).collect();
+        match &*words {
+            [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+            _ => words.concat(),
         }
-    }
+    };
+    C::of_word(word)
+        .ok_or_else(|| PyValueError::new_err(format!("{argument} must be {}, not {word:?}", known())))
 }

@@ -5,12 +5,12 @@
 //! computed here.
 //!
 //! # Files
-//! `model.rs` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
-//! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return,
-//! `mechanism` the builder `Mechanism`, `motion.rs` a motion with its table, `pictures.rs` colours and pixels,
-//! `to_python.rs` turns values into objects, `fault.rs` faults into exceptions, `import.rs` drawings into models to
-//! complete; `sweep.rs` has tables of many points, `shards.rs` those in parts, `sweep_plot.rs` their plots, `modes.rs`
-//! problems given by matrices.
+//! `model` is the class `Model` with a method for each question, `arguments.rs` what they take, `work.rs` runs
+//! them without the interpreter and ends them in time or on Ctrl-C, `answer.rs` holds what they return, `plot.rs` its
+//! plots; `gallery.rs` has the models that are there, `mechanism` the builder `Mechanism`, `motion.rs` a motion with
+//! its table, `pictures.rs` colours and pixels, `to_python.rs` turns values into objects, `fault.rs` faults into
+//! exceptions, `import.rs` drawings into models to complete; `sweep.rs` has tables of many points, `shards.rs` those in
+//! parts, `sweep_plot.rs` computes their plots, `modes.rs` problems given by matrices.
 
 #![expect(
     clippy::doc_lazy_continuation,
@@ -22,12 +22,14 @@
 mod answer;
 mod arguments;
 mod fault;
+mod gallery;
 mod import;
 mod mechanism;
 mod model;
 mod modes;
 mod motion;
 mod pictures;
+mod plot;
 #[cfg(feature = "parquet")]
 mod shards;
 #[cfg(not(feature = "parquet"))]
@@ -47,11 +49,13 @@ mod _slideway {
     #[pymodule_export]
     use crate::answer::Answer;
     #[pymodule_export]
+    use crate::gallery::{gallery_models, templates};
+    #[pymodule_export]
     use crate::import::import_dxf;
     #[pymodule_export]
     use crate::mechanism::Mechanism;
     #[pymodule_export]
-    use crate::model::{Model, gallery_models, templates};
+    use crate::model::Model;
     #[pymodule_export]
     use crate::modes::{hlcp, lcp, mode_problem, solve};
     #[pymodule_export]
@@ -59,7 +63,11 @@ mod _slideway {
     #[pymodule_export]
     use crate::pictures::{png, printable, theme};
     #[pymodule_export]
+    use crate::plot::Plot;
+    #[pymodule_export]
     use crate::shards::merge;
     #[pymodule_export]
     use crate::sweep::Table;
+    #[pymodule_export]
+    use crate::to_python::frozen_array;
 }

@@ -1,10 +1,11 @@
 //! Problems given by matrices: private half of `slideway.modes`.
 
 use crate::answer::Answer;
-use crate::arguments::{numbers, search};
+use crate::arguments::numbers;
 use crate::work::Watch;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use slideway::modes::SearchOptions;
 use slideway::raw_problem::{Listing, RawFaults, RawKind, RawProblem, solve_with};
 
 /// An array of Python as its name, sizes and entries.
@@ -38,7 +39,7 @@ fn answer<'py>(
     let arrays = arrays.into_iter().collect::<PyResult<Vec<_>>>()?;
     let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());
     let problem = RawProblem::from_arrays(kind, arrays).map_err(refused)?;
-    let search = search(options.max_nodes, options.max_found);
+    let search = SearchOptions::within(options.max_nodes, options.max_found);
     let listing = Listing { most: options.max_solutions, all_faces: options.all_faces };
     let watch = Watch::new(options.time_limit, options.progress)?;
     let report = watch.run(py, |callback| {

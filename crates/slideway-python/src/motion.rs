@@ -1,6 +1,7 @@
 //! A motion as Python holds it: its report, its table, its pictures.
 
 use crate::answer::{Answer, Asked, not_finite, style, theme};
+use crate::plot::Plot;
 use crate::to_python::{frozen_array, to_python};
 use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
@@ -8,7 +9,6 @@ use pyo3::prelude::*;
 use slideway::motion::{self, History, Series, SimulateOptions};
 use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
-use slideway_pictures::plot::{Figure, drawn, to_svg};
 use std::sync::Arc;
 
 /// Rows of a table that are too many to be meant.
@@ -39,11 +39,6 @@ impl Motion {
 
     fn series(&self, py: Python<'_>, times: &[f64]) -> Series {
         py.detach(|| self.history.series(times))
-    }
-
-    fn figure(&self, phase_portrait: bool) -> Figure {
-        let figure = if phase_portrait { portrait_figure } else { motion_figure };
-        figure(&self.history).changed_by(&self.asked.settings)
     }
 }
 
@@ -92,27 +87,10 @@ impl Motion {
         motion::report(&self.history, &self.options).text_with_all_events(style(color))
     }
 
-    /// The plot as plain data.
-    #[pyo3(signature = (phase_portrait) -> "reports.Figure")]
-    fn plotted<'py>(&self, py: Python<'py>, phase_portrait: bool) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.figure(phase_portrait))
-    }
-
-    /// What the panels of the plot show in frames of this width and height (px, of which small text has 13).
-    #[pyo3(signature = (phase_portrait, width, height) -> "list[reports.DrawnPanel]")]
-    fn drawn<'py>(
-        &self,
-        py: Python<'py>,
-        phase_portrait: bool,
-        width: f64,
-        height: f64,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &drawn(&self.figure(phase_portrait), [width, height]))
-    }
-
-    /// The plot as SVG.
-    fn plot_svg(&self, theme_name: &str, phase_portrait: bool) -> PyResult<String> {
-        to_svg(&self.figure(phase_portrait), theme(theme_name)?).map_err(not_finite)
+    /// The plot over time, or in the plane of coordinate and rate.
+    fn plot(&self, phase_portrait: bool) -> Plot {
+        let figure = if phase_portrait { portrait_figure } else { motion_figure };
+        Plot { figure: figure(&self.history).changed_by(&self.asked.settings) }
     }
 
     /// A moving picture as a page.

@@ -8,20 +8,19 @@ use pyo3::prelude::*;
 use slideway::Model;
 use slideway::progress::Progress;
 use slideway::sweep::{Shard, SweepOptions};
-use slideway_tables::{Control, Metadata, RowSource, ShardedSweep, Shards, Written, shard_path};
+use slideway_tables::{Control, RowSource, ShardedSweep, Shards, Written, shard_path};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Computes a shard of a sweep and writes it into a folder, unless it is there; its path.
 pub(crate) fn write_shard(
     py: Python<'_>,
-    asked: &Asked,
-    (options, shard): (SweepOptions, Shard),
+    (file, asked): (&str, &Asked),
+    (options, shard): (&SweepOptions, Shard),
     (folder, watch): (&Path, &Watch),
 ) -> PyResult<PathBuf> {
-    let metadata =
-        Metadata { command: "slideway for Python: Model.sweep".to_owned(), model: asked.text.to_string() };
-    let sharded = ShardedSweep { metadata, settings: asked.settings.clone(), options };
+    let otherwise = "slideway for Python: Model.write_shard";
+    let sharded = ShardedSweep::typed((file, &asked.text), (&asked.settings, options), otherwise);
     let is_there =
         slideway_tables::written_shard(&sharded, shard, folder).map_err(|error| os_error(&error))?;
     if is_there.is_none() {

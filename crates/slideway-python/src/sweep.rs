@@ -1,7 +1,8 @@
 //! Sweeps: all solutions at many points as one table, shared with NumPy and data frames without a copy.
 
 use crate::answer::{Asked, style};
-use crate::arguments::{numbers, value};
+use crate::arguments::{choice, numbers, value};
+use crate::plot::Plot;
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -14,10 +15,11 @@ use slideway::progress::Progress;
 use slideway::sweep::{
     GridAxis, Rows, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
 };
-use slideway_tables::arrow::Batches;
-use slideway_tables::{Encoder, Layout, RowSource, TableError};
+use slideway_tables::arrow::{ArrowTable, columns};
+use slideway_tables::{Layout, RowSource, TableError};
 use std::error::Error;
-use std::sync::Arc;
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
 
 /// What is asked of a sweep beside its axes.
 pub(crate) struct Question {
@@ -105,15 +107,6 @@ pub(crate) fn shard((number, of): (u32, u32)) -> PyResult<Shard> {
     Shard::new(number, of).map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))
 }
 
-/// How samples are distributed.
-pub(crate) fn spread(name: &str) -> PyResult<Spread> {
-    match name {
-        "random" => Ok(Spread::Random),
-        "halton" => Ok(Spread::Halton),
-        _ => Err(PyValueError::new_err(format!("sampling must be 'random' or 'halton', not {name:?}"))),
-    }
-}
-
 /// All solutions at the points of a sweep: private half of `slideway.Sweep`.
 #[pyclass(frozen, module = "slideway._slideway")]
 pub(crate) struct Table {
@@ -122,7 +115,9 @@ pub(crate) struct Table {
     pub(crate) sweep: Sweep,
     state: SweepState,
     layout: Layout,
-    records: Arc<Vec<u8>>,
+    columns: ArrowTable,
+    /// The same as records, once NumPy has asked for them.
+    records: OnceLock<Vec<u8>>,
 }
 
 impl Table {
@@ -140,39 +135,44 @@ impl Table {
         let layout = Layout::of(source.sweep(), options.points.dimensions(), options.attainability);
         let mut state = source.sweep().start();
         let points = source.sweep().points();
-        let mut records = room(points, &layout)?;
+        room(points, &layout)?;
+        let mut table = ArrowTable::new(&layout);
         let ended = watch.run_beside(py, |callback| {
-            let encode = |rows: &Rows| Encoder::records(&layout, rows);
-            let read = source.run_while(&|| true, &mut state, &encode, &mut |parts, state| {
-                parts.iter().for_each(|part| records.extend_from_slice(part));
+            let encode = |rows: &Rows| columns(&layout, rows);
+            let mut appended = Ok(());
+            source.run_while(&|| true, &mut state, &encode, &mut |parts, state| {
+                appended = parts.iter().try_for_each(|part| table.append(part));
+                if appended.is_err() {
+                    return ControlFlow::Break(());
+                }
                 callback(&Progress::of("points", state.done, points))
-            });
-            read.map(|()| records)
+            })?;
+            Ok(appended.and_then(|()| table.complete()).map(|()| table))
         })?;
         let is_done = state.done == points;
-        match ended {
-            Ended::Done(records) | Ended::TimeUp(records) if is_done => {
+        let (Ended::Done(table) | Ended::TimeUp(table)) = ended;
+        match table.map_err(|error| os_error(&error))? {
+            Err(error) => Err(PyMemoryError::new_err(format!("{error}; write the sweep in shards instead"))),
+            Ok(columns) if is_done => {
                 let sweep = source.sweep().clone();
-                let records = Arc::new(records.map_err(|error| os_error(&error))?);
-                Ok(Self { asked, options, sweep, state, layout, records })
+                Ok(Self { asked, options, sweep, state, layout, columns, records: OnceLock::new() })
             }
             _ => Err(unfinished(&state, points)),
         }
     }
 }
 
-/// Room for a record of each point.
+/// Asks for room for a record of so many rows, and gives it back.
 ///
 /// # Errors
 /// If the machine has none: rows are not computed until it breaks down.
-fn room(points: u64, layout: &Layout) -> PyResult<Vec<u8>> {
-    let mut records = Vec::new();
-    let bytes = usize::try_from(points).ok().and_then(|points| points.checked_mul(layout.record()));
-    if let Some(Ok(())) = bytes.map(|bytes| records.try_reserve(bytes)) {
-        return Ok(records);
+fn room(rows: u64, layout: &Layout) -> PyResult<()> {
+    let bytes = usize::try_from(rows).ok().and_then(|rows| rows.checked_mul(layout.record()));
+    if let Some(Ok(())) = bytes.map(|bytes| Vec::<u8>::new().try_reserve_exact(bytes)) {
+        return Ok(());
     }
-    let size = points as f64 * layout.record() as f64;
-    let message = format!("a table of {points} points needs {size:.1e} bytes; write it in shards instead");
+    let size = rows as f64 * layout.record() as f64;
+    let message = format!("a table of {rows} rows needs {size:.1e} bytes; write it in shards instead");
     Err(PyMemoryError::new_err(message))
 }
 
@@ -217,15 +217,19 @@ pub(crate) fn table(
 
 #[pymethods]
 impl Table {
-    /// The records as an array of NumPy, which shares their memory.
+    /// The rows as records: an array of NumPy that shares their memory. They are made when they are first asked for.
     #[getter]
     fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        if self.records.get().is_none() {
+            room(self.rows() as u64, &self.layout)?;
+        }
+        let records = py.detach(|| self.records.get_or_init(|| self.columns.records()));
         let interface = PyDict::new(py);
         interface.set_item("version", 3)?;
         interface.set_item("shape", (self.rows(),))?;
         interface.set_item("typestr", format!("|V{}", self.layout.record()))?;
         interface.set_item("descr", self.layout.fields())?;
-        interface.set_item("data", (self.records.as_ptr() as usize, true))?;
+        interface.set_item("data", (records.as_ptr() as usize, true))?;
         Ok(interface)
     }
 
@@ -238,15 +242,20 @@ impl Table {
     ) -> PyResult<Bound<'py, PyCapsule>> {
         // The interface lets a producer ignore what is requested.
         drop(requested_schema);
-        let batches = Batches::new(&self.layout, self.records.clone());
-        let stream = FFI_ArrowArrayStream::new(Box::new(batches));
+        let stream = FFI_ArrowArrayStream::new(Box::new(self.columns.reader()));
         PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
     }
 
     /// Number of rows.
     #[getter]
     fn rows(&self) -> usize {
-        self.records.len() / self.layout.record()
+        self.columns.rows()
+    }
+
+    /// The names of the columns.
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        self.layout.fields().into_iter().map(|(name, _)| name).collect()
     }
 
     /// Number of points, inserted ones included.
@@ -292,9 +301,8 @@ impl Table {
         quantity: &str,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<crate::sweep_plot::SweepFigure> {
-        let quantity = crate::arguments::plotted(quantity)?;
-        crate::sweep_plot::SweepFigure::of(py, self, quantity, &Watch::new(time_limit, progress)?)
+    ) -> PyResult<Plot> {
+        crate::sweep_plot::plot(py, self, choice("quantity", quantity)?, &Watch::new(time_limit, progress)?)
     }
 
     /// What the sweep comes to, in words.

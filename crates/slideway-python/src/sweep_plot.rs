@@ -1,50 +1,42 @@
 //! Plots of sweeps.
 
-use crate::answer::{not_finite, theme};
+use crate::plot::Plot;
 use crate::sweep::{Table, prepared};
-use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use pyo3::exceptions::{PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 use slideway::limits::Quantity;
 use slideway::progress::{Callback, Progress};
 use slideway::sweep::{Rows, Sweep, SweepState};
-use slideway_pictures::plot::{Figure, SamplesPlot, SweepPlot, drawn, to_svg};
+use slideway_pictures::plot::{SamplesPlot, SweepPlot};
 
-/// The plot of a sweep.
-#[pyclass(frozen, module = "slideway._slideway")]
-pub(crate) struct SweepFigure {
-    figure: Figure,
-}
-
-impl SweepFigure {
-    pub(crate) fn of(py: Python<'_>, table: &Table, quantity: Quantity, watch: &Watch) -> PyResult<Self> {
-        if let Some(shard) = table.sweep.of_shard() {
-            return Err(PyValueError::new_err(format!("shard {shard} has no plot: merge all of them")));
-        }
-        // Strokes tell of attainability.
-        let options = table.options.clone().attainability(true);
-        let sweep = prepared(py, &table.asked, &options, watch)?;
-        if sweep.line().is_none() && sweep.has_branches() {
-            let needed = "a plot needs one varied quantity with ascending values, or random samples";
-            return Err(PyValueError::new_err(format!("{needed}; map() shows two quantities")));
-        }
-        let title = table.asked.model.title.as_deref();
-        let nothing = || PyValueError::new_err("the model has no such quantity to plot");
-        let figure = if sweep.has_branches() {
-            let mut plot = SweepPlot::new(&sweep, quantity).ok_or_else(nothing)?;
-            let extractor = plot.extractor();
-            let state = run(py, &sweep, watch, |rows| extractor.rows(rows), |part| plot.add(part))?;
-            plot.set_branches(state.branches());
-            plot.figure(title)
-        } else {
-            let mut plot = SamplesPlot::new(&sweep, quantity).ok_or_else(nothing)?;
-            let taker = plot.clone();
-            let state = run(py, &sweep, watch, |rows| taker.rows(rows), |part| plot.add(&part))?;
-            plot.figure(title, &state)
-        };
-        Ok(Self { figure: figure.changed_by(&table.asked.settings) })
+/// The plot of a quantity along every branch of a sweep, or of its distribution over samples.
+pub(crate) fn plot(py: Python<'_>, table: &Table, quantity: Quantity, watch: &Watch) -> PyResult<Plot> {
+    if let Some(shard) = table.sweep.of_shard() {
+        return Err(PyValueError::new_err(format!("shard {shard} has no plot: merge all of them")));
     }
+    // Strokes tell of attainability.
+    let options = table.options.clone().attainability(true);
+    let sweep = prepared(py, &table.asked, &options, watch)?;
+    if sweep.line().is_none() && sweep.has_branches() {
+        let needed = "a plot needs one varied quantity with ascending values, or random samples";
+        return Err(PyValueError::new_err(format!("{needed}; map() shows two quantities")));
+    }
+    let title = table.asked.model.title.as_deref();
+    let nothing = || PyValueError::new_err("the model has no such quantity to plot");
+    let figure = if sweep.has_branches() {
+        let mut plot = SweepPlot::new(&sweep, quantity).ok_or_else(nothing)?;
+        let extractor = plot.extractor();
+        let state = run(py, &sweep, watch, |rows| extractor.rows(rows), |part| plot.add(part))?;
+        plot.set_branches(state.branches());
+        plot.figure(title)
+    } else {
+        let mut plot = SamplesPlot::new(&sweep, quantity).ok_or_else(nothing)?;
+        let taker = plot.clone();
+        let state = run(py, &sweep, watch, |rows| taker.rows(rows), |part| plot.add(&part))?;
+        plot.figure(title, &state)
+    };
+    Ok(Plot { figure: figure.changed_by(&table.asked.settings) })
 }
 
 /// Takes what a plot needs of all rows.
@@ -65,25 +57,5 @@ fn run<T: Send>(
     match ended {
         Ended::Done(()) => Ok(state),
         Ended::TimeUp(()) => Err(PyTimeoutError::new_err("the sweep was not done within time_limit")),
-    }
-}
-
-#[pymethods]
-impl SweepFigure {
-    /// The plot as plain data.
-    #[pyo3(signature = () -> "reports.Figure")]
-    fn figure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.figure)
-    }
-
-    /// What its panels show in frames of this width and height (px, of which small text has 13).
-    #[pyo3(signature = (width, height) -> "list[reports.DrawnPanel]")]
-    fn drawn<'py>(&self, py: Python<'py>, width: f64, height: f64) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &drawn(&self.figure, [width, height]))
-    }
-
-    /// The plot as SVG.
-    fn svg(&self, theme_name: &str) -> PyResult<String> {
-        to_svg(&self.figure, theme(theme_name)?).map_err(not_finite)
     }
 }

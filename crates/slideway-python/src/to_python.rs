@@ -4,16 +4,20 @@
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
+use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 use serde::ser::{self, Serialize};
+use std::collections::HashMap;
 use std::fmt;
 
-/// The classes of `slideway.reports`, and what they say of their fields.
+/// The classes of `slideway.reports` by their names, and what they say of their fields.
 struct Classes {
-    module: Py<PyModule>,
+    classes: HashMap<String, Py<PyAny>>,
     hints: Py<PyDict>,
+    /// `object.__new__` and `object.__setattr__`: the classes have constructors, and are frozen.
+    new: Py<PyAny>,
     set_attribute: Py<PyAny>,
 }
 
@@ -24,9 +28,12 @@ impl Classes {
         CLASSES.get_or_try_init(py, || {
             let module = py.import("slideway.reports")?;
             let hints = module.getattr("HINTS")?.cast_into::<PyDict>()?.unbind();
+            let classes = module.dict().iter().filter(|(_, value)| value.is_instance_of::<PyType>());
+            let classes = classes.map(|(name, class)| Ok((name.extract()?, class.unbind())));
             let object = py.import("builtins")?.getattr("object")?;
-            let set_attribute = object.getattr("__setattr__")?.unbind();
-            Ok(Self { module: module.unbind(), hints, set_attribute })
+            let (new, set_attribute) = (object.getattr("__new__")?, object.getattr("__setattr__")?);
+            let (new, set_attribute) = (new.unbind(), set_attribute.unbind());
+            Ok(Self { classes: classes.collect::<PyResult<_>>()?, hints, new, set_attribute })
         })
     }
 }
@@ -38,9 +45,9 @@ pub(crate) fn instance<'py>(
     attributes: Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let classes = Classes::get(py)?;
-    let class = classes.module.bind(py).getattr(class)?;
-    let object = class.call_method1("__new__", (&class,))?;
-    classes.set_attribute.bind(py).call1((&object, "__dict__", attributes))?;
+    let unknown = || PyTypeError::new_err(format!("slideway.reports has no class {class}"));
+    let object = classes.new.bind(py).call1((classes.classes.get(class).ok_or_else(unknown)?,))?;
+    classes.set_attribute.bind(py).call1((&object, intern!(py, "__dict__"), attributes))?;
     Ok(object)
 }
 
@@ -207,7 +214,7 @@ impl<'py> ser::Serializer for Serializer<'py> {
 
     fn serialize_struct(self, name: &'static str, _length: usize) -> Result<Fields<'py>, Error> {
         // Variants of enums that are no words have the name of the enum, and no class.
-        let has_class = Classes::get(self.py)?.module.bind(self.py).hasattr(name)?;
+        let has_class = Classes::get(self.py)?.classes.contains_key(name);
         Fields::new(self.py, has_class.then_some(name))
     }
 
@@ -262,6 +269,8 @@ impl<'py> Sequence<'py> {
 }
 
 /// A NumPy array that cannot be written to.
+#[pyfunction]
+#[pyo3(signature = (numbers: "Sequence[float]") -> "NDArray[np.float64]")]
 pub(crate) fn frozen_array(py: Python<'_>, numbers: Vec<f64>) -> PyResult<Bound<'_, PyAny>> {
     let array = PyArray1::from_vec(py, numbers).into_any();
     array.call_method1("setflags", (false,))?;

@@ -15,8 +15,8 @@ fn refused<T>() -> PyResult<T> {
 
 pub(crate) fn write_shard(
     _py: Python<'_>,
-    _asked: &Asked,
-    _question: (SweepOptions, Shard),
+    _asked: (&str, &Asked),
+    _question: (&SweepOptions, Shard),
     _written: (&Path, &Watch),
 ) -> PyResult<PathBuf> {
     refused()

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow
 import pytest
 from conftest import DIMENSIONS, MODELS, QUESTIONS, WORKSPACE, Program
 
@@ -156,3 +157,21 @@ def test_same_table(program: Program) -> None:
     table = model.sweep(mu="0..1:41", breakpoints=True).to_numpy()
     assert table.dtype == rows.dtype
     assert table.tobytes() == rows.tobytes()
+    assert not table.flags.writeable
+
+
+def test_columns_and_records() -> None:
+    """Data frames and NumPy have the same table. It jams from mu = L / (2 a) = 2/3 on: there the forces are missing."""
+    sweep = slideway.Model.gallery("drawer").sweep(mu=np.linspace(0, 1, 41))
+    table = np.asarray(sweep)
+    frame = pyarrow.table(sweep)
+    assert frame.column_names == sweep.columns == list(table.dtype.names or ())
+    for name in sweep.columns:
+        found, wanted = frame[name], table[name]
+        if wanted.dtype.kind == "S":
+            assert [word or "" for word in found.to_pylist()] == sweep[name].tolist(), name
+        elif name == "branch":
+            assert np.array_equal(found.fill_null(0).to_numpy(), wanted)
+        else:
+            assert np.array_equal(found.to_numpy(), wanted, equal_nan=wanted.dtype.kind == "f"), name
+    assert frame["normal_force.guide.front"].null_count == 14

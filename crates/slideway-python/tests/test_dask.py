@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
+import pyarrow.parquet
 import pytest
 import slideway
 import slideway.dask
@@ -55,6 +58,26 @@ def test_files_are_merged_to_one_run(client: Client, tmp_path: Path) -> None:
     whole = MODEL.sweep(**VALUES)
     assert_same(frame.compute(), whole)
     assert slideway.merge(tmp_path).to_numpy().tobytes() == whole.to_numpy().tobytes()
+
+
+def test_parts_tell_the_command_line_that_asks_for_the_same(tmp_path: Path) -> None:
+    """Which then writes the same bytes: crates/slideway-cli/tests/shards.rs."""
+    model = pickle.loads(pickle.dumps(slideway.Model.gallery("drawer"))).with_(mu=0.3, a="250 mm")
+
+    def told(**values: Any) -> str:
+        part = model.write_shard(tmp_path / "results", (1, 1), **values)
+        metadata = pyarrow.parquet.read_metadata(part).metadata
+        part.unlink()
+        return metadata[b"slideway.command"].decode()
+
+    start = "slideway sweep drawer.toml --set mu=0.3 --set 'a=250 mm' "
+    assert told(L=np.array([0.3, 0.4])) == start + "--vary L=0.3,0.4 --no-breakpoints"
+    assert told(L="0.3..0.4:3", breakpoints=True) == start + "--vary L=0.3..0.4:3"
+    assert told(L=["300 mm"], mu=[0.1, 0.2], attainability=True) == (
+        start + "--vary 'L=300 mm' --vary mu=0.1,0.2 --attainability"
+    )
+    assert told(samples=3, L="uniform(0.3, 0.4)") == start + "--vary 'L=uniform(0.3, 0.4)' --samples 3"
+    assert told(L=["min(0.3, 0.4)", 0.5]) == "slideway for Python: Model.write_shard"
 
 
 def test_parts_that_are_there_are_kept(client: Client, tmp_path: Path) -> None:

@@ -197,6 +197,6 @@ def test_without_matplotlib_it_says_what_to_install():
 
 
 def test_what_panels_show_does_not_depend_on_matplotlib(figure_4):
-    wide, narrow = (figure_4._answer.drawn(width, 380.0)[0] for width in (700.0, 300.0))
+    wide, narrow = (figure_4._answer.plot().drawn(width, 380.0)[0] for width in (700.0, 300.0))
     assert wide.x == narrow.x and wide.y == narrow.y
-    assert plotting.plot_figure(figure_4._answer.figure(), lambda *_: [wide]).get_xlim() == wide.x
+    assert plotting.plot_figure(figure_4._answer.plot().figure(), lambda *_: [wide]).get_xlim() == wide.x

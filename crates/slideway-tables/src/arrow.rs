@@ -1,20 +1,25 @@
-//! Records as Apache Arrow: what data frames of other programs take without text between.
+//! Rows as columns of Apache Arrow: what data frames of other programs take without text between.
+//!
+//! [`columns`] makes columns of some rows in any thread, [`ArrowTable`] puts them together in the order of the rows, so
+//! that they are made while other threads still compute. Its records are those of a NumPy file.
 
 use crate::Layout;
-use crate::record::{Field, FieldKind, fields};
+use crate::record::{Field, FieldKind, Meaning, fields};
 use ::arrow_array::builder::{ArrayBuilder, Float64Builder, StringBuilder, UInt32Builder, UInt64Builder};
-use ::arrow_array::{ArrayRef, RecordBatch, RecordBatchReader};
+use ::arrow_array::cast::AsArray;
+use ::arrow_array::types::{Float64Type, UInt32Type, UInt64Type};
+use ::arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator, RecordBatchReader};
 use ::arrow_schema::{ArrowError, DataType, Field as Column, Schema, SchemaRef};
 use rayon::prelude::*;
+use slideway::report::defined;
+use slideway::sweep::{RowHead, Rows};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Rows of a batch.
+/// Rows of a batch, at least, but for the last one.
 const BATCH: usize = 1 << 18;
 
-/// Columns that one task takes out of all records of a batch, and records that it reads at a time: these stay in the
-/// cache of a processor until all of these columns have what is theirs.
-const COLUMNS: usize = 8;
+/// Records that are written at a time: these stay in the cache of a processor until every column is in them.
 const TILE: usize = 512;
 
 /// The columns of a table; those of numbers have their `unit` as metadata.
@@ -38,139 +43,228 @@ pub fn schema(layout: &Layout) -> SchemaRef {
     Arc::new(Schema::new(fields(layout).iter().map(column).collect::<Vec<_>>()))
 }
 
-/// The records of a table as batches, each made when it is asked for.
-#[derive(Debug)]
-pub struct Batches {
-    records: Arc<Vec<u8>>,
-    fields: Vec<Field>,
-    schema: SchemaRef,
-    next: usize,
+/// The columns of rows, for [`ArrowTable::append`].
+pub fn columns(layout: &Layout, rows: &Rows) -> Vec<ArrayRef> {
+    fields(layout).iter().map(|field| column(field.meaning, rows)).collect()
 }
 
-impl Batches {
-    /// Of records as [`Encoder::records`](crate::Encoder::records) encodes them.
-    pub fn new(layout: &Layout, records: Arc<Vec<u8>>) -> Self {
-        Self { records, fields: fields(layout), schema: schema(layout), next: 0 }
-    }
-
-    fn batch(&self, rows: std::ops::Range<usize>) -> Result<RecordBatch, ArrowError> {
-        let size: usize = self.fields.iter().map(|field| field.kind.size()).sum();
-        let records = &self.records[rows.start * size..rows.end * size];
-        let starts = self.fields.iter().scan(0, |start, field| {
-            *start += field.kind.size();
-            Some(*start - field.kind.size())
-        });
-        let columns: Vec<(FieldKind, usize)> =
-            self.fields.iter().map(|field| field.kind).zip(starts).collect();
-        let columns: Vec<_> =
-            columns.par_chunks(COLUMNS).map(|columns| gathered(records, size, columns)).collect();
-        RecordBatch::try_new(self.schema.clone(), columns.concat())
-    }
-}
-
-/// Columns of records of this size, each given by what its field holds and where it begins.
-fn gathered(records: &[u8], size: usize, columns: &[(FieldKind, usize)]) -> Vec<ArrayRef> {
-    let rows = records.len() / size;
-    let mut growing: Vec<Growing> = columns.iter().map(|(kind, _)| Growing::new(*kind, rows)).collect();
-    for tile in records.chunks(TILE * size) {
-        for (column, (_, start)) in growing.iter_mut().zip(columns) {
-            column.extend(tile, size, *start);
+/// What stands in one column of rows.
+fn column(meaning: Meaning, rows: &Rows) -> ArrayRef {
+    let heads = rows.heads.iter();
+    match meaning {
+        Meaning::Point => {
+            let mut points = UInt64Builder::with_capacity(rows.len());
+            points.extend(heads.map(|head| Some(head.point)));
+            Arc::new(points.finish())
+        }
+        Meaning::Number(at) => {
+            let mut numbers = Float64Builder::with_capacity(rows.len());
+            numbers.extend(rows.numbers.iter().skip(at).step_by(rows.width).map(|number| defined(*number)));
+            Arc::new(numbers.finish())
+        }
+        Meaning::Solutions => counts(rows, |head| Some(head.solutions)),
+        Meaning::GapStates => counts(rows, |head| Some(head.gap_states)),
+        Meaning::Rejected => counts(rows, |head| Some(head.rejected)),
+        Meaning::Branch => counts(rows, |head| (head.branch > 0).then_some(head.branch)),
+        Meaning::Breakpoint => words(heads.map(|head| head.breakpoint.word())),
+        Meaning::Status => words(heads.map(|head| head.status.word())),
+        Meaning::Kind => words(heads.map(|head| head.kind.word())),
+        Meaning::Attainability => words(heads.map(|head| head.verdict.word())),
+        Meaning::DeterminantSign => words(heads.map(|head| head.determinant_sign())),
+        Meaning::Pattern => {
+            let pattern = |row| std::str::from_utf8(rows.pattern(row).trim_ascii()).unwrap_or_default();
+            words((0..rows.len()).map(pattern))
         }
     }
-    growing.iter_mut().map(|column| column.builder().finish()).collect()
 }
 
-/// A column that is being built.
+fn counts(rows: &Rows, count: impl Fn(&RowHead) -> Option<u32>) -> ArrayRef {
+    let mut counts = UInt32Builder::with_capacity(rows.len());
+    counts.extend(rows.heads.iter().map(count));
+    Arc::new(counts.finish())
+}
+
+/// Words; nothing in place of an empty one.
+fn words<'w>(words: impl Iterator<Item = &'w str>) -> ArrayRef {
+    let mut column = StringBuilder::new();
+    column.extend(words.map(|word| (!word.is_empty()).then_some(word)));
+    Arc::new(column.finish())
+}
+
+/// A column that is being put together.
+#[derive(Debug)]
 enum Growing {
     Points(UInt64Builder),
     Counts(UInt32Builder),
-    Branches(UInt32Builder),
     Numbers(Float64Builder),
-    /// Words of at most so many bytes.
-    Words(usize, StringBuilder),
+    Words(StringBuilder),
 }
 
 impl Growing {
-    fn new(kind: FieldKind, rows: usize) -> Self {
+    fn new(kind: FieldKind) -> Self {
         match kind {
-            FieldKind::Point => Self::Points(UInt64Builder::with_capacity(rows)),
-            FieldKind::Count => Self::Counts(UInt32Builder::with_capacity(rows)),
-            FieldKind::Branch => Self::Branches(UInt32Builder::with_capacity(rows)),
-            FieldKind::Number => Self::Numbers(Float64Builder::with_capacity(rows)),
-            FieldKind::Word(length) => Self::Words(length, StringBuilder::with_capacity(rows, rows * length)),
+            FieldKind::Point => Self::Points(UInt64Builder::new()),
+            FieldKind::Count | FieldKind::Branch => Self::Counts(UInt32Builder::new()),
+            FieldKind::Number => Self::Numbers(Float64Builder::new()),
+            FieldKind::Word(_) => Self::Words(StringBuilder::new()),
         }
+    }
+
+    fn append(&mut self, column: &dyn Array) -> Result<(), ArrowError> {
+        match self {
+            Self::Points(builder) => builder.append_array(column.as_primitive::<UInt64Type>()),
+            Self::Counts(builder) => builder.append_array(column.as_primitive::<UInt32Type>()),
+            Self::Numbers(builder) => builder.append_array(column.as_primitive::<Float64Type>()),
+            Self::Words(builder) => builder.append_array(column.as_string::<i32>())?,
+        }
+        Ok(())
     }
 
     fn builder(&mut self) -> &mut dyn ArrayBuilder {
         match self {
             Self::Points(builder) => builder,
-            Self::Counts(builder) | Self::Branches(builder) => builder,
+            Self::Counts(builder) => builder,
             Self::Numbers(builder) => builder,
-            Self::Words(_, builder) => builder,
-        }
-    }
-
-    /// Appends a field of these records.
-    fn extend(&mut self, records: &[u8], size: usize, start: usize) {
-        match self {
-            Self::Points(builder) => {
-                builder.extend(numbers(records, size, start).map(|bytes| Some(u64::from_le_bytes(bytes))));
-            }
-            Self::Counts(builder) => {
-                builder.extend(numbers(records, size, start).map(|bytes| Some(u32::from_le_bytes(bytes))));
-            }
-            Self::Branches(builder) => {
-                let branches = numbers(records, size, start).map(u32::from_le_bytes);
-                builder.extend(branches.map(|branch| (branch > 0).then_some(branch)));
-            }
-            Self::Numbers(builder) => {
-                let numbers = numbers(records, size, start).map(f64::from_le_bytes);
-                builder.extend(numbers.map(|number| (!number.is_nan()).then_some(number)));
-            }
-            Self::Words(length, builder) => {
-                // The same word stands in many rows, one behind the other.
-                let (mut last, mut text): (&[u8], _) = (&[], None);
-                for record in records.chunks_exact(size) {
-                    let word = &record[start..start + *length];
-                    if word != last {
-                        let end = word.iter().position(|byte| *byte == 0).unwrap_or(*length);
-                        text = std::str::from_utf8(&word[..end]).ok().filter(|text| !text.is_empty());
-                        last = word;
-                    }
-                    builder.append_option(text);
-                }
-            }
+            Self::Words(builder) => builder,
         }
     }
 }
 
-/// The bytes of a field in each record.
-fn numbers<const SIZE: usize>(
-    records: &[u8],
-    record: usize,
-    start: usize,
-) -> impl Iterator<Item = [u8; SIZE]> {
-    records.chunks_exact(record).filter_map(move |record| record[start..start + SIZE].first_chunk().copied())
+/// A table in columns.
+#[derive(Debug)]
+pub struct ArrowTable {
+    fields: Vec<Field>,
+    schema: SchemaRef,
+    growing: Vec<Growing>,
+    batches: Vec<RecordBatch>,
 }
 
-impl Iterator for Batches {
-    type Item = Result<RecordBatch, ArrowError>;
+impl ArrowTable {
+    /// A table without rows.
+    pub fn new(layout: &Layout) -> Self {
+        let fields = fields(layout);
+        let growing = fields.iter().map(|field| Growing::new(field.kind)).collect();
+        Self { fields, schema: schema(layout), growing, batches: Vec::new() }
+    }
 
-    fn next(&mut self) -> Option<Self::Item> {
+    /// Appends rows, by their [`columns`].
+    ///
+    /// # Errors
+    /// If the words of a column become too long for Arrow.
+    pub fn append(&mut self, columns: &[ArrayRef]) -> Result<(), ArrowError> {
+        for (growing, column) in self.growing.iter_mut().zip(columns) {
+            growing.append(column)?;
+        }
+        let rows = self.growing.first_mut().map_or(0, |points| points.builder().len());
+        if rows >= BATCH { self.complete() } else { Ok(()) }
+    }
+
+    /// Completes a batch: [`Self::reader`] and [`Self::records`] have the rows that were appended before.
+    ///
+    /// # Errors
+    /// None, if the columns of all rows were of this layout.
+    pub fn complete(&mut self) -> Result<(), ArrowError> {
+        let columns = self.growing.iter_mut().map(|column| column.builder().finish()).collect();
+        self.batches.push(RecordBatch::try_new(self.schema.clone(), columns)?);
+        Ok(())
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.batches.iter().map(RecordBatch::num_rows).sum()
+    }
+
+    /// The rows in batches, which share the memory of the table.
+    pub fn reader(&self) -> impl RecordBatchReader + Send + 'static {
+        let batches: Vec<_> = self.batches.iter().cloned().map(Ok).collect();
+        RecordBatchIterator::new(batches, self.schema.clone())
+    }
+
+    /// The rows as records: the elements of a NumPy array whose fields are [`Layout::fields`].
+    pub fn records(&self) -> Vec<u8> {
         let size: usize = self.fields.iter().map(|field| field.kind.size()).sum();
-        let rows = self.records.len() / size;
-        if self.next >= rows {
-            return None;
+        let mut records = vec![0; self.rows() * size];
+        let mut rest = &mut records[..];
+        for batch in &self.batches {
+            let (own, others) = rest.split_at_mut(batch.num_rows() * size);
+            rest = others;
+            own.par_chunks_mut(TILE * size).enumerate().for_each(|(tile, records)| {
+                let mut start = 0;
+                for (field, column) in self.fields.iter().zip(batch.columns()) {
+                    let column = column.slice(tile * TILE, records.len() / size);
+                    fill(
+                        records.chunks_exact_mut(size).map(|record| &mut record[start..]),
+                        field.kind,
+                        &column,
+                    );
+                    start += field.kind.size();
+                }
+            });
         }
-        let end = (self.next + BATCH).min(rows);
-        let batch = self.batch(self.next..end);
-        self.next = end;
-        Some(batch)
+        records
     }
 }
 
-impl RecordBatchReader for Batches {
-    fn schema(&self) -> SchemaRef {
-        self.schema.clone()
+/// Writes a column into the records of its rows, each from the byte on at which the field begins.
+fn fill<'r>(records: impl Iterator<Item = &'r mut [u8]>, kind: FieldKind, column: &dyn Array) {
+    match kind {
+        FieldKind::Point => {
+            let points = column.as_primitive::<UInt64Type>().values().iter();
+            write(records, points.map(|point| point.to_le_bytes()));
+        }
+        FieldKind::Count | FieldKind::Branch => {
+            let counts = column.as_primitive::<UInt32Type>().iter();
+            write(records, counts.map(|count| count.unwrap_or(0).to_le_bytes()));
+        }
+        FieldKind::Number => {
+            let numbers = column.as_primitive::<Float64Type>().iter();
+            write(records, numbers.map(|number| number.unwrap_or(f64::NAN).to_le_bytes()));
+        }
+        FieldKind::Word(_) => write(records, column.as_string::<i32>().iter().map(Option::unwrap_or_default)),
+    }
+}
+
+fn write<'r, B: AsRef<[u8]>>(records: impl Iterator<Item = &'r mut [u8]>, values: impl Iterator<Item = B>) {
+    for (record, value) in records.zip(values) {
+        let value = value.as_ref();
+        record[..value.len()].copy_from_slice(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record;
+    use slideway::model::Model;
+    use slideway::sweep::{GridAxis, Sweep, SweepOptions};
+    use std::ops::ControlFlow;
+
+    /// Of a sweep with numbers that are missing, branches that end, and every column.
+    #[test]
+    fn columns_hold_what_records_hold() {
+        let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
+        let model = Model::parse(text).expect("a model");
+        let axis = GridAxis::linear("mu_1", 0.0, 2.0, 2001);
+        let options = SweepOptions::grid([axis]).attainability(true).all_columns(true);
+        let sweep = Sweep::new(&model, &options).expect("a sweep");
+        let layout = Layout::of(&sweep, 1, true);
+        let (mut table, mut expected) = (ArrowTable::new(&layout), Vec::new());
+        let encode = |rows: &Rows| (columns(&layout, rows), record::rows(&layout, rows));
+        sweep.run(&mut sweep.start(), &encode, &mut |parts, _| {
+            for (columns, records) in parts {
+                table.append(&columns).expect("columns of the layout");
+                table.complete().expect("columns of the layout");
+                expected.extend(records);
+            }
+            ControlFlow::Continue(())
+        });
+        let has_nothing = |batch: &RecordBatch| batch.columns().iter().any(|column| column.null_count() > 0);
+        assert!(table.batches.len() > 1 && table.batches.iter().any(has_nothing));
+        assert_eq!(table.rows() * layout.record(), expected.len());
+        assert!(table.records() == expected);
+        assert_eq!(
+            table.reader().map(|batch| batch.expect("a batch").num_rows()).sum::<usize>(),
+            table.rows()
+        );
     }
 }

@@ -48,11 +48,6 @@ impl Encoder {
         }
     }
 
-    /// Rows as records of a fixed size: the elements of a NumPy array whose fields are [`Layout::fields`].
-    pub fn records(layout: &Layout, rows: &Rows) -> Vec<u8> {
-        record::rows(layout, rows)
-    }
-
     /// The bytes of rows.
     pub fn rows(&self, rows: &Rows) -> Vec<u8> {
         match self.format {

@@ -18,7 +18,8 @@
 //! `writing.rs` leads rows into a table, `partial.rs` is that table until it is whole; `encoder.rs` makes bytes
 //! of rows, with `csv.rs` or `record.rs`, from whose records `npz.rs` and `parquet/` make files. `shard.rs` is
 //! what a shard tells of itself, `shards.rs` the folder of all; `parquet/reader.rs` reads their rows,
-//! `parquet/seal.rs` tells whether they are what was written.
+//! `parquet/seal.rs` tells whether they are what was written. `command.rs` is the command line of a sweep, `arrow.rs`
+//! its rows as columns in memory.
 //!
 //! # Features
 //! - `parquet`: Parquet files, and shards. Its library takes long to build.
@@ -26,6 +27,7 @@
 
 #[cfg(feature = "arrow")]
 pub mod arrow;
+mod command;
 mod csv;
 mod encoder;
 mod error;
@@ -42,6 +44,7 @@ mod shard;
 mod shards;
 mod writing;
 
+pub use command::quoted;
 pub use encoder::Encoder;
 pub use error::{Difference, Reason, TableError};
 pub use format::TableFormat;

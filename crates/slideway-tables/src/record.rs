@@ -130,7 +130,7 @@ pub(crate) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
                 Meaning::Breakpoint => out.extend_from_slice(head.breakpoint.word().as_bytes()),
                 Meaning::Status => out.extend_from_slice(head.status.word().as_bytes()),
                 Meaning::Kind => out.extend_from_slice(head.kind.word().as_bytes()),
-                Meaning::DeterminantSign => out.extend_from_slice(sign(head.negative_determinant)),
+                Meaning::DeterminantSign => out.extend_from_slice(head.determinant_sign().as_bytes()),
                 Meaning::Pattern => out.extend_from_slice(rows.pattern(row).trim_ascii()),
                 Meaning::Attainability => out.extend_from_slice(head.verdict.word().as_bytes()),
             }
@@ -139,11 +139,6 @@ pub(crate) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
         }
     }
     out
-}
-
-/// The sign of a determinant; nothing if it is not known.
-fn sign(is_negative: Option<bool>) -> &'static [u8] {
-    is_negative.map_or(b"", |is_negative| if is_negative { b"-" } else { b"+" })
 }
 
 #[cfg(test)]

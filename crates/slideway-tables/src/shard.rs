@@ -1,6 +1,7 @@
 //! What a shard of a sweep tells of itself.
 
 use crate::Metadata;
+use crate::command::{command, typed_options, typed_settings};
 use serde::{Deserialize, Serialize};
 use slideway::fault::Faults;
 use slideway::model::{Model, Settings};
@@ -20,6 +21,18 @@ pub struct ShardedSweep {
 }
 
 impl ShardedSweep {
+    /// A sweep of the model in a file, as the command line is told of it: with values as texts. If there is no such
+    /// command, its tables name `otherwise` in its place.
+    pub fn typed(
+        (file, model): (&str, &str),
+        (settings, options): (&Settings, &SweepOptions),
+        otherwise: &str,
+    ) -> Self {
+        let (settings, options) = (typed_settings(settings), typed_options(options));
+        let command = command(file, &settings, &options).unwrap_or_else(|| otherwise.to_owned());
+        Self { metadata: Metadata { command, model: model.to_owned() }, settings, options }
+    }
+
     /// The whole sweep, with exact ends of modes that were found before.
     ///
     /// # Errors

@@ -55,6 +55,7 @@
 
 pub mod attainability;
 pub mod check;
+pub mod choice;
 pub mod configuration;
 pub mod drawing;
 pub mod drive;

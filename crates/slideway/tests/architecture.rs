@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
+    ("choice", &[]),
     ("expression", &["interval"]),
     ("ids", &[]),
     ("fault", &["expression", "printable", "units"]),
-    ("units", &["expression"]),
+    ("units", &["choice", "expression"]),
     ("model", &["expression", "fault", "ids", "interval", "units"]),
     ("drawing", &["fault", "ids", "model"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model", "modes", "units"]),

@@ -1,8 +1,9 @@
 //! `slideway limits`
 
-use super::values::positive;
+use super::values::{choice, positive};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use slideway::choice::Choice;
 use slideway::limits::{EFFORT, Quantity};
 
 pub(super) const HELP: &str = "\
@@ -50,37 +51,12 @@ pub(crate) struct LimitsArguments {
     pub(crate) plot: PlotArguments,
 
     /// What the plot shows.
-    #[arg(long, value_enum, default_value_t, requires = "plot")]
-    pub(crate) quantity: PlottedQuantity,
+    #[arg(long, default_value = Quantity::default().word(), value_parser = choice::<Quantity>(), requires = "plot")]
+    pub(crate) quantity: Quantity,
 
     #[command(flatten)]
     pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,
-}
-
-/// What a plot shows.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PlottedQuantity {
-    /// The normal force of every contact.
-    #[default]
-    NormalForce,
-    /// The friction force of every contact.
-    Friction,
-    /// The acceleration of every coordinate.
-    Acceleration,
-    /// The effort of every drive.
-    Effort,
-}
-
-impl From<PlottedQuantity> for Quantity {
-    fn from(quantity: PlottedQuantity) -> Self {
-        match quantity {
-            PlottedQuantity::NormalForce => Self::NormalForce,
-            PlottedQuantity::Friction => Self::Friction,
-            PlottedQuantity::Acceleration => Self::Acceleration,
-            PlottedQuantity::Effort => Self::Effort,
-        }
-    }
 }

@@ -1,7 +1,9 @@
 //! `slideway map`
 
+use super::values::choice;
 use super::{ModelArguments, PictureTheme, TimeArguments};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use slideway::choice::Choice;
 use slideway::map::{ColourBy, GREATEST_SIZE};
 use std::path::PathBuf;
 
@@ -35,8 +37,8 @@ pub(crate) struct MapArguments {
     pub(crate) y: String,
 
     /// What the colours show.
-    #[arg(long, value_enum, default_value_t, alias = "color-by")]
-    pub(crate) colour_by: MapColours,
+    #[arg(long, default_value = ColourBy::default().word(), value_parser = choice::<ColourBy>(), alias = "color-by")]
+    pub(crate) colour_by: ColourBy,
 
     /// Pixels from left to right and from bottom to top.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "400x400", value_parser = size)]
@@ -60,37 +62,6 @@ pub(crate) struct MapArguments {
     /// Overwrite the output file if it exists.
     #[arg(long)]
     pub(crate) force: bool,
-}
-
-/// What the colours of a map tell.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MapColours {
-    /// The number of solutions.
-    #[default]
-    Solutions,
-    /// The set of contact modes that have a solution.
-    Modes,
-    /// The factor by which all friction may grow before there is no solution or more than one.
-    Margin,
-    /// Whether it can move as in the model, and in the opposite direction.
-    Jam,
-    /// Whether each solution speeds up or slows down.
-    Motion,
-    /// Whether it can stay at rest, its drives absent.
-    Hold,
-}
-
-impl From<MapColours> for ColourBy {
-    fn from(colours: MapColours) -> Self {
-        match colours {
-            MapColours::Solutions => Self::Solutions,
-            MapColours::Modes => Self::Modes,
-            MapColours::Margin => Self::Margin,
-            MapColours::Jam => Self::Jam,
-            MapColours::Motion => Self::Motion,
-            MapColours::Hold => Self::Hold,
-        }
-    }
 }
 
 /// A size such as 400x300.

@@ -1,6 +1,8 @@
 //! A model and what is changed in it.
 
-use clap::{Args, ValueEnum};
+use super::values::choice;
+use clap::Args;
+use slideway::choice::Choice;
 use slideway::fault::{Fault, FaultKind};
 use slideway::model::{Setting, SettingKind, Settings};
 use slideway::units::UnitSystem;
@@ -31,47 +33,23 @@ pub(crate) struct ModelArguments {
 
     /// In which units numbers are shown to people: as in the model, those of the SI, or mm, degrees and
     /// newtons. Overrides the `units` of the model file; JSON and tables are in SI units.
-    #[arg(long, value_enum, value_name = "UNITS")]
-    units: Option<ShownUnits>,
+    #[arg(long, value_name = "UNITS", ignore_case = true, value_parser = choice::<UnitSystem>())]
+    units: Option<UnitSystem>,
 
     /// Take warnings for errors: what makes sense, but is perhaps not meant, such as `along = 90`.
     #[arg(long)]
     pub(crate) strict: bool,
 }
 
-/// In which units numbers are shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ShownUnits {
-    /// As the quantities of the model were typed; computed forces, moments and powers in a unit that suits them.
-    AsTyped,
-    /// Those of the SI.
-    #[value(name = "SI", alias = "si")]
-    Si,
-    /// Millimetres, degrees, newtons, and what follows from them.
-    #[value(name = "mm")]
-    Millimetres,
-}
-
-impl From<ShownUnits> for UnitSystem {
-    fn from(units: ShownUnits) -> Self {
-        match units {
-            ShownUnits::AsTyped => Self::AsTyped,
-            ShownUnits::Si => Self::Si,
-            ShownUnits::Millimetres => Self::Millimetres,
-        }
-    }
-}
-
 impl ModelArguments {
     /// The option for units as it was given.
     pub(crate) fn units_option(&self) -> Option<String> {
-        let value = self.units?.to_possible_value()?;
-        Some(format!("--units {}", value.get_name()))
+        Some(format!("--units {}", self.units?.word()))
     }
 
     /// The units that are asked for.
     pub(crate) fn units(&self) -> Option<UnitSystem> {
-        self.units.map(UnitSystem::from)
+        self.units
     }
 
     /// The settings, and the faults of those that are not of the form name=value.

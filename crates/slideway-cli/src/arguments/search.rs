@@ -26,8 +26,6 @@ pub(crate) struct SearchArguments {
 impl SearchArguments {
     /// The options of the search.
     pub(crate) fn options(&self) -> SearchOptions {
-        let defaults = SearchOptions::default();
-        let limits = Limits { solutions: self.max_found, ..defaults.limits };
-        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
+        SearchOptions::within(self.max_nodes, Some(self.max_found))
     }
 }

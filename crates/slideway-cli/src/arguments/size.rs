@@ -1,10 +1,12 @@
 //! `slideway size`
 
-use super::values::{Limit, efficiency, effort, force, positive, pressure};
+use super::values::{Limit, choice, efficiency, effort, force, positive, pressure};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
-use clap::{Args, ValueEnum};
-use slideway::fault::{Fault, FaultKind, Faults};
-use slideway::size;
+use clap::Args;
+use slideway::choice::Choice;
+use slideway::fault::Faults;
+use slideway::model::Model;
+use slideway::size::{Against, FrictionMargin};
 use slideway::units::Unit;
 
 pub(super) const HELP: &str = "\
@@ -49,8 +51,8 @@ pub(crate) struct SizeArguments {
     limit: Wanted,
 
     /// Against what.
-    #[arg(long, value_enum, default_value_t)]
-    against: Against,
+    #[arg(long, default_value = FrictionMargin::default().word(), value_parser = choice::<FrictionMargin>())]
+    against: FrictionMargin,
 
     /// The load, or the drive whose effort is the load, for a margin at rest; the drive of --max-effort, or the
     /// contact of --max-normal-force or --max-pressure, by default all of them.
@@ -73,18 +75,6 @@ pub(crate) struct SizeArguments {
 
     #[command(flatten)]
     pub(crate) destination: Destination,
-}
-
-/// Against what there is to be a margin.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum Against {
-    /// Locking in motion.
-    #[default]
-    Locking,
-    /// Self-locking at rest under the load.
-    SelfLocking,
-    /// Slipping at rest: the load must be held however great it is.
-    Hold,
 }
 
 /// What is wanted.
@@ -137,28 +127,20 @@ impl SizeArguments {
     ///
     /// # Errors
     /// A margin at rest without a load, one of motion with a load.
-    pub(crate) fn against(&self, loads: Vec<String>) -> Result<size::Against, Faults> {
+    pub(crate) fn against(&self, model: &Model) -> Result<Against, Faults> {
+        let load = self.load.clone();
         if self.limit.max_effort.is_some() {
-            return Ok(size::Against::Effort { drive: self.load.clone() });
+            return Ok(Against::Effort { drive: load });
         }
         if self.limit.max_normal_force.is_some() {
-            return Ok(size::Against::NormalForce { contact: self.load.clone() });
+            return Ok(Against::NormalForce { contact: load });
         }
         if self.limit.max_pressure.is_some() {
-            return Ok(size::Against::Pressure { contact: self.load.clone() });
+            return Ok(Against::Pressure { contact: load });
         }
         if self.limit.min_efficiency.is_some() {
-            return match &self.load {
-                None => Ok(size::Against::Efficiency),
-                Some(load) => Err(Fault::general(FaultKind::LoadUnused { load: load.clone() }).into()),
-            };
+            return Against::efficiency(load);
         }
-        match (self.against, self.load.clone()) {
-            (Against::Locking, None) => Ok(size::Against::Locking),
-            (Against::SelfLocking, Some(load)) => Ok(size::Against::SelfLocking { load }),
-            (Against::Hold, Some(load)) => Ok(size::Against::Hold { load }),
-            (Against::Locking, Some(load)) => Err(Fault::general(FaultKind::LoadUnused { load }).into()),
-            (_, None) => Err(Fault::general(FaultKind::LoadNeeded { known: loads }).into()),
-        }
+        Against::margin(self.against, load, model)
     }
 }

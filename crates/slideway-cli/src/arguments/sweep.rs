@@ -1,10 +1,12 @@
 //! `slideway sweep`
 
-use super::limits::PlottedQuantity;
+use super::values::choice;
 use super::{Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Arg, Args, ValueEnum};
+use clap::{Arg, Args};
+use slideway::choice::Choice;
 use slideway::fault::Faults;
+use slideway::limits::Quantity;
 use slideway::sweep::{Sampling, Shard, Spread, SweepOptions, SweepPoints};
 use slideway_tables::TableFormat;
 use std::path::PathBuf;
@@ -62,8 +64,8 @@ pub(crate) struct SweepArguments {
     samples: Option<u64>,
 
     /// How samples are distributed.
-    #[arg(long, value_enum, default_value_t, requires = "samples")]
-    sampling: SamplingKind,
+    #[arg(long, default_value = Spread::default().word(), value_parser = choice::<Spread>(), requires = "samples")]
+    sampling: Spread,
 
     /// Seed of the samples: the same seed gives the same samples.
     #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "samples")]
@@ -97,8 +99,8 @@ pub(crate) struct SweepArguments {
     pub(crate) plot: PlotArguments,
 
     /// What the plot shows.
-    #[arg(long, value_enum, default_value_t, requires = "plot")]
-    pub(crate) quantity: PlottedQuantity,
+    #[arg(long, default_value = Quantity::default().word(), value_parser = choice::<Quantity>(), requires = "plot")]
+    pub(crate) quantity: Quantity,
 
     #[command(flatten)]
     pub(crate) time: TimeArguments,
@@ -137,15 +139,12 @@ impl SweepArguments {
     /// # Errors
     /// The faults of every axis that cannot be read.
     pub(crate) fn options(&self) -> Result<SweepOptions, Faults> {
-        let spread = match self.sampling {
-            SamplingKind::Random => Spread::Random,
-            SamplingKind::Halton => Spread::Halton,
-        };
         let points = match self.samples {
             None => SweepPoints::Grid(axes(&self.vary)?),
-            Some(count) => {
-                SweepPoints::Samples(Sampling { count, spread, seed: self.seed }, axes(&self.vary)?)
-            }
+            Some(count) => SweepPoints::Samples(
+                Sampling { count, spread: self.sampling, seed: self.seed },
+                axes(&self.vary)?,
+            ),
         };
         Ok(SweepOptions::over(points)
             .breakpoints(!self.no_breakpoints)
@@ -161,16 +160,6 @@ fn axes<A: FromStr<Err = Faults>>(texts: &[String]) -> Result<Vec<A>, Faults> {
     let axes = texts.iter().filter_map(|text| text.parse().map_err(|found| faults.append(found)).ok());
     let axes = axes.collect();
     faults.or(axes)
-}
-
-/// How samples are distributed.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum SamplingKind {
-    /// Independent of one another.
-    #[default]
-    Random,
-    /// A randomly shifted Halton sequence: more even, so that shares converge faster.
-    Halton,
 }
 
 /// The names of the forms of tables.

@@ -1,7 +1,15 @@
 //! Values of arguments.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use slideway::choice::Choice;
 use slideway::units::Unit;
 use std::time::Duration;
+
+/// One of a few by its word, with what each means for the help.
+pub(super) fn choice<C: Choice + Send + Sync>() -> impl TypedValueParser<Value = C> {
+    let words = C::CHOICES.iter().map(|(_, word, meaning)| PossibleValue::new(*word).help(*meaning));
+    PossibleValuesParser::new(words).map(|word| C::of_word(&word).expect("one of the words"))
+}
 
 /// A positive number.
 pub(super) fn positive(text: &str) -> Result<f64, String> {

@@ -24,7 +24,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
     let mut watch = Watch::new(arguments.time.time_limit);
     let mut look = |progress: &Progress| watch.look(progress);
     let report = if let Some((picture, file)) = plot {
-        let found = limits::curves_with(&model, &options, arguments.quantity.into(), &mut look);
+        let found = limits::curves_with(&model, &options, arguments.quantity, &mut look);
         let (report, curves) = watch.whole(found.map_err(|faults| input.refused(faults))?)?;
         let figure = limits_figure(&report, &curves).changed_by(&input.settings);
         picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;

@@ -22,7 +22,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let [x, y] = input.vary_both(&model, [&arguments.x, &arguments.y])?;
     let options = MapOptions::new(x, y)
         .size(width, height)
-        .colour_by(arguments.colour_by.into())
+        .colour_by(arguments.colour_by)
         .probe(usize::from(arguments.probe));
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = map_with(&model, &options, &mut |progress| watch.look(progress));

@@ -134,8 +134,7 @@ impl Question<'_> {
             return Err(self.refused(FaultKind::NothingToSimulate { start, end }));
         }
         let longest_step = self.positive_time("longest-step", arguments.longest_step.as_deref())?;
-        let initial = arguments.mode.as_deref().map(|text| self.mode(text)).transpose()?;
-        let mut options = SimulateOptions::new(end - start)
+        let options = SimulateOptions::new(end - start)
             .tolerance(arguments.tolerance)
             .longest_step(longest_step)
             .most_steps(arguments.max_steps)
@@ -144,8 +143,12 @@ impl Question<'_> {
             .branches(arguments.branch.iter().copied())
             .prefers_sliding(arguments.prefer == Preference::Sliding)
             .with_events_of(self.mechanism);
-        options.initial = initial;
-        Ok(options)
+        match &arguments.mode {
+            Some(mode) => {
+                options.initial_of(mode, self.mechanism).map_err(|faults| self.input.refused(faults))
+            }
+            None => Ok(options),
+        }
     }
 
     /// The step of the table.
@@ -155,17 +158,6 @@ impl Question<'_> {
             Some(rows) if rows > MOST_ROWS => Err(Failure::TooManyRows { rows, most: MOST_ROWS }),
             _ => Ok(step),
         }
-    }
-
-    /// A contact mode without its blanks.
-    fn mode(&self, text: &str) -> Result<String, Failure> {
-        let pattern: String = text.chars().filter(|sign| !sign.is_whitespace()).collect();
-        let contacts = &self.mechanism.contacts;
-        if pattern.len() == contacts.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
-            return Ok(pattern);
-        }
-        let contacts = contacts.iter().map(|contact| contact.name.to_string()).collect();
-        Err(self.refused(FaultKind::MalformedMode { text: text.to_owned(), contacts }))
     }
 
     fn positive_time(&self, name: &str, text: Option<&str>) -> Result<Option<f64>, Failure> {

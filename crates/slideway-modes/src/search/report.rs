@@ -41,6 +41,17 @@ impl Default for SearchOptions {
     }
 }
 
+impl SearchOptions {
+    /// A search that may use so many nodes, and ends once a group of contacts has so many solutions; by default as
+    /// many as without these limits.
+    #[must_use]
+    pub fn within(nodes: Option<u64>, found: Option<usize>) -> Self {
+        let Self { nodes: most_nodes, limits, .. } = Self::default();
+        let limits = Limits { solutions: found.unwrap_or(limits.solutions), ..limits };
+        Self { nodes: nodes.unwrap_or(most_nodes), limits, ..Self::default() }
+    }
+}
+
 /// The arguments that a search may use besides the linear relaxation.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

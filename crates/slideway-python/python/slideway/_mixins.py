@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _display, plotting
+from ._slideway import frozen_array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,13 +19,7 @@ if TYPE_CHECKING:
     from ._slideway import Answer
 
 
-def _frozen(numbers: list[float]) -> NDArray[np.float64]:
-    array = np.array(numbers, dtype=np.float64)
-    array.setflags(write=False)
-    return array
-
-
-EMPTY: NDArray[np.float64] = _frozen([])
+EMPTY: NDArray[np.float64] = frozen_array([])
 """An array that is absent in the JSON output."""
 
 
@@ -38,17 +33,17 @@ class Solution:
     @property
     def normal_forces(self) -> NDArray[np.float64]:
         """The normal force of each contact, with its sign (N)."""
-        return _frozen([contact.normal_force for contact in self.contacts])
+        return frozen_array([contact.normal_force for contact in self.contacts])
 
     @property
     def friction_forces(self) -> NDArray[np.float64]:
         """The friction force of each contact, positive against positive sliding (N)."""
-        return _frozen([contact.friction_force for contact in self.contacts])
+        return frozen_array([contact.friction_force for contact in self.contacts])
 
     @property
     def efforts(self) -> NDArray[np.float64]:
         """The effort of each drive (N or N m)."""
-        return _frozen([drive.effort for drive in self.drives])
+        return frozen_array([drive.effort for drive in self.drives])
 
 
 class _Plot:
@@ -75,7 +70,8 @@ class _Plot:
         >>> import slideway
         >>> ax = slideway.Model.gallery("drawer").limits("mu", 0, 1).plot()   # doctest: +SKIP
         """
-        return plotting.plot_figure(self._answer.figure(), self._answer.drawn, ax, theme=theme)
+        plot = self._answer.plot()
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
 
     def _repr_html_(self) -> str:
         return _display.plot_html(self._answer, self.conclusion)

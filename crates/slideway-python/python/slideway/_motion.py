@@ -128,12 +128,8 @@ class Motion:
         >>> import slideway
         >>> axes = slideway.Model.gallery("frictional-oscillator").simulate(3).plot()   # doctest: +SKIP
         """
-        figure = self._motion.plotted(phase_portrait)
-
-        def drawn(width: float, height: float) -> list[reports.DrawnPanel]:
-            return self._motion.drawn(phase_portrait, width, height)
-
-        return plotting.plot_figure(figure, drawn, ax, theme=theme)
+        plot = self._motion.plot(phase_portrait)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
 
     def animate(
         self, *, slow_motion: float | None = None, theme: plotting.ThemeName = "light"

@@ -34,12 +34,11 @@ class Sweep:
 
     def __init__(self, table: _slideway.Table) -> None:
         self._table = table
-        self._rows = np.asarray(table)
 
     @property
     def columns(self) -> list[str]:
         """The names of the columns."""
-        return list(self._rows.dtype.names or ())
+        return self._table.columns
 
     @property
     def units(self) -> dict[str, str]:
@@ -57,12 +56,12 @@ class Sweep:
         return self._table.tally()
 
     def __getitem__(self, column: str) -> NDArray[Any]:
-        """A column as an array: numbers share the memory of the table and cannot be written to, words are copied."""
-        if column not in (self._rows.dtype.names or ()):
+        """A column as an array: numbers share the memory of `to_numpy` and cannot be written to, words are copied."""
+        if column not in self.columns:
             near = difflib.get_close_matches(column, self.columns, n=1)
             meant = f"; did you mean {near[0]!r}?" if near else ""
             raise KeyError(f"there is no column {column!r}{meant}")
-        values: NDArray[Any] = self._rows[column]
+        values: NDArray[Any] = self.to_numpy()[column]
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __len__(self) -> int:
@@ -92,8 +91,8 @@ class Sweep:
         Returns
         -------
         array
-            It shares the memory of the table, and is what `numpy.load` gives of the `rows` in a file of
-            `slideway sweep --output FILE.npz`.
+            What `numpy.load` gives of the `rows` in a file of `slideway sweep --output FILE.npz`. It is made once, and
+            cannot be written to.
 
         Examples
         --------
@@ -101,7 +100,7 @@ class Sweep:
         >>> slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).to_numpy()["mu"]
         array([0.1, 0.2])
         """
-        return self._rows
+        return np.asarray(self)
 
     def to_polars(self) -> polars.DataFrame:
         """The table as a data frame of polars.
@@ -136,6 +135,10 @@ class Sweep:
         import pyarrow
 
         return pyarrow.table(self).to_pandas()
+
+    @property
+    def __array_interface__(self) -> dict[str, Any]:
+        return self._table.__array_interface__
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)

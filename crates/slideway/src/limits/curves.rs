@@ -7,6 +7,7 @@ use super::options::LimitsOptions;
 use super::report::LimitsReport;
 use super::varied::Varied;
 use crate::attainability::ElasticGuides;
+use crate::choice::Choice;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::DriveId;
@@ -40,6 +41,15 @@ pub enum Quantity {
     Acceleration,
     /// The effort of every drive.
     Effort,
+}
+
+impl Choice for Quantity {
+    const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::NormalForce, "normal-force", "The normal force of every contact"),
+        (Self::Friction, "friction", "The friction force of every contact"),
+        (Self::Acceleration, "acceleration", "The acceleration of every coordinate"),
+        (Self::Effort, "effort", "The effort of every drive"),
+    ];
 }
 
 /// One of the quantities that are computed.

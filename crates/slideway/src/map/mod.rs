@@ -28,6 +28,7 @@ mod report;
 pub use class::ClassMeaning;
 pub use report::{MapAxis, MapClass, MapReport, SCHEMA};
 
+use crate::choice::Choice;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, Vary};
 use crate::model::Model;
@@ -63,6 +64,21 @@ pub enum ColourBy {
     Motion,
     /// Whether it can stay at rest, drives absent.
     Hold,
+}
+
+impl Choice for ColourBy {
+    const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Solutions, "solutions", "The number of solutions"),
+        (Self::Modes, "modes", "The set of contact modes that have a solution"),
+        (
+            Self::Margin,
+            "margin",
+            "The factor by which all friction may grow before there is no solution or more than one",
+        ),
+        (Self::Jam, "jam", "Whether it can move as in the model, and in the opposite direction"),
+        (Self::Motion, "motion", "Whether each solution speeds up or slows down"),
+        (Self::Hold, "hold", "Whether it can stay at rest, its drives absent"),
+    ];
 }
 
 impl ColourBy {

@@ -2,7 +2,7 @@
 
 use crate::configuration::Configuration;
 use crate::expression::Expression;
-use crate::fault::{Fault, FaultKind};
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::{Mechanism, Quantity};
 use crate::model::CrossingDirection;
 
@@ -96,6 +96,20 @@ impl SimulateOptions {
     pub fn initial(mut self, pattern: &str) -> Self {
         self.initial = Some(pattern.to_owned());
         self
+    }
+
+    /// The same, after what a person types: blanks between the signs of the contacts do not count.
+    ///
+    /// # Errors
+    /// If there is not one of "+", "-", "0" and "=" for each contact.
+    pub fn initial_of(self, typed: &str, mechanism: &Mechanism) -> Result<Self, Faults> {
+        let pattern: String = typed.chars().filter(|sign| !sign.is_whitespace()).collect();
+        let contacts = &mechanism.contacts;
+        if pattern.len() == contacts.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
+            return Ok(self.initial(&pattern));
+        }
+        let contacts = contacts.iter().map(|contact| contact.name.to_string()).collect();
+        Err(Fault::general(FaultKind::MalformedMode { text: typed.to_owned(), contacts }).into())
     }
 
     /// Takes these phases at the branchings, counted from 0.

@@ -35,6 +35,7 @@ pub use report::{
     MarginKind, MetEnd, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport,
 };
 
+use crate::choice::Choice;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Vary, range_around};
 use crate::model::Model;
@@ -86,7 +87,59 @@ pub enum Against {
     Efficiency,
 }
 
+/// A factor on friction that can be wanted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum FrictionMargin {
+    /// [`Against::Locking`].
+    #[default]
+    Locking,
+    /// [`Against::SelfLocking`].
+    SelfLocking,
+    /// [`Against::Hold`].
+    Hold,
+}
+
+impl Choice for FrictionMargin {
+    const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Locking, "locking", "Locking in motion"),
+        (Self::SelfLocking, "self-locking", "Self-locking at rest under the load"),
+        (Self::Hold, "hold", "Slipping at rest: the load must be held however great it is"),
+    ];
+}
+
 impl Against {
+    /// This margin, at rest under a load.
+    ///
+    /// # Errors
+    /// A margin at rest without a load, one of motion with a load.
+    pub fn margin(margin: FrictionMargin, load: Option<String>, model: &Model) -> Result<Self, Faults> {
+        match (margin, load) {
+            (FrictionMargin::Locking, None) => Ok(Self::Locking),
+            (FrictionMargin::Locking, Some(load)) => {
+                Err(Fault::general(FaultKind::LoadUnused { load }).into())
+            }
+            (FrictionMargin::SelfLocking, Some(load)) => Ok(Self::SelfLocking { load }),
+            (FrictionMargin::Hold, Some(load)) => Ok(Self::Hold { load }),
+            (_, None) => {
+                let loads = model.loads.iter().map(|load| &load.name);
+                let all = loads.chain(model.drives.iter().map(|drive| &drive.name));
+                let known = all.map(ToString::to_string).collect();
+                Err(Fault::general(FaultKind::LoadNeeded { known }).into())
+            }
+        }
+    }
+
+    /// The efficiency, which concerns no load.
+    ///
+    /// # Errors
+    /// If one is given.
+    pub fn efficiency(load: Option<String>) -> Result<Self, Faults> {
+        match load {
+            None => Ok(Self::Efficiency),
+            Some(load) => Err(Fault::general(FaultKind::LoadUnused { load }).into()),
+        }
+    }
+
     /// Whether it is a limit of a force or of the efficiency rather than a factor of friction.
     pub(crate) fn is_limit(&self) -> bool {
         matches!(

@@ -1,5 +1,6 @@
 //! Distributions by their quantiles, and the points of the unit cube at which samples are drawn.
 
+use crate::choice::Choice;
 use serde::{Deserialize, Serialize};
 
 /// Constants of the pseudo-random numbers: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom
@@ -16,6 +17,17 @@ pub enum Spread {
     /// The sequence of J. H. Halton (Numerische Mathematik 2, 1960), shifted by a random vector: it fills the
     /// ranges more evenly, so that mean values converge faster.
     Halton,
+}
+
+impl Choice for Spread {
+    const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Random, "random", "Independent of one another"),
+        (
+            Self::Halton,
+            "halton",
+            "A randomly shifted Halton sequence: more even, so that shares converge faster",
+        ),
+    ];
 }
 
 /// How many samples there are, and which.

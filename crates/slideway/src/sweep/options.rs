@@ -36,13 +36,14 @@ impl SweepOptions {
 
     /// These points.
     pub fn over(points: SweepPoints) -> Self {
-        Self { points, breakpoints: true, attainability: false, all_columns: false }
+        Self { breakpoints: points.is_line(), points, attainability: false, all_columns: false }
     }
 
-    /// Whether exact ends of modes are inserted between the points of a grid over one quantity.
+    /// Whether exact ends of modes are inserted between the points of a grid over one quantity; into others they never
+    /// are.
     #[must_use]
     pub fn breakpoints(mut self, breakpoints: bool) -> Self {
-        self.breakpoints = breakpoints;
+        self.breakpoints = breakpoints && self.points.is_line();
         self
     }
 
@@ -79,6 +80,11 @@ impl SweepPoints {
             Self::Grid(axes) => axes.len(),
             Self::Samples(_, axes) => axes.len(),
         }
+    }
+
+    /// Whether they are a grid over one quantity.
+    pub fn is_line(&self) -> bool {
+        matches!(self, Self::Grid(axes) if axes.len() == 1)
     }
 }
 

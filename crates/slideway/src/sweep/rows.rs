@@ -220,6 +220,13 @@ pub struct RowHead {
     pub negative_determinant: Option<bool>,
 }
 
+impl RowHead {
+    /// The sign of the determinant of the mode in tables; nothing if it is not known.
+    pub fn determinant_sign(&self) -> &'static str {
+        self.negative_determinant.map_or("", |is_negative| if is_negative { "-" } else { "+" })
+    }
+}
+
 /// A point that is not solved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refusal {

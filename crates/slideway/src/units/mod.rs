@@ -24,6 +24,7 @@ mod unit;
 pub use number::precise;
 pub use unit::Unit;
 
+use crate::choice::Choice;
 use crate::expression::WrittenUnit;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -43,6 +44,18 @@ pub enum UnitSystem {
     /// Millimetres, degrees, newtons, and what follows from them.
     #[serde(rename = "mm")]
     Millimetres,
+}
+
+impl Choice for UnitSystem {
+    const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
+        (
+            Self::AsTyped,
+            "as-typed",
+            "As the quantities of the model were typed; computed forces, moments and powers in a unit that suits them",
+        ),
+        (Self::Si, "SI", "Those of the SI"),
+        (Self::Millimetres, "mm", "Millimetres, degrees, newtons, and what follows from them"),
+    ];
 }
 
 /// The units in which numbers of a model are shown. A copy costs little.

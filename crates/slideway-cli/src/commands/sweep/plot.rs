@@ -74,7 +74,7 @@ impl Plotting {
         if sweep.line().is_none() && sweep.has_branches() {
             return Err(Failure::NoLine);
         }
-        let quantity = arguments.quantity.into();
+        let quantity = arguments.quantity;
         let (plot, taker) = if sweep.has_branches() {
             let plot = SweepPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
             let taker = Taker::Line(plot.extractor());

@@ -5,7 +5,7 @@ use super::{Work, format, tell, unswept, watch};
 use crate::arguments::{Destination, ModelArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::metadata::{command_of_shards, quoted};
+use crate::metadata::command_of_shards;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture;
@@ -14,7 +14,7 @@ use slideway::model::Model;
 use slideway::progress::Progress;
 use slideway::sweep::{Shard, Sweep};
 use slideway_tables::{
-    Control, Encoder, Metadata, RowSource, ShardedSweep, Shards, Written, shard_path, write_shard,
+    Control, Encoder, Metadata, RowSource, ShardedSweep, Shards, Written, quoted, shard_path, write_shard,
     written_shard,
 };
 use std::path::Path;

@@ -1,0 +1,93 @@
+//! What a model holds, and how it is asked.
+
+use super::Model;
+use crate::answer::Asked;
+use crate::arguments::value;
+use crate::fault::Texts;
+use crate::work::Watch;
+use pyo3::prelude::*;
+use slideway::model::{Setting, SettingKind, Settings};
+use slideway::progress::Callback;
+use slideway::{Faults, UnitSystem};
+use std::sync::Arc;
+
+/// The file that command lines name for a text without one.
+const UNNAMED: &str = "model.toml";
+
+impl Model {
+    /// The model of a text.
+    pub(crate) fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
+        Self::read(py, text, || slideway::Model::parse(text))
+    }
+
+    /// The model that is read from a text.
+    pub(super) fn read(
+        py: Python<'_>,
+        text: &str,
+        read: impl FnOnce() -> Result<slideway::Model, Faults> + Send,
+    ) -> PyResult<Self> {
+        let settings = Settings::default();
+        match py.detach(read) {
+            Ok(model) => {
+                let (model, text) = (Arc::new(model), Arc::from(text));
+                Ok(Self { asked: Asked { model, text, settings }, units: None, file: Arc::from(UNNAMED) })
+            }
+            Err(faults) => Err(Texts { model: text, settings: &settings }.error(py, &faults)),
+        }
+    }
+
+    pub(super) fn refused(&self, py: Python<'_>, faults: &Faults) -> PyErr {
+        self.asked.refused(py, faults)
+    }
+
+    /// Runs a question, and raises what is wrong with it, or that its time was up.
+    pub(super) fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        (time_limit, progress): (Option<f64>, Option<Py<PyAny>>),
+        question: impl FnOnce(&slideway::Model, &mut Callback<'_>) -> Result<Option<T>, Faults> + Send,
+    ) -> PyResult<T> {
+        let model = &self.asked.model;
+        let ended = Watch::new(time_limit, progress)?
+            .run_beside(py, |callback| question(model, callback).transpose())?;
+        ended.whole()?.map_err(|faults| self.refused(py, &faults))
+    }
+
+    pub(super) fn changed(&self, py: Python<'_>, settings: &Settings) -> PyResult<Self> {
+        let refused = |faults| Texts { model: &self.asked.text, settings }.error(py, &faults);
+        let model = self.asked.model.with(settings).map_err(refused)?;
+        let mut all = self.asked.settings.clone();
+        for setting in settings.entries() {
+            all = all.with(setting.clone());
+        }
+        let asked = Asked { model: Arc::new(model), text: self.asked.text.clone(), settings: all };
+        Ok(Self { asked, ..self.clone() })
+    }
+
+    pub(super) fn in_file(mut self, file: &str) -> Self {
+        self.file = Arc::from(file);
+        self
+    }
+
+    pub(super) fn in_system(&self, system: UnitSystem) -> Self {
+        let model = slideway::Model::clone(&self.asked.model).with_units(system);
+        Self {
+            asked: Asked { model: Arc::new(model), ..self.asked.clone() },
+            units: Some(system),
+            ..self.clone()
+        }
+    }
+
+    /// Everything that makes two models the same.
+    pub(super) fn identity(&self) -> (&str, &[Setting], Option<UnitSystem>) {
+        (&self.asked.text, self.asked.settings.entries(), self.units)
+    }
+
+    /// A time of an argument (s).
+    pub(super) fn time(&self, py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<f64> {
+        let setting = Setting::new(SettingKind::Time, name, value(name, given)?);
+        let settings = Settings::default().with(setting.clone());
+        let refused = |faults| Texts { model: &self.asked.text, settings: &settings }.error(py, &faults);
+        self.asked.model.setting_value(&setting).map_err(refused)
+    }
+}
