@@ -93,7 +93,8 @@ fn numbers_make_the_same_shards_as_texts() {
     let samples = SweepOptions::samples(sampling, [SampledAxis::normal("mu", 0.3, 0.05)]).breakpoints(false);
     let list = ["--vary", "mu=0.1,0.25,0.3333333333333333"];
     let sampled = ["--vary", "mu=normal(0.3, 0.05)", "--samples", "9", "--seed", "3"];
-    for (options, words) in [(line, [&list[..], &["--no-breakpoints"]].concat()), (samples, sampled.to_vec())] {
+    for (options, words) in [(line, [&list[..], &["--no-breakpoints"]].concat()), (samples, sampled.to_vec())]
+    {
         let command = [&DRAWER[..], &["--set", "a=0.25", "--at", "x=10 mm"], &words].concat();
         assert_eq!(shard(&command, "1/1", &typed).code, 0);
         let sharded =

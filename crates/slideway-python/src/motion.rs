@@ -3,10 +3,13 @@
 use crate::answer::{Answer, Asked, not_finite, style, theme};
 use crate::plot::Plot;
 use crate::to_python::{frozen_array, to_python};
+use crate::work::Watch;
 use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use slideway::motion::{self, History, Series, SimulateOptions};
+use slideway::configuration::Configuration;
+use slideway::mechanism::Mechanism;
+use slideway::motion::{self, History, Series, SimulateOptions, Thorough, simulate_all, simulate_with};
 use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
 use std::sync::Arc;
@@ -24,7 +27,7 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// The motion as an object of `slideway.Motion`.
-    pub(crate) fn object(
+    fn object(
         py: Python<'_>,
         history: History,
         options: SimulateOptions,
@@ -105,13 +108,26 @@ impl Motion {
     }
 }
 
-/// All motions, as an object of `slideway.reports.TreeReport`.
-pub(crate) fn tree<'py>(
+/// The motion of a mechanism, as an object of `slideway.Motion`; with `all_branches` every motion up to so many, as an
+/// object of `slideway.reports.TreeReport`.
+pub(crate) fn computed<'py>(
     py: Python<'py>,
-    tree: &motion::Tree,
-    options: &SimulateOptions,
-    asked: Asked,
+    (mechanism, asked): (&Mechanism, Asked),
+    (options, all_branches): (SimulateOptions, Option<usize>),
+    watch: &Watch,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let report = finite(motion::tree_report(tree, options)).map_err(|faults| asked.refused(py, &faults))?;
-    Answer::object(py, "TreeReport", report, Some(asked))
+    let refused = |faults| asked.refused(py, &faults);
+    let configuration = Configuration::new(mechanism).map_err(refused)?;
+    let Some(most) = all_branches else {
+        let history = watch.run(py, |callback| {
+            simulate_with(mechanism, &configuration, &options, &mut Thorough, callback)
+        })?;
+        let history = history.so_far().map_err(refused)?;
+        return Motion::object(py, history, options, asked);
+    };
+    let tree = watch.run(py, |callback| {
+        simulate_all(mechanism, &configuration, &options, (&mut Thorough, most), callback)
+    })?;
+    let report = tree.so_far().and_then(|tree| finite(motion::tree_report(&tree, &options)));
+    Answer::object(py, "TreeReport", report.map_err(refused)?, Some(asked))
 }

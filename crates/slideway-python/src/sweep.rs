@@ -136,7 +136,7 @@ impl Table {
         let mut state = source.sweep().start();
         let points = source.sweep().points();
         room(points, &layout)?;
-        let mut table = ArrowTable::new(&layout);
+        let mut table = ArrowTable::new(&layout, points);
         let ended = watch.run_beside(py, |callback| {
             let encode = |rows: &Rows| columns(&layout, rows);
             let mut appended = Ok(());

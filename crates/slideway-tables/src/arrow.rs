@@ -14,9 +14,10 @@ use rayon::prelude::*;
 use slideway::report::defined;
 use slideway::sweep::{RowHead, Rows};
 use std::collections::HashMap;
+use std::mem;
 use std::sync::Arc;
 
-/// Rows of a batch, at least, but for the last one.
+/// Rows of a batch, about: room for so many is made at once.
 const BATCH: usize = 1 << 18;
 
 /// Records that are written at a time: these stay in the cache of a processor until every column is in them.
@@ -45,13 +46,14 @@ pub fn schema(layout: &Layout) -> SchemaRef {
 
 /// The columns of rows, for [`ArrowTable::append`].
 pub fn columns(layout: &Layout, rows: &Rows) -> Vec<ArrayRef> {
-    fields(layout).iter().map(|field| column(field.meaning, rows)).collect()
+    fields(layout).iter().map(|field| column(field, rows)).collect()
 }
 
 /// What stands in one column of rows.
-fn column(meaning: Meaning, rows: &Rows) -> ArrayRef {
+fn column(field: &Field, rows: &Rows) -> ArrayRef {
     let heads = rows.heads.iter();
-    match meaning {
+    let room = (rows.len(), rows.len() * field.kind.size());
+    match field.meaning {
         Meaning::Point => {
             let mut points = UInt64Builder::with_capacity(rows.len());
             points.extend(heads.map(|head| Some(head.point)));
@@ -66,14 +68,14 @@ fn column(meaning: Meaning, rows: &Rows) -> ArrayRef {
         Meaning::GapStates => counts(rows, |head| Some(head.gap_states)),
         Meaning::Rejected => counts(rows, |head| Some(head.rejected)),
         Meaning::Branch => counts(rows, |head| (head.branch > 0).then_some(head.branch)),
-        Meaning::Breakpoint => words(heads.map(|head| head.breakpoint.word())),
-        Meaning::Status => words(heads.map(|head| head.status.word())),
-        Meaning::Kind => words(heads.map(|head| head.kind.word())),
-        Meaning::Attainability => words(heads.map(|head| head.verdict.word())),
-        Meaning::DeterminantSign => words(heads.map(|head| head.determinant_sign())),
+        Meaning::Breakpoint => words(room, heads.map(|head| head.breakpoint.word())),
+        Meaning::Status => words(room, heads.map(|head| head.status.word())),
+        Meaning::Kind => words(room, heads.map(|head| head.kind.word())),
+        Meaning::Attainability => words(room, heads.map(|head| head.verdict.word())),
+        Meaning::DeterminantSign => words(room, heads.map(|head| head.determinant_sign())),
         Meaning::Pattern => {
             let pattern = |row| std::str::from_utf8(rows.pattern(row).trim_ascii()).unwrap_or_default();
-            words((0..rows.len()).map(pattern))
+            words(room, (0..rows.len()).map(pattern))
         }
     }
 }
@@ -84,9 +86,9 @@ fn counts(rows: &Rows, count: impl Fn(&RowHead) -> Option<u32>) -> ArrayRef {
     Arc::new(counts.finish())
 }
 
-/// Words; nothing in place of an empty one.
-fn words<'w>(words: impl Iterator<Item = &'w str>) -> ArrayRef {
-    let mut column = StringBuilder::new();
+/// So many words with so many bytes at most; nothing in place of an empty one.
+fn words<'w>((count, bytes): (usize, usize), words: impl Iterator<Item = &'w str>) -> ArrayRef {
+    let mut column = StringBuilder::with_capacity(count, bytes);
     column.extend(words.map(|word| (!word.is_empty()).then_some(word)));
     Arc::new(column.finish())
 }
@@ -101,12 +103,13 @@ enum Growing {
 }
 
 impl Growing {
-    fn new(kind: FieldKind) -> Self {
+    /// With room for so many rows.
+    fn new(kind: FieldKind, rows: usize) -> Self {
         match kind {
-            FieldKind::Point => Self::Points(UInt64Builder::new()),
-            FieldKind::Count | FieldKind::Branch => Self::Counts(UInt32Builder::new()),
-            FieldKind::Number => Self::Numbers(Float64Builder::new()),
-            FieldKind::Word(_) => Self::Words(StringBuilder::new()),
+            FieldKind::Point => Self::Points(UInt64Builder::with_capacity(rows)),
+            FieldKind::Count | FieldKind::Branch => Self::Counts(UInt32Builder::with_capacity(rows)),
+            FieldKind::Number => Self::Numbers(Float64Builder::with_capacity(rows)),
+            FieldKind::Word(length) => Self::Words(StringBuilder::with_capacity(rows, rows * length)),
         }
     }
 
@@ -135,16 +138,19 @@ impl Growing {
 pub struct ArrowTable {
     fields: Vec<Field>,
     schema: SchemaRef,
+    /// Rows for which room is made.
+    room: usize,
+    /// The columns of the batch that is not complete; nothing if it has no rows.
     growing: Vec<Growing>,
     batches: Vec<RecordBatch>,
 }
 
 impl ArrowTable {
-    /// A table without rows.
-    pub fn new(layout: &Layout) -> Self {
-        let fields = fields(layout);
-        let growing = fields.iter().map(|field| Growing::new(field.kind)).collect();
-        Self { fields, schema: schema(layout), growing, batches: Vec::new() }
+    /// A table without rows, of so many points.
+    pub fn new(layout: &Layout, points: u64) -> Self {
+        let room = usize::try_from(points).map_or(BATCH, |points| points.min(BATCH));
+        let (growing, batches) = (Vec::new(), Vec::new());
+        Self { fields: fields(layout), schema: schema(layout), room, growing, batches }
     }
 
     /// Appends rows, by their [`columns`].
@@ -152,11 +158,16 @@ impl ArrowTable {
     /// # Errors
     /// If the words of a column become too long for Arrow.
     pub fn append(&mut self, columns: &[ArrayRef]) -> Result<(), ArrowError> {
-        for (growing, column) in self.growing.iter_mut().zip(columns) {
-            growing.append(column)?;
-        }
+        let more = columns.first().map_or(0, |points| points.len());
         let rows = self.growing.first_mut().map_or(0, |points| points.builder().len());
-        if rows >= BATCH { self.complete() } else { Ok(()) }
+        // Beyond its room, a column would be copied.
+        if rows + more > BATCH {
+            self.complete()?;
+        }
+        if self.growing.is_empty() {
+            self.growing = self.fields.iter().map(|field| Growing::new(field.kind, self.room)).collect();
+        }
+        self.growing.iter_mut().zip(columns).try_for_each(|(growing, column)| growing.append(column))
     }
 
     /// Completes a batch: [`Self::reader`] and [`Self::records`] have the rows that were appended before.
@@ -164,8 +175,11 @@ impl ArrowTable {
     /// # Errors
     /// None, if the columns of all rows were of this layout.
     pub fn complete(&mut self) -> Result<(), ArrowError> {
-        let columns = self.growing.iter_mut().map(|column| column.builder().finish()).collect();
-        self.batches.push(RecordBatch::try_new(self.schema.clone(), columns)?);
+        let mut whole = mem::take(&mut self.growing);
+        if !whole.is_empty() {
+            let columns = whole.iter_mut().map(|column| column.builder().finish()).collect();
+            self.batches.push(RecordBatch::try_new(self.schema.clone(), columns)?);
+        }
         Ok(())
     }
 
@@ -248,7 +262,7 @@ mod tests {
         let options = SweepOptions::grid([axis]).attainability(true).all_columns(true);
         let sweep = Sweep::new(&model, &options).expect("a sweep");
         let layout = Layout::of(&sweep, 1, true);
-        let (mut table, mut expected) = (ArrowTable::new(&layout), Vec::new());
+        let (mut table, mut expected) = (ArrowTable::new(&layout, sweep.points()), Vec::new());
         let encode = |rows: &Rows| (columns(&layout, rows), record::rows(&layout, rows));
         sweep.run(&mut sweep.start(), &encode, &mut |parts, _| {
             for (columns, records) in parts {

@@ -16,7 +16,7 @@ from . import _display, _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Table", "gallery_models", "hlcp", "import_dxf", "lcp", "merge", "mode_problem", "png", "printable", "solve", "templates", "theme"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "frozen_array", "gallery_models", "hlcp", "import_dxf", "lcp", "merge", "mode_problem", "png", "printable", "solve", "templates", "theme"]
 
 GROUND: Final[str]
 """
@@ -33,10 +33,6 @@ class Answer:
         A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
         1, as SVG.
         """
-    def drawn(self, /, width: float, height: float) -> list[reports.DrawnPanel]:
-        """
-        What the panels of the plot show in frames of this width and height (px, of which small text has 13).
-        """
     def drawn_map(self, /, theme_name: str) -> reports.DrawnMap:
         """
         A map in words and colours.
@@ -44,10 +40,6 @@ class Answer:
     def fields(self, /) -> dict[str, object]:
         """
         The attributes of the report.
-        """
-    def figure(self, /) -> reports.Figure:
-        """
-        The plot as plain data.
         """
     def json(self, /) -> str:
         """
@@ -61,9 +53,13 @@ class Answer:
         """
         The classes of the pixels of a map, row by row from the bottom.
         """
+    def plot(self, /) -> Plot:
+        """
+        The plot.
+        """
     def plot_svg(self, /, theme_name: str) -> str:
         """
-        The plot as SVG.
+        The plot or the map as SVG.
         """
     def text(self, /, color: bool) -> str:
         """
@@ -662,7 +658,7 @@ class Model:
         What a notebook shows: the drawing, parameters, coordinates and warnings.
         """
     @staticmethod
-    def _restore(text: str, kept_settings: Sequence[tuple[str, str, Value]], units_name: str | None) -> Model:
+    def _restore(text: str, kept_settings: Sequence[tuple[str, str, Value]], units_name: str | None, file: str) -> Model:
         """
         The model that was pickled.
         """
@@ -1309,8 +1305,10 @@ class Model:
         """
         Computes a part of a sweep and writes it to a folder, unless it is there.
 
-        The rows of the file, and its name, are those that `slideway sweep --shard` gives for the same sweep; what the file says of the
-        command that made it differs. `slideway.merge` makes one table of all parts, whichever program wrote them.
+        The file is the one that `slideway sweep --shard` writes for the same sweep. As its command it names the command line that
+        asks for it, with the settings first, in the order of `slideway sweep --help`; without a file of its own, a model is
+        `model.toml` there. If there is none, as with a list of so many values that no command line has room for them, it says
+        that Python wrote it. `slideway.merge` makes one table of all parts, whichever program wrote them.
 
         Parameters
         ----------
@@ -1375,17 +1373,9 @@ class Motion:
         """
         A moving picture as a page.
         """
-    def drawn(self, /, phase_portrait: bool, width: float, height: float) -> list[reports.DrawnPanel]:
+    def plot(self, /, phase_portrait: bool) -> Plot:
         """
-        What the panels of the plot show in frames of this width and height (px, of which small text has 13).
-        """
-    def plot_svg(self, /, theme_name: str, phase_portrait: bool) -> str:
-        """
-        The plot as SVG.
-        """
-    def plotted(self, /, phase_portrait: bool) -> reports.Figure:
-        """
-        The plot as plain data.
+        The plot over time, or in the plane of coordinate and rate.
         """
     def states(self, /, times: Sequence[float]) -> NDArray[np.float64]:
         """
@@ -1405,6 +1395,24 @@ class Motion:
         """
 
 @final
+class Plot:
+    """
+    A plot of an answer, a motion or a sweep.
+    """
+    def drawn(self, /, width: float, height: float) -> list[reports.DrawnPanel]:
+        """
+        What its panels show in frames of this width and height (px, of which small text has 13).
+        """
+    def figure(self, /) -> reports.Figure:
+        """
+        The plot as plain data.
+        """
+    def svg(self, /, theme_name: str) -> str:
+        """
+        The plot as SVG.
+        """
+
+@final
 class Table:
     """
     All solutions at the points of a sweep: private half of `slideway.Sweep`.
@@ -1412,18 +1420,23 @@ class Table:
     @property
     def __array_interface__(self, /) -> dict[str, Any]:
         """
-        The records as an array of NumPy, which shares their memory.
+        The rows as records: an array of NumPy that shares their memory. They are made when they are first asked for.
         """
     def __arrow_c_stream__(self, /, requested_schema: Any | None = None) -> object:
         """
         The table as a stream of Arrow (the Arrow `PyCapsule` interface).
         """
     @property
+    def columns(self, /) -> list[str]:
+        """
+        The names of the columns.
+        """
+    @property
     def contacts(self, /) -> tuple[str, ...]:
         """
         The names of the contacts, in the order of the signs of patterns.
         """
-    def plot(self, /, quantity: str, time_limit: float | None = None, progress: Any | None = None) -> Any:
+    def plot(self, /, quantity: str, time_limit: float | None = None, progress: Any | None = None) -> Plot:
         """
         The plot of a quantity along every branch, or of its distribution over samples. All points are computed
         again: the table does not hold what a plot needs.
@@ -1456,6 +1469,11 @@ class Table:
         """
         Number of varied quantities.
         """
+
+def frozen_array(numbers: Sequence[float]) -> NDArray[np.float64]:
+    """
+    A NumPy array that cannot be written to.
+    """
 
 def gallery_models() -> dict[str, str]:
     """

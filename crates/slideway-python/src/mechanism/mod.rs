@@ -1,4 +1,4 @@
-//! The class `slideway.Mechanism`: a mechanism that is put together in code, over [`Drawing`].
+//! The class `slideway.Mechanism`: a mechanism that is put together in code, over [`slideway::Drawing`].
 //!
 //! Arguments are converted before anything is added, and what is added is added as a whole: after an exception
 //! the mechanism is as it was before.
@@ -10,103 +10,23 @@ mod state;
 mod values;
 
 use crate::arguments::{pair, quantity, sequence, two};
-use crate::fault::Texts;
 use crate::model::Model;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use slideway::Drawing;
 use slideway::drawing::{
     BlockSlider, BodyBuilder, CoordinateBuilder, DriveBuilder, ForceBuilder, LoadBuilder, SingleSlider,
-    SliderBuilder, SliderHandle,
+    SliderBuilder,
 };
-use slideway::ids::{Frame, JointId};
-use slideway::model::Settings;
 pub(crate) use state::GROUND;
-use state::{Refused, State, found};
-use std::sync::{Mutex, PoisonError};
+use state::{State, found};
+use std::sync::Mutex;
 use values::{
     BlockEnd, CoordinateValues, End, Gravity, Said, SliderValues, Support, optional, optional_pair,
 };
 
-/// A mechanism that is put together in code.
-///
-/// It says what a model file says, with the same defaults and meaning, and `build` gives the `Model`. Bodies,
-/// joints and coordinates are added before others refer to them by their names, which the methods return.
-/// Values are numbers in SI units, or texts with a unit or an expression of parameters. Places are those of the
-/// drawing, in its fixed axes (m).
-///
-/// Parameters
-/// ----------
-/// title : str, optional
-///     One line that says what the mechanism is.
-/// gravity : float or str or pair, optional
-///     Acceleration of free fall along -y, or its two components (m/s^2). Default: none.
-/// time : float or str, optional
-///     Time of the state, `t` in expressions (s). Default: 0.
-///
-/// Examples
-/// --------
-/// A drawer of 2 kg in a rail, pushed beside its middle:
-///
-/// >>> from slideway import GROUND, Mechanism
-/// >>> m = Mechanism("Drawer")
-/// >>> mu = m.parameter("mu", 0.3)
-/// >>> drawer = m.body("drawer", mass=2.0, centre=(0, 0.1), inertia=0.05)
-/// >>> rail = m.block_slider("rail", drawer, GROUND, at=(0, 0), length="400 mm", mu=mu)
-/// >>> push = m.force("push", drawer, at=(-0.2, 0.15), components=(20, 0))
-/// >>> x = m.slide("x", rail, rate=1.0)
-/// >>> model = m.build()
-/// >>> model.solve().status
-/// 'one'
-/// >>> model.with_(mu=3).solve().status
-/// 'none'
+#[doc = include_str!("../../docs/mechanism/class.txt")]
 #[pyclass(frozen, module = "slideway", name = "Mechanism")]
 pub(crate) struct Mechanism {
     state: Mutex<State>,
-}
-
-impl Mechanism {
-    fn state(&self) -> State {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// Adds a thing of this name. Nothing of Python may run in `add`: the mechanism is locked meanwhile.
-    fn add(
-        &self,
-        py: Python<'_>,
-        (what, name): (&'static str, &str),
-        add: impl FnOnce(&mut State) -> Result<(), Refused>,
-    ) -> PyResult<String> {
-        let added = {
-            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut next = state.clone();
-            next.claim(what, name).and_then(|()| add(&mut next)).map(|()| *state = next)
-        };
-        match added {
-            Ok(()) => Ok(name.to_owned()),
-            Err(Refused::Unknown(faults)) => {
-                Err(Texts { model: "", settings: &Settings::default() }.error(py, &faults))
-            }
-            Err(Refused::Taken { what, name }) => {
-                Err(PyValueError::new_err(format!("name: there is a {what} named {name:?} already")))
-            }
-        }
-    }
-
-    /// Adds a sliding joint.
-    fn add_slider<S: SliderHandle + Into<JointId>>(
-        &self,
-        py: Python<'_>,
-        (name, arguments, frames): (&str, [&str; 2], [&str; 2]),
-        slider: impl FnOnce(&mut Drawing, [Frame; 2]) -> S,
-    ) -> PyResult<String> {
-        self.add(py, ("joint", name), |state| {
-            let frames = state.frames(arguments, frames)?;
-            let joint = slider(&mut state.drawing, frames).into();
-            state.sliders.push((name.to_owned(), joint));
-            Ok(())
-        })
-    }
 }
 
 #[pymethods]

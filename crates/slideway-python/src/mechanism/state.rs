@@ -1,10 +1,16 @@
 //! A mechanism that is put together, and the names in it.
 
+use super::Mechanism;
 use super::values::End;
-use slideway::drawing::Quantity;
+use crate::fault::Texts;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use slideway::drawing::{Quantity, SliderHandle};
 use slideway::fault::{Fault, FaultKind, nearest};
 use slideway::ids::{BodyId, CoordinateId, Frame, JointId};
+use slideway::model::Settings;
 use slideway::{Drawing, Faults};
+use std::sync::PoisonError;
 
 /// The name of the fixed frame.
 pub(crate) const GROUND: &str = "ground";
@@ -60,6 +66,50 @@ impl State {
     /// The body that a reaction acts on, if there is one.
     pub(super) fn reaction(&self, name: Option<&str>) -> Result<Option<Frame>, Refused> {
         name.map(|name| self.frame("reaction", name)).transpose()
+    }
+}
+
+impl Mechanism {
+    pub(super) fn state(&self) -> State {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Adds a thing of this name. Nothing of Python may run in `add`: the mechanism is locked meanwhile.
+    pub(super) fn add(
+        &self,
+        py: Python<'_>,
+        (what, name): (&'static str, &str),
+        add: impl FnOnce(&mut State) -> Result<(), Refused>,
+    ) -> PyResult<String> {
+        let added = {
+            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut next = state.clone();
+            next.claim(what, name).and_then(|()| add(&mut next)).map(|()| *state = next)
+        };
+        match added {
+            Ok(()) => Ok(name.to_owned()),
+            Err(Refused::Unknown(faults)) => {
+                Err(Texts { model: "", settings: &Settings::default() }.error(py, &faults))
+            }
+            Err(Refused::Taken { what, name }) => {
+                Err(PyValueError::new_err(format!("name: there is a {what} named {name:?} already")))
+            }
+        }
+    }
+
+    /// Adds a sliding joint.
+    pub(super) fn add_slider<S: SliderHandle + Into<JointId>>(
+        &self,
+        py: Python<'_>,
+        (name, arguments, frames): (&str, [&str; 2], [&str; 2]),
+        slider: impl FnOnce(&mut Drawing, [Frame; 2]) -> S,
+    ) -> PyResult<String> {
+        self.add(py, ("joint", name), |state| {
+            let frames = state.frames(arguments, frames)?;
+            let joint = slider(&mut state.drawing, frames).into();
+            state.sliders.push((name.to_owned(), joint));
+            Ok(())
+        })
     }
 }
 

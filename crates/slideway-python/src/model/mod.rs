@@ -10,8 +10,7 @@ mod state;
 
 use crate::answer::{Answer, Asked, not_finite, theme as named};
 use crate::arguments::{choice, settings, varied, vary, vary_between};
-use crate::fault::Texts;
-use crate::motion::{self, Motion};
+use crate::motion;
 use crate::work::Watch;
 use crate::{gallery, shards, sweep};
 use pyo3::exceptions::PyTypeError;
@@ -22,9 +21,7 @@ use slideway::fault::{Fault, FaultKind};
 use slideway::limits::{curves_with, rest_limits_with};
 use slideway::map::map_with;
 use slideway::mechanism::Mechanism;
-use slideway::model::{Setting, SettingKind, Settings};
 use slideway::modes::SearchOptions;
-use slideway::motion::{Thorough, simulate_all, simulate_with};
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
@@ -58,15 +55,7 @@ impl Model {
     #[doc = include_str!("../../docs/load.txt")]
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let too_large =
-            || Faults::from(Fault::general(FaultKind::TooLarge { limit: slideway::model::SIZE_LIMIT }));
-        let nothing = Texts { model: "", settings: &Settings::default() };
-        if std::fs::metadata(&path)?.len() > slideway::model::SIZE_LIMIT {
-            return Err(nothing.error(py, &too_large()));
-        }
-        let bytes = std::fs::read(&path)?;
-        let read = Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes))?;
-        Ok(read.in_file(&path.to_string_lossy()))
+        Self::of_file(py, &path)
     }
 
     #[doc = include_str!("../../docs/gallery.txt")]
@@ -103,18 +92,7 @@ impl Model {
     /// The parameters as texts: name, value, and the range between whose ends it is known, if it has one.
     #[pyo3(signature = () -> "list[tuple[str, str, str]]")]
     fn _parameter_texts(&self, py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
-        let model = &self.asked.model;
-        let refused = |faults| self.refused(py, &faults);
-        let values = model.parameter_values(&model.constants().map_err(refused)?);
-        let ranges = model.ranges().map_err(refused)?;
-        let texts = model.parameters.iter().zip(values).map(|(parameter, value)| {
-            let name = parameter.name.to_string();
-            let unit = model.units.parameter(&name, &model.parameter_unit(&name));
-            let range = ranges.iter().find(|range| range.name == name);
-            let range = range.map(|range| format!("{} to {}", unit.show(range.from), unit.show(range.to)));
-            (name, unit.show(value), range.unwrap_or_default())
-        });
-        Ok(texts.collect())
+        self.parameter_texts(py)
     }
 
     /// The names of its coordinates.
@@ -126,12 +104,7 @@ impl Model {
     /// What was changed in the text, such as `["mu=0.5", "at alpha=75 deg"]`.
     #[getter]
     fn settings(&self) -> Vec<String> {
-        let told = |setting: &Setting| match setting.kind {
-            SettingKind::Position => format!("at {}", setting.text()),
-            SettingKind::Rate => format!("rate {}", setting.text()),
-            _ => setting.text(),
-        };
-        self.asked.settings.entries().iter().map(told).collect()
+        self.setting_texts()
     }
 
     #[doc = include_str!("../../docs/with_.txt")]
@@ -443,19 +416,8 @@ impl Model {
         if let Some(mode) = mode {
             options = options.initial_of(mode, &mechanism).map_err(refused)?;
         }
-        let configuration = slideway::configuration::Configuration::new(&mechanism).map_err(refused)?;
         let watch = Watch::new(time_limit, progress)?;
-        let asked = self.asked.clone();
-        if let Some(most) = all_branches {
-            let tree = watch.run(py, |callback| {
-                simulate_all(&mechanism, &configuration, &options, (&mut Thorough, most), callback)
-            })?;
-            return motion::tree(py, &tree.so_far().map_err(refused)?, &options, asked);
-        }
-        let history = watch.run(py, |callback| {
-            simulate_with(&mechanism, &configuration, &options, &mut Thorough, callback)
-        })?;
-        Motion::object(py, history.so_far().map_err(refused)?, options, asked)
+        motion::computed(py, (&mechanism, self.asked.clone()), (options, all_branches), &watch)
     }
 
     #[doc = include_str!("../../docs/report.txt")]
@@ -508,13 +470,7 @@ impl Model {
     /// The coordinates as texts: name, value and rate.
     #[pyo3(signature = () -> "list[tuple[str, str, str]]")]
     fn _coordinate_texts(&self, py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
-        let model = &self.asked.model;
-        let report = slideway::check(model).map_err(|faults| self.refused(py, &faults))?;
-        let texts = report.coordinates.into_iter().map(|coordinate| {
-            let (unit, of_rate) = (model.units.of(coordinate.unit), model.units.of_rate(coordinate.unit));
-            (coordinate.name, unit.show(coordinate.value), of_rate.show(coordinate.rate))
-        });
-        Ok(texts.collect())
+        self.coordinate_texts(py)
     }
 
     fn __repr__(&self) -> String {

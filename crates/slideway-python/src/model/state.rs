@@ -6,9 +6,11 @@ use crate::arguments::value;
 use crate::fault::Texts;
 use crate::work::Watch;
 use pyo3::prelude::*;
+use slideway::fault::{Fault, FaultKind};
 use slideway::model::{Setting, SettingKind, Settings};
 use slideway::progress::Callback;
 use slideway::{Faults, UnitSystem};
+use std::path::Path;
 use std::sync::Arc;
 
 /// The file that command lines name for a text without one.
@@ -89,5 +91,55 @@ impl Model {
         let settings = Settings::default().with(setting.clone());
         let refused = |faults| Texts { model: &self.asked.text, settings: &settings }.error(py, &faults);
         self.asked.model.setting_value(&setting).map_err(refused)
+    }
+
+    /// The model of a file.
+    pub(super) fn of_file(py: Python<'_>, path: &Path) -> PyResult<Self> {
+        let too_large =
+            || Faults::from(Fault::general(FaultKind::TooLarge { limit: slideway::model::SIZE_LIMIT }));
+        let nothing = Texts { model: "", settings: &Settings::default() };
+        if std::fs::metadata(path)?.len() > slideway::model::SIZE_LIMIT {
+            return Err(nothing.error(py, &too_large()));
+        }
+        let bytes = std::fs::read(path)?;
+        let read = Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes))?;
+        Ok(read.in_file(&path.to_string_lossy()))
+    }
+
+    /// The parameters as texts: name, value, and the range between whose ends it is known, if it has one.
+    pub(super) fn parameter_texts(&self, py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
+        let model = &self.asked.model;
+        let refused = |faults| self.refused(py, &faults);
+        let values = model.parameter_values(&model.constants().map_err(refused)?);
+        let ranges = model.ranges().map_err(refused)?;
+        let texts = model.parameters.iter().zip(values).map(|(parameter, value)| {
+            let name = parameter.name.to_string();
+            let unit = model.units.parameter(&name, &model.parameter_unit(&name));
+            let range = ranges.iter().find(|range| range.name == name);
+            let range = range.map(|range| format!("{} to {}", unit.show(range.from), unit.show(range.to)));
+            (name, unit.show(value), range.unwrap_or_default())
+        });
+        Ok(texts.collect())
+    }
+
+    /// The coordinates as texts: name, value and rate.
+    pub(super) fn coordinate_texts(&self, py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
+        let model = &self.asked.model;
+        let report = slideway::check(model).map_err(|faults| self.refused(py, &faults))?;
+        let texts = report.coordinates.into_iter().map(|coordinate| {
+            let (unit, of_rate) = (model.units.of(coordinate.unit), model.units.of_rate(coordinate.unit));
+            (coordinate.name, unit.show(coordinate.value), of_rate.show(coordinate.rate))
+        });
+        Ok(texts.collect())
+    }
+
+    /// What was changed in the text.
+    pub(super) fn setting_texts(&self) -> Vec<String> {
+        let told = |setting: &Setting| match setting.kind {
+            SettingKind::Position => format!("at {}", setting.text()),
+            SettingKind::Rate => format!("rate {}", setting.text()),
+            _ => setting.text(),
+        };
+        self.asked.settings.entries().iter().map(told).collect()
     }
 }
