@@ -120,6 +120,13 @@ impl OpenContacts {
             .is_some_and(|forces| forces.row(contact).amax() > Self::ROUNDING * forces.amax())
     }
 
+    /// Whether a pattern leaves a determinate mechanism: as many contacts are open as there are self-stresses, and
+    /// the others hold.
+    pub fn is_determinate(&self, pattern: &[ContactState]) -> bool {
+        let open = pattern.iter().filter(|state| **state == ContactState::Gap).count();
+        open == self.self_stress.as_ref().map_or(0, DMatrix::ncols) && self.holds(pattern)
+    }
+
     /// Whether the states of a pattern are solutions: each contact is pressed, or open. Between its faces any other
     /// is in its preload gap.
     pub fn is_solution(&self, pattern: &[ContactState]) -> bool {
