@@ -123,8 +123,20 @@ impl OpenContacts {
     /// Whether a pattern leaves a determinate mechanism: as many contacts are open as there are self-stresses, and
     /// the others hold.
     pub fn is_determinate(&self, pattern: &[ContactState]) -> bool {
-        let open = pattern.iter().filter(|state| **state == ContactState::Gap).count();
-        open == self.self_stress.as_ref().map_or(0, DMatrix::ncols) && self.holds(pattern)
+        Self::between(pattern) == self.self_stresses() && self.holds(pattern)
+    }
+
+    /// How many more contacts a pattern presses than equilibrium determines.
+    pub fn excess(&self, pattern: &[ContactState]) -> usize {
+        self.self_stresses().saturating_sub(Self::between(pattern))
+    }
+
+    fn self_stresses(&self) -> usize {
+        self.self_stress.as_ref().map_or(0, DMatrix::ncols)
+    }
+
+    fn between(pattern: &[ContactState]) -> usize {
+        pattern.iter().filter(|state| **state == ContactState::Gap).count()
     }
 
     /// Whether the states of a pattern are solutions: each contact is pressed, or open. Between its faces any other
