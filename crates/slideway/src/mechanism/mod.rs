@@ -6,6 +6,7 @@
 mod evaluation;
 mod excess;
 mod pad;
+mod press_fit;
 mod relations;
 
 use crate::expression::{Expression, Values};
@@ -13,7 +14,7 @@ use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{
-    CarriedBy, CrossingDirection, Formula, Model, OutlineCorner, PreloadLine, SliderKind, Stop,
+    CarriedBy, CrossingDirection, Face, Formula, Model, OutlineCorner, PreloadLine, SliderKind, Stop,
 };
 use crate::units::Units;
 use evaluation::Evaluation;
@@ -145,7 +146,8 @@ pub struct Slider<T = f64> {
     pub travel: Option<[T; 2]>,
     /// The stops at the least and at the greatest displacement; without, the motion ends there.
     pub stops: [Option<Stop<T>>; 2],
-    /// Its contacts: front, rear and further supports of a block slider, else the only one.
+    /// Its contacts: front, rear and further supports of a block slider, else the only one; then the negative faces
+    /// of press fits.
     pub contacts: Vec<ContactId>,
 }
 
@@ -195,6 +197,8 @@ pub struct Contact<T = f64> {
     pub misalignment_law: Option<FormulaId>,
     /// Length and width of the area in contact (m), if the model gives it.
     pub pad: Option<[T; 2]>,
+    /// Which face of a press fit it is, with half of its preload.
+    pub face: Option<Face<ContactId>>,
 }
 
 impl Contact {
@@ -414,6 +418,7 @@ impl Mechanism {
         let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
+        mechanism.check_signs_of_play()?;
         mechanism.excess = mechanism.found_excess();
         Ok(mechanism)
     }
@@ -508,7 +513,9 @@ impl Mechanism<Interval> {
     ) -> Result<Self, Faults> {
         let values = model.enclosed_constants(given)?;
         let (size, excess) = (nominal.size, nominal.excess.clone());
-        Ok(Self { size, excess, ..Evaluation { model, values }.mechanism() })
+        let mechanism = Self { size, excess, ..Evaluation { model, values }.mechanism() };
+        mechanism.check_signs_of_play()?;
+        Ok(mechanism)
     }
 }
 

@@ -20,7 +20,7 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
-pub use sharing::{Elasticity, LoadSharing, StiffnessRatios};
+pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};

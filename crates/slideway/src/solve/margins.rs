@@ -77,10 +77,12 @@ struct Growth {
 /// The contact whose friction alone changes the number of solutions at the smallest factor.
 fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
     let contacts = data.mechanism.contacts.iter().enumerate();
-    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2]);
+    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2] && !contact.is_second_face());
     let factor = |(k, contact): (usize, &crate::mechanism::Contact)| {
-        let factor = Growth::along(data, &|other| other == k)?.another_count()?;
-        Some(CriticalContact { contact: contact.name.to_string(), factor })
+        let other_face = contact.face.map(|face| face.other.index());
+        let factor =
+            Growth::along(data, &|other| other == k || Some(other) == other_face)?.another_count()?;
+        Some(CriticalContact { contact: contact.place().to_owned(), factor })
     };
     rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
 }
