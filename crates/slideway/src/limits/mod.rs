@@ -65,7 +65,6 @@ pub use vary::Vary;
 pub(crate) use vary::range_around;
 
 use crate::fault::Faults;
-use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -100,9 +99,6 @@ pub fn limits_with(
 }
 
 fn limits_of(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<LimitsReport, Faults> {
-    if options.max_reaction.is_some() {
-        Mechanism::new(model)?.check_no_press_fit("a greatest reaction")?;
-    }
     let analysis = Analysis::new(model, options, work)?;
     finite(analysis.report(&Naming::new(model)?))
 }

@@ -1,7 +1,7 @@
 //! Press fits: where the play is negative both faces of a guide are pressed, and each is a contact of its own.
 
 use super::{Contact, JointKind, Model, Settings, Slider};
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::ids::FormulaId;
 use std::sync::Arc;
 
@@ -19,29 +19,34 @@ impl Model {
     /// "joint.front.plus" in the place of "joint.front", and "joint.front.minus" behind the contacts of all places.
     pub(super) fn split_press_fits(&mut self, values: &[Option<f64>]) {
         let value = |id: FormulaId| values.get(id.index()).copied().flatten();
+        self.split(&|contact| contact.play.and_then(value).is_some_and(|play| play < 0.0));
+    }
+
+    fn split(&mut self, is_press_fit: &dyn Fn(&Contact) -> bool) {
         for joint in &mut self.joints {
             if let JointKind::Slider(slider) = &mut joint.kind {
                 slider.join_faces();
-                slider.split_faces(&|contact| contact.play.and_then(value).is_some_and(|play| play < 0.0));
+                slider.split_faces(is_press_fit);
             }
         }
     }
 
-    /// [`Self::with`] as one value of a quantity that is varied, for all of which the contacts are the same.
+    /// [`Self::with`] as one value of a quantity that is varied, for all of which the contacts are those of this
+    /// model. [`Mechanism::new`](crate::mechanism::Mechanism::new) refuses play of another sign.
     ///
     /// # Errors
-    /// As there, and where play becomes negative that is not so in this model, or the other way round.
+    /// As there.
     pub(crate) fn varied_with(&self, settings: &Settings) -> Result<Self, Faults> {
-        let model = self.with(settings)?;
-        let fits = |model: &Self| model.contacts().map(|contact| contact.face).collect::<Vec<_>>();
-        let (own, others) = (fits(self), fits(&model));
-        if own == others {
-            return Ok(model);
+        let mut model = self.with(settings)?;
+        let fits = |model: &Self| -> Vec<String> {
+            let faces = model.contacts().filter(|contact| contact.face.is_some());
+            faces.map(|contact| contact.place().to_owned()).collect()
+        };
+        let own = fits(self);
+        if own != fits(&model) {
+            model.split(&|contact| own.iter().any(|place| **place == *contact.name));
         }
-        let is_fit = |contact: &&Contact| contact.face.is_some();
-        let contact = self.contacts().find(is_fit).or_else(|| model.contacts().find(is_fit));
-        let contact = contact.map_or_else(String::new, |contact| contact.place().to_owned());
-        Err(Fault::general(FaultKind::PlayChangesSign { contact }).into())
+        Ok(model)
     }
 }
 

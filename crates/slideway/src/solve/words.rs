@@ -48,6 +48,7 @@ pub(crate) fn joint_mode_in_words(
         let sign = |contact: ContactId| signs.get(contact.index() - first).copied().unwrap_or_default();
         match face.map(|face| [sign(contact), sign(face.other)]) {
             Some([1, -1]) => None,
+            Some([-1, 1]) => Some(0),
             // Where the force of a face vanishes the other one tells.
             Some([0, sign] | [sign, _]) => Some(sign),
             None => Some(sign(contact)),
