@@ -358,8 +358,19 @@ pub enum FaultKind {
     StiffnessOfSome { contacts: Vec<String> },
     #[error("{} share a load, but with rigid faces and no play nothing says how", listed(contacts))]
     RigidWithoutPlay { contacts: Vec<String> },
-    #[error("press fits (negative play) are not computed: {}", listed(contacts))]
-    PressFit { contacts: Vec<String> },
+    #[error("{question} is not computed for press fits: {}", listed(contacts))]
+    PressFit { question: &'static str, contacts: Vec<String> },
+    #[error("nothing says how firmly these press fits grip: {}", listed(contacts))]
+    PressFitWithoutStiffness { contacts: Vec<String> },
+    #[error("a guided slider with a press fit is not computed: {}", listed(contacts))]
+    GuidedPressFit { contacts: Vec<String> },
+    #[error(
+        "the preload of a press fit acts on both faces, but that of {} differs between them",
+        listed(contacts)
+    )]
+    PreloadOfPressFit { contacts: Vec<String> },
+    #[error("the play of {contact} is negative for some values only, which makes a press fit of it")]
+    PlayChangesSign { contact: String },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
     #[error(
@@ -523,7 +534,21 @@ impl FaultKind {
                 "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"
                     .to_owned(),
             ),
-            Self::PressFit { .. } => Some("give a play of zero or more".to_owned()),
+            Self::PressFit { .. } => Some(
+                "give a play of zero or more; press fits that slide under a given load are for `slideway solve`, `limits`, `drive`, `size`, `sweep` and `map`"
+                    .to_owned(),
+            ),
+            Self::PressFitWithoutStiffness { .. } => Some(
+                "give the `stiffness` of one face, in N/m: with the negative `play` it tells the force between both faces".to_owned(),
+            ),
+            Self::GuidedPressFit { .. } => Some(
+                "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
+            ),
+            Self::PreloadOfPressFit { .. } => Some("give one `preload` for both faces".to_owned()),
+            Self::PlayChangesSign { .. } => Some(
+                "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"
+                    .to_owned(),
+            ),
             Self::PlayBeyondBlock { .. } => Some("check the unit: a block tilts little within its play".to_owned()),
             Self::OutOfLine { .. } => Some(
                 "give more play or less misalignment, or the `stiffness` of their faces, which yield then".to_owned(),

@@ -83,10 +83,10 @@ pub(super) fn answer(report: &SolveReport) -> String {
         coordinates.join("; "),
         text(&crate::drawing::answer(report)),
         all(&report.open, |line| format!("<p>{}</p>\n", text(line))),
-        all(report.sharing.iter().flat_map(LoadSharing::in_words), |line| format!(
-            "<p>{}</p>\n",
-            text(&line)
-        )),
+        all(
+            report.sharing.iter().flat_map(|sharing: &LoadSharing| sharing.in_words(&report.model.units)),
+            |line| format!("<p>{}</p>\n", text(&line))
+        ),
     )
 }
 

@@ -130,6 +130,7 @@ __all__ = [
     "PhaseReport",
     "PointKind",
     "PointStatus",
+    "PressFit",
     "Proof",
     "Range",
     "RangeWithoutPosition",
@@ -1735,14 +1736,17 @@ class LoadReport(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LoadSharing(Record):
-    """How redundant guides share a load."""
+    """How redundant guides share a load, and the two faces of press fits."""
 
     self_stresses: int
-    """Degree of redundancy: the number of independent self-stresses."""
+    """Degree of redundancy: the number of independent self-stresses, without those between the two faces of a
+    press fit."""
     groups: tuple[tuple[str, ...], ...]
     """The contacts that share a load, in groups that do not act on one another by self-stresses."""
     elasticity: Elasticity
     """What is taken for their elasticity."""
+    press_fits: tuple[PressFit, ...] = ()
+    """The press fits."""
     stiffness_ratios: StiffnessRatios | None = None
     """Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for
     rigid faces, and where there are too many patterns."""
@@ -2029,6 +2033,17 @@ class PhaseReport(Record):
     """The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks."""
     sliding: tuple[int, ...]
     """For each sliding joint the sign of its velocity, 0 where it sticks."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PressFit(Record):
+    """A contact with negative play: both of its faces are pressed unless the load exceeds the grip."""
+
+    contact: str
+    """The contact; its faces have this name and ".plus" or ".minus" behind it."""
+    grip: float
+    """`N_0 = k |play|` (N), with the stiffness `k` of one face: the sum of the forces on both faces as long as
+    both are pressed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

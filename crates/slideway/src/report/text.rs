@@ -4,9 +4,8 @@ use super::number::number;
 use super::page::Page;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, LoadSharing, ModeEndCause,
-    ModeMargin, PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status,
-    UncertainMode,
+    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
+    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, UncertainMode,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
@@ -121,8 +120,8 @@ impl Text<'_> {
         if let Some(steps) = self.report.steps_from_drawing {
             self.line(&followed(steps));
         }
-        for line in self.report.sharing.iter().flat_map(LoadSharing::in_words) {
-            self.line(&line);
+        if let Some(sharing) = &self.report.sharing {
+            sharing.in_words(&model.units).iter().for_each(|line| self.line(line));
         }
         self.line("");
     }
@@ -131,7 +130,9 @@ impl Text<'_> {
         let report = self.report;
         self.status(report.status, &report.verdict_in_words());
         let search = match &report.patterns {
-            Some(patterns) => tried(patterns, self.report.sharing.is_some()),
+            Some(patterns) => {
+                tried(patterns, self.report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
+            }
             None => {
                 format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
             }

@@ -71,11 +71,11 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
 /// The factor up to which every load has exactly one solution, where a determinant is proven to change its sign;
 /// none if there is no such factor, or with jumps of preloads. Of redundant guides, whatever their play,
 /// misalignment and stiffness: these decide which determinate part of the mechanism carries alone, and the
-/// determinants of all of these parts count.
+/// determinants of all of these parts count. Not asked of press fits, whose faces are pressed both.
 fn uniqueness(data: ProblemData<'_>, enclosed: &EnclosedModeProblem) -> Option<f64> {
     let ProblemData { mechanism, influence, velocity_signs } = data;
     let determinate = determinate_problem(mechanism, influence, velocity_signs).ok()?;
-    if determinate.jumps_of_contacts().contains(&true) {
+    if determinate.jumps_of_contacts().contains(&true) || !mechanism.press_fits().is_empty() {
         return None;
     }
     let shared = enclosed.shared.as_ref().map(|shared| SharedLoad {
@@ -108,10 +108,12 @@ struct Growth {
 /// The contact whose friction alone changes the number of solutions at the smallest factor.
 fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
     let contacts = data.mechanism.contacts.iter().enumerate();
-    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2]);
+    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2] && !contact.is_second_face());
     let factor = |(k, contact): (usize, &crate::mechanism::Contact)| {
-        let factor = Growth::along(data, &|other| other == k)?.another_count()?;
-        Some(CriticalContact { contact: contact.name.to_string(), factor })
+        let other_face = contact.face.map(|face| face.other.index());
+        let factor =
+            Growth::along(data, &|other| other == k || Some(other) == other_face)?.another_count()?;
+        Some(CriticalContact { contact: contact.place().to_owned(), factor })
     };
     rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
 }

@@ -158,6 +158,7 @@ pub(crate) fn hold_within(
         HoldVerdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
+    original.check_no_press_fit("whether it holds at rest")?;
     original.check_determinate("whether it holds at rest")?;
     let mut report = HoldReport {
         schema: SCHEMA,
