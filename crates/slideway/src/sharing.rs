@@ -9,7 +9,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Real;
 use crate::mechanism::{Contact, Mechanism};
 use crate::modes::SharedLoad;
-use crate::report::Elasticity;
+use crate::report::{Elasticity, LoadSharing};
 use nalgebra::{DMatrix, DVector};
 
 /// Normal forces of a self-stress below this are rounding.
@@ -42,6 +42,24 @@ pub fn shared_load<T: Real>(
         clearance: vector(&|contact| contact.play / T::exactly(2.0)),
         misalignment: vector(&|contact| contact.misalignment),
         self_stress,
+    }))
+}
+
+/// How redundant guides share their load, in names, given their self-stresses; none if nothing is in excess.
+///
+/// # Errors
+/// As [`shared_load`].
+pub fn load_sharing(
+    mechanism: &Mechanism,
+    self_stress: &DMatrix<f64>,
+) -> Result<Option<LoadSharing>, Faults> {
+    let Some(shared) = shared_load(mechanism, self_stress.clone())? else { return Ok(None) };
+    let name = |k: &usize| mechanism.contacts[*k].name.to_string();
+    Ok(Some(LoadSharing {
+        self_stresses: shared.cut.len(),
+        groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
+        elasticity: elasticity(mechanism, self_stress)?,
+        stiffness_ratios: None,
     }))
 }
 
@@ -88,7 +106,7 @@ pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -
 }
 
 /// The contacts that share a load, in groups that no self-stress connects.
-pub fn groups(shared: &SharedLoad) -> Vec<Vec<usize>> {
+fn groups(shared: &SharedLoad) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for stress in shared.self_stress.column_iter() {
         let mut group: Vec<usize> = (0..stress.len()).filter(|&k| stress[k] != 0.0).collect();

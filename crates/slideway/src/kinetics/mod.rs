@@ -19,6 +19,7 @@ mod elastic;
 mod influences;
 mod loads;
 mod rows;
+mod self_stress;
 mod system;
 
 pub(crate) use elastic::MasslessMotions;
@@ -199,19 +200,10 @@ impl KineticEquations {
             let error = (row.times(&motion) - row.right_hand_side).abs();
             error > INCONSISTENT * (greatest + row.right_hand_side.abs())
         };
-        let joint = |contact: &ContactId| mechanism.contacts[contact.index()].joint;
-        let violated: Vec<JointId> = self
-            .layout
-            .cut
-            .iter()
-            .zip(cut_rows)
-            .filter(|(_, row)| violated(row))
-            .map(|(contact, _)| joint(contact))
-            .collect();
-        let Some(first) = violated.first() else { return Ok(()) };
-        let joints = violated.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();
-        let kind = FaultKind::SingularPosition { lost: violated.len(), joints };
-        Err(Fault::new(kind, mechanism.joints[first.index()].place.clone()).into())
+        let cut = self.layout.cut.iter().zip(cut_rows);
+        let violated: Vec<ContactId> =
+            cut.filter(|(_, row)| violated(row)).map(|(contact, _)| *contact).collect();
+        if violated.is_empty() { Ok(()) } else { Err(singular_position(mechanism, &violated)) }
     }
 
     /// What a unit normal force of each cut contact adds to all unknowns: the self-stresses.
@@ -269,6 +261,18 @@ impl KineticEquations {
     /// Jumps of the rates of the chosen coordinates that belong to jumps of the bodies' velocities.
     pub(crate) fn coordinate_jumps(&self, unknowns: &DVector<f64>) -> Vec<f64> {
         self.coordinate_rows.iter().map(|row| row.times(unknowns)).collect()
+    }
+}
+
+/// The fault of contacts whose excess does not persist.
+fn singular_position(mechanism: &Mechanism, contacts: &[ContactId]) -> Faults {
+    let joint = |contact: &ContactId| &mechanism.joints[mechanism.contacts[contact.index()].joint.index()];
+    let joints = contacts.iter().map(|contact| joint(contact).name.to_string()).collect();
+    let kind = FaultKind::SingularPosition { lost: contacts.len(), joints };
+    let place = contacts.first().map(|contact| joint(contact).place.clone());
+    match place {
+        Some(place) => Fault::new(kind, place).into(),
+        None => Fault::general(kind).into(),
     }
 }
 

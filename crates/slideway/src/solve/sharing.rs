@@ -8,7 +8,7 @@ use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::{Limits, ModeProblem, SharedLoad, SolutionSet, enumerate};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
-use crate::sharing::{elasticity, groups, shared_load};
+use crate::sharing;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
@@ -31,16 +31,7 @@ pub(crate) fn load_sharing(
     mechanism: &Mechanism,
     influence: &Influence,
 ) -> Result<Option<LoadSharing>, Faults> {
-    let stresses = self_stresses(influence);
-    let Some(shared) = shared_load(mechanism, stresses.clone())? else { return Ok(None) };
-    let name = |k: &usize| mechanism.contacts[*k].name.to_string();
-    let elasticity = elasticity(mechanism, &stresses)?;
-    Ok(Some(LoadSharing {
-        self_stresses: shared.cut.len(),
-        groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
-        elasticity,
-        stiffness_ratios: None,
-    }))
+    sharing::load_sharing(mechanism, &self_stresses(influence))
 }
 
 /// Refuses rigid guides that are out of line by more than their play.

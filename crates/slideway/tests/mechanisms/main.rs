@@ -33,6 +33,7 @@ mod preload_gap;
 mod properties;
 mod redundant;
 mod redundant_closed_forms;
+mod redundant_rest;
 mod rest;
 mod speeds;
 mod standstill;

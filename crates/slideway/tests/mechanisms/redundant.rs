@@ -316,32 +316,32 @@ fn an_unloaded_block_floats_in_one_state() {
 
 /// A rigid body that slides along x on rails along x: contacts at (x, y) with their law.
 #[derive(Debug, Clone)]
-struct Carriage {
-    load: [f64; 2],
-    at: [f64; 2],
+pub(crate) struct Carriage {
+    pub(crate) load: [f64; 2],
+    pub(crate) at: [f64; 2],
     mass: f64,
     moment: f64,
     /// For each rail its height and the half distance of the faces; three contacts each.
-    rails: Vec<(f64, f64)>,
-    contacts: Vec<Pad>,
+    pub(crate) rails: Vec<(f64, f64)>,
+    pub(crate) contacts: Vec<Pad>,
 }
 
 #[derive(Debug, Clone)]
-struct Pad {
-    x: f64,
-    mu: f64,
-    preload: f64,
-    clearance: f64,
-    compliance: f64,
-    misalignment: f64,
+pub(crate) struct Pad {
+    pub(crate) x: f64,
+    pub(crate) mu: f64,
+    pub(crate) preload: f64,
+    pub(crate) clearance: f64,
+    pub(crate) compliance: f64,
+    pub(crate) misalignment: f64,
 }
 
 impl Carriage {
-    fn per_rail(&self) -> usize {
+    pub(crate) fn per_rail(&self) -> usize {
         self.contacts.len() / self.rails.len()
     }
 
-    fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut text = format!(
             "[points]\nload = [{}, {}]\n[bodies.body]\nmass = {}\nmoment_of_inertia = {}\ncentre_of_mass = [0, 0]\npoints = [\"load\"]\n\
              [loads.load]\ntype = \"force\"\nat = \"body.load\"\ncomponents = [{}, {}]\n[coordinates.s]\nslide = \"rail0\"\nrate = 1\n",
@@ -441,7 +441,7 @@ impl Carriage {
     }
 }
 
-fn carriages() -> impl Strategy<Value = Carriage> {
+pub(crate) fn carriages() -> impl Strategy<Value = Carriage> {
     let pad = (0.0..1.5_f64, 0.0..3.0_f64, 0.0..3e-4_f64, 5e-6..5e-5_f64, -3e-4..3e-4_f64);
     let rails = proptest::collection::vec((-0.4..0.4_f64, 0.0..0.05_f64), 1..3);
     (
