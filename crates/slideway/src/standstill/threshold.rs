@@ -24,7 +24,7 @@ use super::state::{State, StateQuestion, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::model::Model;
-use crate::pattern::Unsolved;
+use crate::pattern::{Phase, Unsolved};
 use crate::progress::Work;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
@@ -113,19 +113,39 @@ fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
 }
 
 /// The least value for which some pattern answers the question.
+///
+/// Patterns that never do are tried with ever more friction, which a linear program may not be solved for. They are
+/// tried again up to what the others need.
 fn least_value(alone: &Setup, law: &Law, question: StateQuestion, work: Work<'_>) -> Over<Option<f64>> {
-    let mut over = Over { found: None, undecided: 0 };
+    let mut found: Option<f64> = None;
+    let mut undecided = 0;
+    let mut again = Vec::new();
     for sides in until_over(sides(alone), work) {
         let pattern = resting(alone, sides);
-        let Some(state) = State::new(alone, &pattern, question) else { continue };
-        let best = over.found.unwrap_or(GREATEST);
-        let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);
-        match least_of(best, missing) {
-            Ok(least) => over.found = least.or(over.found),
-            Err(Unsolved) => over.undecided += 1,
+        match least_in(alone, &pattern, law, (question, found)) {
+            Ok(least) => found = least.or(found),
+            Err(Unsolved) => again.push(pattern),
         }
     }
-    over
+    for pattern in &again {
+        match least_in(alone, pattern, law, (question, found)) {
+            Ok(least) => found = least.or(found),
+            Err(Unsolved) => undecided += 1,
+        }
+    }
+    Over { found, undecided }
+}
+
+/// The least value for which a pattern answers the question, if it is less than the one already found.
+fn least_in(
+    alone: &Setup,
+    pattern: &Phase,
+    law: &Law,
+    (question, found): (StateQuestion, Option<f64>),
+) -> Result<Option<f64>, Unsolved> {
+    let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
+    let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);
+    least_of(found.unwrap_or(GREATEST), missing)
 }
 
 /// The least value from 0 to `best` where a falling function is no more than zero.
