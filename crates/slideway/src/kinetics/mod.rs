@@ -35,6 +35,7 @@ use crate::interval::Real;
 use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
+use self_stress::singular_position;
 use system::{Factorization, Singular};
 pub(crate) use system::{equilibration, scaled};
 
@@ -261,18 +262,6 @@ impl KineticEquations {
     /// Jumps of the rates of the chosen coordinates that belong to jumps of the bodies' velocities.
     pub(crate) fn coordinate_jumps(&self, unknowns: &DVector<f64>) -> Vec<f64> {
         self.coordinate_rows.iter().map(|row| row.times(unknowns)).collect()
-    }
-}
-
-/// The fault of contacts whose excess does not persist.
-fn singular_position(mechanism: &Mechanism, contacts: &[ContactId]) -> Faults {
-    let joint = |contact: &ContactId| &mechanism.joints[mechanism.contacts[contact.index()].joint.index()];
-    let joints = contacts.iter().map(|contact| joint(contact).name.to_string()).collect();
-    let kind = FaultKind::SingularPosition { lost: contacts.len(), joints };
-    let place = contacts.first().map(|contact| joint(contact).place.clone());
-    match place {
-        Some(place) => Fault::new(kind, place).into(),
-        None => Fault::general(kind).into(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Self-stresses of redundant guides from statics alone, so that no motion needs inertia.
 
-use super::{Assembled, INCONSISTENT, Reaction, singular_position};
-use crate::fault::Faults;
+use super::{Assembled, INCONSISTENT, Reaction};
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
 use nalgebra::{DMatrix, DVector};
@@ -49,5 +49,17 @@ impl Assembled<f64> {
         let row =
             |k: usize| DVector::from_fn(cut.len(), |stress, _| force(k, stress).unwrap_or(0.0)).transpose();
         Ok(DMatrix::from_rows(&(0..mechanism.contacts.len()).map(row).collect::<Vec<_>>()))
+    }
+}
+
+/// The fault of contacts whose excess does not persist.
+pub(super) fn singular_position(mechanism: &Mechanism, contacts: &[ContactId]) -> Faults {
+    let joint = |contact: &ContactId| &mechanism.joints[mechanism.contacts[contact.index()].joint.index()];
+    let joints = contacts.iter().map(|contact| joint(contact).name.to_string()).collect();
+    let kind = FaultKind::SingularPosition { lost: contacts.len(), joints };
+    let place = contacts.first().map(|contact| joint(contact).place.clone());
+    match place {
+        Some(place) => Fault::new(kind, place).into(),
+        None => Fault::general(kind).into(),
     }
 }

@@ -15,6 +15,10 @@
 //! about 1e-12 of the greatest force; a state that misses its inequalities by less than 1e-9 of it counts as
 //! possible.
 //!
+//! Of redundant guides a contact may also be open, and the deflections of all contacts must fit together
+//! (theory, section 10). Where the guides came to rest within their play is not known: that, too, is a range. Without
+//! stiffness nothing bounds how hard they are pressed against each other, and such guides are refused.
+//!
 //! ```
 //! use slideway::model::{Model, Settings};
 //! use slideway::standstill::{HoldOptions, hold};

@@ -141,7 +141,8 @@ fn rigid_faces_are_refused() {
     let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
     let [FaultKind::RigidAtRest { contacts }] = kinds.as_slice() else { panic!("{faults}") };
     assert_eq!(contacts.len(), 4);
-    assert!(kinds[0].hint().unwrap().contains("stiffness"));
+    assert!(kinds[0].hint().unwrap().contains("give their `stiffness`"));
+    assert!(faults.to_string().contains("pressed against each other"), "{faults}");
 }
 
 /// Without stiffness, play and misalignment only ratios of stiffnesses count.
