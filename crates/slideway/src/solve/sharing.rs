@@ -6,7 +6,8 @@ use crate::attainability::ratios;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::{Limits, ModeProblem, SharedLoad, SolutionSet, enumerate};
+use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
+use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, SolutionSet, enumerate};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
 use crate::sharing;
 use nalgebra::{DMatrix, DVector};
@@ -81,14 +82,15 @@ fn cannot_be_assembled(influence: &Influence, shared: &SharedLoad) -> bool {
 /// many patterns.
 fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
     let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
-    let Some(as_given) = patterns(&problem, shared) else { return Ok(None) };
+    let mut patterns = Patterns::new(&problem, &stages.mechanism.excess.open);
+    let Some(as_given) = patterns.of(shared) else { return Ok(None) };
     let sharing: Vec<usize> = (0..shared.compliance.len()).filter(|&k| shared.shares(k)).collect();
     let mut others = BTreeSet::new();
     let (mut tried, mut same) = (0, true);
     for factors in ratios(sharing.len()) {
         let mut compliance: DVector<f64> = shared.compliance.clone();
         sharing.iter().zip(&factors).for_each(|(&k, factor)| compliance[k] /= *factor);
-        let Some(found) = patterns(&problem, &SharedLoad { compliance, ..shared.clone() }) else {
+        let Some(found) = patterns.of(&SharedLoad { compliance, ..shared.clone() }) else {
             return Ok(None);
         };
         tried += 1;
@@ -98,12 +100,36 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
     Ok(Some(StiffnessRatios { tried, same, others: others.into_iter().collect() }))
 }
 
-/// The patterns of all states, in rounded numbers; none if there are too many.
-fn patterns(problem: &ModeProblem, shared: &SharedLoad) -> Option<BTreeSet<String>> {
-    let found = enumerate(&problem.with_shared_load(shared).ok()?, &Limits::default()).ok()?;
-    let pressed = found.solutions.iter().map(|solution| {
-        super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
-    });
-    let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
-    Some(pressed.chain(open).collect())
+/// The patterns of all states for one shared load after another, in rounded numbers.
+struct Patterns<'p> {
+    problem: &'p ModeProblem,
+    /// None if there are too many contacts.
+    small: Option<(Screen, SmallProblem)>,
+}
+
+impl<'p> Patterns<'p> {
+    fn new(problem: &'p ModeProblem, open: &OpenContacts) -> Self {
+        let contacts = problem.contacts();
+        let small = (contacts <= MOST_CONTACTS)
+            .then(|| (Screen::new(contacts).with_open(open.clone()), SmallProblem::new(contacts)));
+        Self { problem, small }
+    }
+
+    /// None if there are too many patterns.
+    fn of(&mut self, shared: &SharedLoad) -> Option<BTreeSet<String>> {
+        let problem = self.problem.with_shared_load(shared).ok()?;
+        if let Some((screen, small)) = &mut self.small {
+            small.copy(&problem);
+            if let Ok(states) = screen.states(small, 0.0) {
+                let patterns = states.iter().map(|state| &state.pattern[..problem.contacts()]);
+                return Some(patterns.map(super::pattern).collect());
+            }
+        }
+        let found = enumerate(&problem, &Limits::default()).ok()?;
+        let pressed = found.solutions.iter().map(|solution| {
+            super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
+        });
+        let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
+        Some(pressed.chain(open).collect())
+    }
 }
