@@ -128,7 +128,8 @@ impl Text<'_> {
         for line in threshold_in_words(load) {
             self.line(&format!("  {line}"));
         }
-        if self.report.verdict == HoldVerdict::HoldsOrSlips {
+        // Of redundant guides it was said what that depends on.
+        if self.report.verdict == HoldVerdict::HoldsOrSlips && self.report.wedging.is_none() {
             self.line("  At rest it is wedged in now, and it can also begin to slide: do not rely on it.");
         }
     }
