@@ -371,6 +371,11 @@ pub enum FaultKind {
     PreloadOfPressFit { contacts: Vec<String> },
     #[error("the play of {contact} is negative for some values only, which makes a press fit of it")]
     PlayChangesSign { contact: String },
+    #[error(
+        "whether it holds at rest is not determined by rigid guides that share a load: pressed against each other, {} could hold any load",
+        listed(contacts)
+    )]
+    RigidAtRest { contacts: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
     #[error(
@@ -526,8 +531,11 @@ impl FaultKind {
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
             Self::SharedLoad { .. } => Some(
-                "contacts that open and close, and friction at rest between two faces, are states that only moving mechanisms with a given load have so far: ask `slideway solve`, `limits`, `drive`, `size`, `sweep` or `map`"
+                "contacts that open and close on the way are no event that motions have; ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
                     .to_owned(),
+            ),
+            Self::RigidAtRest { .. } => Some(
+                "give their `stiffness`, in N/m: then their deflection says how hard they can be pressed".to_owned(),
             ),
             Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
             Self::RigidWithoutPlay { .. } => Some(

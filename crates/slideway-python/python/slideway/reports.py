@@ -175,6 +175,7 @@ __all__ = [
     "Verdict",
     "WarningPlace",
     "WarningReport",
+    "Wedging",
     "WithinRounding",
     "WithinRoundingAnswer",
     "Zone",
@@ -591,7 +592,7 @@ class AtRest(Record):
     """All states of rest together."""
 
     patterns: tuple[str, ...]
-    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap."""
+    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap, or open."""
     reactions: Reactions
     """Reactions, over all these patterns."""
 
@@ -1561,7 +1562,7 @@ class HingeRange(Record):
 class HoldReport(_mixins.HoldReport, Report):
     """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
 
-    _absent = {"steps_from_drawing": None}
+    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1582,6 +1583,10 @@ class HoldReport(_mixins.HoldReport, Report):
     """Drives that are taken as absent."""
     holding_drives: tuple[str, ...]
     """Drives that hold their coordinate."""
+    sharing: LoadSharing | None
+    """How redundant guides share their load; absent if no constraint is redundant."""
+    wedging: Wedging | None
+    """Whether redundant guides can be wedged; absent if no constraint is redundant."""
     load: LoadReport | None
     """The load that is varied, if one is."""
     at_rest: AtRest | None
@@ -2248,7 +2253,7 @@ class Release(Record):
     joints: tuple[JointRelease, ...]
     """What each sliding joint does."""
     patterns: tuple[str, ...]
-    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap."""
+    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open."""
     coordinates: tuple[CoordinateRange, ...]
     """Accelerations of the chosen coordinates."""
     reactions: Reactions
@@ -2620,15 +2625,15 @@ class Theme(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Threshold(Record):
-    """The static friction from which on the load alone, however great, is held."""
+    """The static friction from which on the load alone, however great, is held, or guides wedge."""
 
     varied: str
     """What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter."""
     present: float
     """Its value in the model: 1 for the factor."""
     value: float | None
-    """Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
-    nothing if no friction suffices."""
+    """Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
+    needed, nothing if no friction suffices."""
     coefficients: tuple[Coefficients, ...]
     """Static coefficients of every contact at the threshold."""
 
@@ -2744,6 +2749,16 @@ class WarningReport(Record):
     """What is perhaps not meant."""
     hint: str
     """What to do about it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Wedging(Record):
+    """Whether redundant guides can be wedged: pressed against each other without any load, however hard."""
+
+    possible: bool
+    """Whether they can with the friction of the model: then nothing bounds the loads that it can hold."""
+    threshold: Threshold
+    """From which static friction on they can."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
