@@ -94,7 +94,7 @@ impl Builder<'_> {
         let vary = &self.course.vary;
         let way = match direction.direction {
             Sense::Model => "as in the model",
-            Sense::Reversed => "in the opposite direction",
+            Sense::Reversed => "in the opposite direction with the same loads",
         };
         let scale = self.course.vary.shown_in.scale();
         Panel {

@@ -32,7 +32,12 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
         panels.push(builder.panel(report, title, unit, direction));
         if let Some((reversed, found)) = opposite {
             let direction = (&*reversed.modes, &**found, &*reversed.counts, &*reversed.without_mode_problem);
-            panels.push(builder.panel(report, "Moving in the opposite direction", unit, direction));
+            panels.push(builder.panel(
+                report,
+                "Moving in the opposite direction with the same loads",
+                unit,
+                direction,
+            ));
         }
     }
     without_empty_ends(&mut panels);

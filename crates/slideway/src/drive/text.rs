@@ -63,7 +63,10 @@ fn near(one: f64, other: f64) -> bool {
 }
 
 fn moving(direction: Sense) -> &'static str {
-    if direction == Sense::Model { "Moving as in the model" } else { "Moving in the opposite direction" }
+    match direction {
+        Sense::Model => "Moving as in the model",
+        Sense::Reversed => "Moving in the opposite direction with the same loads",
+    }
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
