@@ -25,6 +25,7 @@
 //! ```
 
 pub(crate) mod clip;
+mod colours;
 mod drawn;
 mod drive;
 pub(crate) mod figure;
