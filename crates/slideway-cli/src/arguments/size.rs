@@ -15,7 +15,7 @@ Examples:
   slideway size drawer.toml --vary a --margin 1.5 --both-directions
   slideway size drawer.toml --vary L --margin 2 --plot margin.svg
   slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
-  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
+  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
   slideway size drawer.toml --vary L --max-effort 30N          how long for a push of 30 N
   slideway size drawer.toml --vary L --min-efficiency 70%
@@ -54,8 +54,8 @@ pub(crate) struct SizeArguments {
     #[arg(long, default_value = FrictionMargin::default().word(), value_parser = choice::<FrictionMargin>())]
     against: FrictionMargin,
 
-    /// The load, or the drive whose effort is the load, for a margin at rest; the drive of --max-effort, or the
-    /// contact of --max-normal-force or --max-pressure, by default all of them.
+    /// The load, or the drive whose effort is the load, for a margin at rest, by default the only load; the drive of
+    /// --max-effort, or the contact of --max-normal-force or --max-pressure, by default all of them.
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
 
@@ -126,7 +126,7 @@ impl SizeArguments {
     /// Against what, with the load, drive or contact that it concerns.
     ///
     /// # Errors
-    /// A margin at rest without a load, one of motion with a load.
+    /// A margin at rest without a load where the model has several, one of motion with a load.
     pub(crate) fn against(&self, model: &Model) -> Result<Against, Faults> {
         let load = self.load.clone();
         if self.limit.max_effort.is_some() {

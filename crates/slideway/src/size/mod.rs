@@ -37,10 +37,12 @@ pub use report::{
 
 use crate::choice::Choice;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Vary, range_around};
+use crate::limits::{Vary, held_state, range_around};
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
+use crate::standstill::only_load;
 use crate::units::Unit;
 use margin::{Margin, MarginQuestion};
 use search::MarginSearch;
@@ -108,24 +110,19 @@ impl Choice for FrictionMargin {
 }
 
 impl Against {
-    /// This margin, at rest under a load.
+    /// This margin, at rest under a load, by default the only one.
     ///
     /// # Errors
-    /// A margin at rest without a load, one of motion with a load.
+    /// A margin at rest without a load where the model has several, one of motion with a load.
     pub fn margin(margin: FrictionMargin, load: Option<String>, model: &Model) -> Result<Self, Faults> {
+        let or_only = |load: Option<String>| load.map_or_else(|| only_load(model), Ok);
         match (margin, load) {
             (FrictionMargin::Locking, None) => Ok(Self::Locking),
             (FrictionMargin::Locking, Some(load)) => {
                 Err(Fault::general(FaultKind::LoadUnused { load }).into())
             }
-            (FrictionMargin::SelfLocking, Some(load)) => Ok(Self::SelfLocking { load }),
-            (FrictionMargin::Hold, Some(load)) => Ok(Self::Hold { load }),
-            (_, None) => {
-                let loads = model.loads.iter().map(|load| &load.name);
-                let all = loads.chain(model.drives.iter().map(|drive| &drive.name));
-                let known = all.map(ToString::to_string).collect();
-                Err(Fault::general(FaultKind::LoadNeeded { known }).into())
-            }
+            (FrictionMargin::SelfLocking, load) => Ok(Self::SelfLocking { load: or_only(load)? }),
+            (FrictionMargin::Hold, load) => Ok(Self::Hold { load: or_only(load)? }),
         }
     }
 
@@ -258,7 +255,13 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
     let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
-    finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
+    if found.places.iter().all(|place| place.margin.is_none()) {
+        // Nowhere an answer: the faults in the middle say why.
+        question.margin(f64::midpoint(range[0], range[1]), work)?;
+    }
+    let state = held_state(&Mechanism::new(model)?, &varied);
+    let sought = report::Sought { question, range, steps, value, present, found };
+    finite(report::report(model, state, options, &sought))
 }
 
 /// # Errors
