@@ -14,7 +14,7 @@ use std::fmt;
 
 /// The classes of `slideway.reports` by their names, and what they say of their fields.
 struct Classes {
-    classes: HashMap<String, Py<PyAny>>,
+    by_name: HashMap<String, Py<PyAny>>,
     hints: Py<PyDict>,
     /// `object.__new__` and `object.__setattr__`: the classes have constructors, and are frozen.
     new: Py<PyAny>,
@@ -28,12 +28,12 @@ impl Classes {
         CLASSES.get_or_try_init(py, || {
             let module = py.import("slideway.reports")?;
             let hints = module.getattr("HINTS")?.cast_into::<PyDict>()?.unbind();
-            let classes = module.dict().iter().filter(|(_, value)| value.is_instance_of::<PyType>());
-            let classes = classes.map(|(name, class)| Ok((name.extract()?, class.unbind())));
+            let by_name = module.dict().iter().filter(|(_, value)| value.is_instance_of::<PyType>());
+            let by_name = by_name.map(|(name, class)| Ok((name.extract()?, class.unbind())));
             let object = py.import("builtins")?.getattr("object")?;
             let (new, set_attribute) = (object.getattr("__new__")?, object.getattr("__setattr__")?);
             let (new, set_attribute) = (new.unbind(), set_attribute.unbind());
-            Ok(Self { classes: classes.collect::<PyResult<_>>()?, hints, new, set_attribute })
+            Ok(Self { by_name: by_name.collect::<PyResult<_>>()?, hints, new, set_attribute })
         })
     }
 }
@@ -46,7 +46,7 @@ pub(crate) fn instance<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let classes = Classes::get(py)?;
     let unknown = || PyTypeError::new_err(format!("slideway.reports has no class {class}"));
-    let object = classes.new.bind(py).call1((classes.classes.get(class).ok_or_else(unknown)?,))?;
+    let object = classes.new.bind(py).call1((classes.by_name.get(class).ok_or_else(unknown)?,))?;
     classes.set_attribute.bind(py).call1((&object, intern!(py, "__dict__"), attributes))?;
     Ok(object)
 }
@@ -214,7 +214,7 @@ impl<'py> ser::Serializer for Serializer<'py> {
 
     fn serialize_struct(self, name: &'static str, _length: usize) -> Result<Fields<'py>, Error> {
         // Variants of enums that are no words have the name of the enum, and no class.
-        let has_class = Classes::get(self.py)?.classes.contains_key(name);
+        let has_class = Classes::get(self.py)?.by_name.contains_key(name);
         Fields::new(self.py, has_class.then_some(name))
     }
 

@@ -72,7 +72,7 @@ fn column(field: &Field, rows: &Rows) -> ArrayRef {
         Meaning::Status => words(room, heads.map(|head| head.status.word())),
         Meaning::Kind => words(room, heads.map(|head| head.kind.word())),
         Meaning::Attainability => words(room, heads.map(|head| head.verdict.word())),
-        Meaning::DeterminantSign => words(room, heads.map(|head| head.determinant_sign())),
+        Meaning::DeterminantSign => words(room, heads.map(RowHead::determinant_sign)),
         Meaning::Pattern => {
             let pattern = |row| std::str::from_utf8(rows.pattern(row).trim_ascii()).unwrap_or_default();
             words(room, (0..rows.len()).map(pattern))
@@ -158,7 +158,7 @@ impl ArrowTable {
     /// # Errors
     /// If the words of a column become too long for Arrow.
     pub fn append(&mut self, columns: &[ArrayRef]) -> Result<(), ArrowError> {
-        let more = columns.first().map_or(0, |points| points.len());
+        let more = columns.first().map_or(0, Array::len);
         let rows = self.growing.first_mut().map_or(0, |points| points.builder().len());
         // Beyond its room, a column would be copied.
         if rows + more > BATCH {
