@@ -77,7 +77,9 @@ def test_parts_tell_the_command_line_that_asks_for_the_same(tmp_path: Path) -> N
         start + "--vary 'L=300 mm' --vary mu=0.1,0.2 --attainability"
     )
     assert told(samples=3, L="uniform(0.3, 0.4)") == start + "--vary 'L=uniform(0.3, 0.4)' --samples 3"
-    assert told(L=["min(0.3, 0.4)", 0.5]) == "slideway for Python: Model.write_shard"
+    assert told(L=["min(0.3, 0.4)", 0.5]) == start + "--vary 'L=min(0.3, 0.4),0.5' --no-breakpoints"
+    # No argument of a program has room for so many.
+    assert told(L=np.linspace(0.3, 0.4, 20_001)) == "slideway for Python: Model.write_shard"
 
 
 def test_parts_that_are_there_are_kept(client: Client, tmp_path: Path) -> None:
