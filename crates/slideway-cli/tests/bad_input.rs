@@ -61,7 +61,6 @@ refused! {
     overlap_vanished: ["solve", DRAWER, "--at", "x=-0.5 m"];
     overlap_of_the_boom_vanished: ["solve", "models/telescopic-boom.toml", "--at", "s_2=70 cm"];
     rails_in_time: ["simulate", RAILS, "--until", "1 s"];
-    rails_at_rest: ["hold", RAILS];
     at_rest: ["solve", KLEPP, "--rate", "q=0"];
     dead_centre: ["solve", "models/slider-crank.toml", "--at", "phi=0"];
     rod_too_short: ["solve", "models/slider-crank.toml", "--set", "l=45 mm", "--at", "phi=90 deg"];

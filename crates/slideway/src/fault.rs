@@ -360,10 +360,30 @@ pub enum FaultKind {
     StiffnessOfSome { contacts: Vec<String> },
     #[error("{} share a load, but with rigid faces and no play nothing says how", listed(contacts))]
     RigidWithoutPlay { contacts: Vec<String> },
-    #[error("press fits (negative play) are not computed: {}", listed(contacts))]
-    PressFit { contacts: Vec<String> },
+    #[error("{question} is not computed for press fits: {}", listed(contacts))]
+    PressFit { question: &'static str, contacts: Vec<String> },
+    #[error("nothing says how firmly these press fits grip: {}", listed(contacts))]
+    PressFitWithoutStiffness { contacts: Vec<String> },
+    #[error("a guided slider with a press fit is not computed: {}", listed(contacts))]
+    GuidedPressFit { contacts: Vec<String> },
+    #[error(
+        "the preload of a press fit acts on both faces, but that of {} differs between them",
+        listed(contacts)
+    )]
+    PreloadOfPressFit { contacts: Vec<String> },
+    #[error("the play of {contact} is negative for some values only, which makes a press fit of it")]
+    PlayChangesSign { contact: String },
+    #[error(
+        "whether it holds at rest is not determined by rigid guides that share a load: pressed against each other, {} could hold any load",
+        listed(contacts)
+    )]
+    RigidAtRest { contacts: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
+    #[error(
+        "the play of {contact}, {play}, is not less than the distance of the outermost contacts of its block, {distance}"
+    )]
+    PlayBeyondBlock { contact: String, play: String, distance: String },
     #[error("the guides cannot be assembled: {} are out of line by more than their play", listed(contacts))]
     OutOfLine { contacts: Vec<String> },
     #[error("the redundant guides do not fit together: {joint} is off by {gap}")]
@@ -511,15 +531,33 @@ impl FaultKind {
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
             Self::SharedLoad { .. } => Some(
-                "contacts that open and close, and friction at rest between two faces, are states that only moving mechanisms with a given load have so far: ask `slideway solve`, `limits`, `drive`, `size`, `sweep` or `map`"
+                "contacts that open and close on the way are no event that motions have; ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
                     .to_owned(),
+            ),
+            Self::RigidAtRest { .. } => Some(
+                "give their `stiffness`, in N/m: then their deflection says how hard they can be pressed".to_owned(),
             ),
             Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
             Self::RigidWithoutPlay { .. } => Some(
                 "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"
                     .to_owned(),
             ),
-            Self::PressFit { .. } => Some("give a play of zero or more".to_owned()),
+            Self::PressFit { .. } => Some(
+                "give a play of zero or more; press fits that slide under a given load are for `slideway solve`, `limits`, `drive`, `size`, `sweep` and `map`"
+                    .to_owned(),
+            ),
+            Self::PressFitWithoutStiffness { .. } => Some(
+                "give the `stiffness` of one face, in N/m: with the negative `play` it tells the force between both faces".to_owned(),
+            ),
+            Self::GuidedPressFit { .. } => Some(
+                "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
+            ),
+            Self::PreloadOfPressFit { .. } => Some("give one `preload` for both faces".to_owned()),
+            Self::PlayChangesSign { .. } => Some(
+                "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"
+                    .to_owned(),
+            ),
+            Self::PlayBeyondBlock { .. } => Some("check the unit: a block tilts little within its play".to_owned()),
             Self::OutOfLine { .. } => Some(
                 "give more play or less misalignment, or the `stiffness` of their faces, which yield then".to_owned(),
             ),

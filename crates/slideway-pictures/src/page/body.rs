@@ -98,10 +98,10 @@ fn answer_at(parameters: &[String], report: &SolveReport) -> String {
         text(&at_middle(parameters, &crate::drawing::answer(report))),
         all(report.for_all_values().iter().chain(&report.open), |line| format!("<p>{}</p>\n", text(line))),
         all(report.remark(), |line| format!("<p>{}</p>\n", text(&line))),
-        all(report.sharing.iter().flat_map(LoadSharing::in_words), |line| format!(
-            "<p>{}</p>\n",
-            text(&line)
-        )),
+        all(
+            report.sharing.iter().flat_map(|sharing: &LoadSharing| sharing.in_words(&report.model.units)),
+            |line| format!("<p>{}</p>\n", text(&line))
+        ),
     )
 }
 

@@ -130,6 +130,7 @@ __all__ = [
     "PhaseReport",
     "PointKind",
     "PointStatus",
+    "PressFit",
     "Proof",
     "Range",
     "RangeWithoutPosition",
@@ -175,6 +176,7 @@ __all__ = [
     "Verdict",
     "WarningPlace",
     "WarningReport",
+    "Wedging",
     "WithinRounding",
     "WithinRoundingAnswer",
     "Zone",
@@ -591,7 +593,7 @@ class AtRest(Record):
     """All states of rest together."""
 
     patterns: tuple[str, ...]
-    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap."""
+    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap, or open."""
     reactions: Reactions
     """Reactions, over all these patterns."""
     wedging: tuple[str, ...]
@@ -1567,7 +1569,7 @@ class HingeRange(Record):
 class HoldReport(_mixins.HoldReport, Report):
     """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
 
-    _absent = {"steps_from_drawing": None}
+    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1588,6 +1590,10 @@ class HoldReport(_mixins.HoldReport, Report):
     """Drives that are taken as absent."""
     holding_drives: tuple[str, ...]
     """Drives that hold their coordinate."""
+    sharing: LoadSharing | None
+    """How redundant guides share their load; absent if no constraint is redundant."""
+    wedging: Wedging | None
+    """Whether redundant guides can be wedged; absent if no constraint is redundant."""
     load: LoadReport | None
     """The load that is varied, if one is."""
     at_rest: AtRest | None
@@ -1744,14 +1750,17 @@ class LoadReport(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LoadSharing(Record):
-    """How redundant guides share a load."""
+    """How redundant guides share a load, and the two faces of press fits."""
 
     self_stresses: int
-    """Degree of redundancy: the number of independent self-stresses."""
+    """Degree of redundancy: the number of independent self-stresses, without those between the two faces of a
+    press fit."""
     groups: tuple[tuple[str, ...], ...]
     """The contacts that share a load, in groups that do not act on one another by self-stresses."""
     elasticity: Elasticity
     """What is taken for their elasticity."""
+    press_fits: tuple[PressFit, ...] = ()
+    """The press fits."""
     stiffness_ratios: StiffnessRatios | None = None
     """Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for
     rigid faces, and where there are too many patterns."""
@@ -2048,6 +2057,17 @@ class PhaseReport(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class PressFit(Record):
+    """A contact with negative play: both of its faces are pressed unless the load exceeds the grip."""
+
+    contact: str
+    """The contact; its faces have this name and ".plus" or ".minus" behind it."""
+    grip: float
+    """`N_0 = k |play|` (N), with the stiffness `k` of one face: the sum of the forces on both faces as long as
+    both are pressed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Range(Record):
     """All values from `least` to `greatest`; nothing where there is no bound."""
 
@@ -2249,7 +2269,7 @@ class Release(Record):
     joints: tuple[JointRelease, ...]
     """What each sliding joint does."""
     patterns: tuple[str, ...]
-    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap."""
+    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open."""
     coordinates: tuple[CoordinateRange, ...]
     """Accelerations of the chosen coordinates."""
     reactions: Reactions
@@ -2628,15 +2648,15 @@ class Theme(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Threshold(Record):
-    """The static friction from which on the load alone, however great, is held."""
+    """The static friction from which on the load alone, however great, is held, or guides wedge."""
 
     varied: str
     """What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter."""
     present: float
     """Its value in the model: 1 for the factor."""
     value: float | None
-    """Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
-    nothing if no friction suffices."""
+    """Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
+    needed, nothing if no friction suffices."""
     coefficients: tuple[Coefficients, ...]
     """Static coefficients of every contact at the threshold."""
 
@@ -2762,6 +2782,16 @@ class WarningReport(Record):
     """What is perhaps not meant."""
     hint: str
     """What to do about it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Wedging(Record):
+    """Whether redundant guides can be wedged: pressed against each other without any load, however hard."""
+
+    possible: bool
+    """Whether they can with the friction of the model: then nothing bounds the loads that it can hold."""
+    threshold: Threshold
+    """From which static friction on they can."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -31,7 +31,7 @@ use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, rot90};
-use crate::model::CarriedBy;
+use crate::model::{CarriedBy, SliderKind};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -268,14 +268,8 @@ impl<T: Real> Configuration<T> {
     /// A fault for each coefficient that is not finite or is negative there, and for each misalignment that is
     /// not finite.
     pub fn put_friction(&self, mechanism: &mut Mechanism<T>) -> Result<(), Faults> {
-        let mut faults = Faults::default();
+        let mut faults = self.put_misalignments(mechanism).err().unwrap_or_default();
         for k in 0..mechanism.contacts.len() {
-            if let Some(law) = mechanism.contacts[k].misalignment_law {
-                match self.quantity(mechanism, Quantity::Varying(law)) {
-                    Ok(misalignment) => mechanism.contacts[k].misalignment = misalignment,
-                    Err(fault) => faults.push(fault),
-                }
-            }
             if !mechanism.contacts[k].depends_on_speed() {
                 continue;
             }
@@ -289,9 +283,28 @@ impl<T: Real> Configuration<T> {
         faults.or(())
     }
 
+    /// Puts the misalignments at the coordinates of this configuration into a mechanism.
+    ///
+    /// # Errors
+    /// A fault for each that is not finite.
+    pub fn put_misalignments(&self, mechanism: &mut Mechanism<T>) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        for k in 0..mechanism.contacts.len() {
+            let Some(law) = mechanism.contacts[k].misalignment_law else { continue };
+            match self.quantity(mechanism, Quantity::Varying(law)) {
+                Ok(misalignment) => mechanism.contacts[k].misalignment = misalignment,
+                Err(fault) => faults.push(fault),
+            }
+        }
+        faults.or(())
+    }
+
     /// Supported length of a block slider: distance of front from rear contact along the guide (m).
     pub fn overlap(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Option<T> {
         let [front, rear, ..] = slider.contacts[..] else { return None };
+        if slider.kind != SliderKind::Block {
+            return None;
+        }
         let front = self.contact(mechanism, front);
         Some(front.tangent.dot(&(front.point - self.contact(mechanism, rear).point)))
     }

@@ -8,6 +8,7 @@ use super::report::{LimitsReport, SpeedLimits};
 use super::speeds::speeds;
 use super::varied::Varied;
 use crate::fault::Faults;
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::Work;
 use crate::solve::Stages;
@@ -29,6 +30,9 @@ pub(super) struct Analysis {
 
 impl Analysis {
     pub(super) fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
+        if options.max_reaction.is_some() {
+            Mechanism::new(model)?.check_no_press_fit("a greatest reaction")?;
+        }
         let vary = &options.vary;
         let varied = vary.of(model)?;
         let range = vary.ends(&varied, || usual_range(model, &varied))?;

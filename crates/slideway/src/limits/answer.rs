@@ -13,6 +13,7 @@ use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
+use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{CoordinateState, JointMode, ModeEndCause, locked, no_drive_prescribes};
 use crate::solve::{joint_mode_in_words, pattern, signs};
@@ -110,8 +111,9 @@ impl Naming {
             ..speed.clone()
         };
         let signs = signs(&mode.pattern);
+        let [from, to] = [&mode.from, &mode.to].map(|end| self.reactions(&mode.pattern, end));
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
-            let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
+            let ((from, from_grows), (to, to_grows)) = (limit(&from, k), limit(&to, k));
             EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
         };
         ModeLimits {
@@ -128,6 +130,18 @@ impl Naming {
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
             speeds: speeds.iter().map(speed).collect(),
         }
+    }
+
+    /// The normal forces at an end of a mode; none if they are not known.
+    fn reactions(&self, pattern: &[ContactState], end: &ModeEnd) -> Vec<Limit> {
+        let Some(mut forces) = end.normal_force.clone() else { return Vec::new() };
+        self.mechanism.put_at_faces(pattern, &mut forces, Limit::Finite(0.0), |one, other| {
+            match (one, other) {
+                (Limit::Finite(one), Limit::Finite(other)) => Limit::Finite(one + other),
+                (Limit::Finite(_), infinite) | (infinite, _) => infinite,
+            }
+        });
+        forces
     }
 
     /// The contacts or guided sliders at which a mode ends.
@@ -218,8 +232,8 @@ pub(super) fn report(
     }
 }
 
-fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {
-    match end.normal_force.as_ref().and_then(|force| force.get(contact)) {
+fn limit(forces: &[Limit], contact: usize) -> (Option<f64>, i8) {
+    match forces.get(contact) {
         // Adding zero turns -0 into 0.
         Some(Limit::Finite(value)) => (finite(value + 0.0), 0),
         Some(Limit::Infinite(sign)) => (None, if *sign > 0.0 { 1 } else { -1 }),

@@ -253,9 +253,10 @@ impl StateAt {
         let friction = friction(mechanism, velocity_signs, pattern, &normal_force, &shares);
         let all = || influence.unknowns(&friction, &normal_force);
         Some(match quantity {
-            Quantity::NormalForce => normal_force.iter().copied().collect(),
+            Quantity::NormalForce => mechanism.forces_at_faces(pattern, normal_force.as_slice().to_vec()),
             Quantity::Friction => {
-                friction.iter().map(|friction: &ContactFriction| friction.total()).collect()
+                let friction = friction.iter().map(|friction: &ContactFriction| friction.total());
+                mechanism.forces_at_faces(pattern, friction.collect())
             }
             Quantity::Acceleration => self.equations.coordinate_accelerations(&all()),
             Quantity::Effort => {

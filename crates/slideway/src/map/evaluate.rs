@@ -209,7 +209,7 @@ fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<(Model,
             settings = axis.varied.set(settings, value);
         }
     }
-    Ok((model.with(&settings)?, friction))
+    Ok((model.varied_with(&settings)?, friction))
 }
 
 /// Refuses a quantity on which nothing depends.

@@ -5,9 +5,8 @@ use super::page::Page;
 use super::speed::friction_takes_more;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, LoadSharing, ModeEndCause,
-    ModeMargin, PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status,
-    UncertainMode,
+    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
+    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, UncertainMode,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
@@ -172,8 +171,8 @@ impl Text<'_> {
         if let Some(steps) = self.report.steps_from_drawing {
             self.line(&followed(steps));
         }
-        for line in self.report.sharing.iter().flat_map(LoadSharing::in_words) {
-            self.line(&line);
+        if let Some(sharing) = &self.report.sharing {
+            sharing.in_words(&model.units).iter().for_each(|line| self.line(line));
         }
         self.line("");
     }
@@ -182,7 +181,9 @@ impl Text<'_> {
         let report = self.report;
         self.status(report.status, &report.verdict_in_words());
         let search = match &report.patterns {
-            Some(patterns) => tried(patterns, self.report.sharing.is_some()),
+            Some(patterns) => {
+                tried(patterns, self.report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
+            }
             None => {
                 format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
             }
@@ -246,9 +247,13 @@ impl Text<'_> {
         if let Some(margin) = &solution.margin {
             self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
         }
+        // The determinant of equations with rows of compatibility has no meaning of its own.
+        let determinant = match self.report.sharing {
+            None => format!("determinant {}", number(solution.determinant)),
+            Some(_) => format!("oriented determinant {}", number(solution.oriented_determinant)),
+        };
         self.line(&format!(
-            "  determinant {}, equilibrium of every body to within {}",
-            number(solution.determinant),
+            "  {determinant}, equilibrium of every body to within {}",
             power_of_ten_above(solution.residual)
         ));
     }
@@ -306,18 +311,22 @@ impl Text<'_> {
                 number(below.factor)
             ));
         }
-        match margins.uniqueness {
-            Some(factor) if factor < 1.0 => parts.push(format!(
-                "some other load has no solution or several already beyond a factor of {}",
-                number(factor)
-            )),
-            Some(factor) => {
-                parts.push(format!(
-                    "every load has exactly one solution up to a factor of {}",
-                    number(factor)
-                ));
-            }
-            None => {}
+        let guides = self.report.sharing.is_some();
+        if let Some(factor) = margins.uniqueness {
+            let [one, several] = if guides {
+                [
+                    "whatever the load and the play, misalignment and stiffness of the guides, there is exactly one \
+                     solution",
+                    "with another load, play, misalignment or stiffness there may be no solution or several",
+                ]
+            } else {
+                ["every load has exactly one solution", "some other load has no solution or several"]
+            };
+            parts.push(if factor < 1.0 {
+                format!("{several} already beyond a factor of {}", number(factor))
+            } else {
+                format!("{one} up to a factor of {}", number(factor))
+            });
         }
         if !parts.is_empty() {
             self.line(&format!("Margins, if all friction grows: {}.", parts.join("; ")));

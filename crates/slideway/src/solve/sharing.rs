@@ -4,11 +4,13 @@ use super::mode_problem::{determinate_problem, self_stresses};
 use super::stages::Stages;
 use crate::attainability::ratios;
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::{Limits, ModeProblem, SharedLoad, SolutionSet, enumerate};
+use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
+use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, SolutionSet, enumerate};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
-use crate::sharing::{elasticity, groups, shared_load};
+use crate::sharing;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
@@ -16,7 +18,8 @@ use std::collections::BTreeSet;
 /// tried if `ratios` are asked for.
 pub(super) fn add(report: &mut SolveReport, stages: &Stages, ratios: bool) -> Result<(), Faults> {
     let Some(mut sharing) = load_sharing(&stages.mechanism, &stages.influence)? else { return Ok(()) };
-    if let (Some(shared), true) = (stages.shared_load()?, ratios && sharing.elasticity != Elasticity::Rigid) {
+    let ratios = ratios && sharing.self_stresses > 0 && sharing.elasticity != Elasticity::Rigid;
+    if let (Some(shared), true) = (stages.shared_load()?, ratios) {
         sharing.stiffness_ratios = stiffness_ratios(stages, &shared)?;
     }
     report.sharing = Some(sharing);
@@ -31,16 +34,7 @@ pub(crate) fn load_sharing(
     mechanism: &Mechanism,
     influence: &Influence,
 ) -> Result<Option<LoadSharing>, Faults> {
-    let stresses = self_stresses(influence);
-    let Some(shared) = shared_load(mechanism, stresses.clone())? else { return Ok(None) };
-    let name = |k: &usize| mechanism.contacts[*k].name.to_string();
-    let elasticity = elasticity(mechanism, &stresses)?;
-    Ok(Some(LoadSharing {
-        self_stresses: shared.cut.len(),
-        groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
-        elasticity,
-        stiffness_ratios: None,
-    }))
+    sharing::load_sharing(mechanism, &self_stresses(influence))
 }
 
 /// Refuses rigid guides that are out of line by more than their play.
@@ -90,14 +84,17 @@ fn cannot_be_assembled(influence: &Influence, shared: &SharedLoad) -> bool {
 /// many patterns.
 fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
     let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
-    let Some(as_given) = patterns(&problem, shared) else { return Ok(None) };
-    let sharing: Vec<usize> = (0..shared.compliance.len()).filter(|&k| shared.shares(k)).collect();
+    let mut patterns = Patterns::new(&problem, &stages.mechanism.excess.open);
+    let Some(as_given) = patterns.of(shared) else { return Ok(None) };
+    let places = stages.mechanism.places().map(ContactId::index);
+    let sharing: Vec<usize> = places.filter(|&k| shared.shares(k)).collect();
     let mut others = BTreeSet::new();
     let (mut tried, mut same) = (0, true);
     for factors in ratios(sharing.len()) {
         let mut compliance: DVector<f64> = shared.compliance.clone();
         sharing.iter().zip(&factors).for_each(|(&k, factor)| compliance[k] /= *factor);
-        let Some(found) = patterns(&problem, &SharedLoad { compliance, ..shared.clone() }) else {
+        shared.press_fits.iter().for_each(|&[face, other]| compliance[other] = compliance[face]);
+        let Some(found) = patterns.of(&SharedLoad { compliance, ..shared.clone() }) else {
             return Ok(None);
         };
         tried += 1;
@@ -107,12 +104,36 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
     Ok(Some(StiffnessRatios { tried, same, others: others.into_iter().collect() }))
 }
 
-/// The patterns of all states, in rounded numbers; none if there are too many.
-fn patterns(problem: &ModeProblem, shared: &SharedLoad) -> Option<BTreeSet<String>> {
-    let found = enumerate(&problem.with_shared_load(shared).ok()?, &Limits::default()).ok()?;
-    let pressed = found.solutions.iter().map(|solution| {
-        super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
-    });
-    let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
-    Some(pressed.chain(open).collect())
+/// The patterns of all states for one shared load after another, in rounded numbers.
+struct Patterns<'p> {
+    problem: &'p ModeProblem,
+    /// None if there are too many contacts.
+    small: Option<(Screen, SmallProblem)>,
+}
+
+impl<'p> Patterns<'p> {
+    fn new(problem: &'p ModeProblem, open: &OpenContacts) -> Self {
+        let contacts = problem.contacts();
+        let small = (contacts <= MOST_CONTACTS)
+            .then(|| (Screen::new(contacts).with_open(open.clone()), SmallProblem::new(contacts)));
+        Self { problem, small }
+    }
+
+    /// None if there are too many patterns.
+    fn of(&mut self, shared: &SharedLoad) -> Option<BTreeSet<String>> {
+        let problem = self.problem.with_shared_load(shared).ok()?;
+        if let Some((screen, small)) = &mut self.small {
+            small.copy(&problem);
+            if let Ok(states) = screen.states(small, 0.0) {
+                let patterns = states.iter().map(|state| &state.pattern[..problem.contacts()]);
+                return Some(patterns.map(super::pattern).collect());
+            }
+        }
+        let found = enumerate(&problem, &Limits::default()).ok()?;
+        let pressed = found.solutions.iter().map(|solution| {
+            super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
+        });
+        let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
+        Some(pressed.chain(open).collect())
+    }
 }

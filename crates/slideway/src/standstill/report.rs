@@ -1,6 +1,6 @@
 //! What the analysis of standstill tells, as plain data.
 
-use crate::report::CoordinateState;
+use crate::report::{CoordinateState, LoadSharing};
 use crate::units::Units;
 use serde::Serialize;
 
@@ -71,6 +71,12 @@ pub struct HoldReport {
     pub released_drives: Vec<String>,
     /// Drives that hold their coordinate.
     pub holding_drives: Vec<String>,
+    /// How redundant guides share their load; absent if no constraint is redundant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sharing: Option<LoadSharing>,
+    /// Whether redundant guides can be wedged; absent if no constraint is redundant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wedging: Option<Wedging>,
     /// The load that is varied, if one is.
     pub load: Option<LoadReport>,
     /// The states of rest, if there is one.
@@ -140,7 +146,17 @@ pub struct LoadReport {
     pub threshold: Threshold,
 }
 
-/// The static friction from which on the load alone, however great, is held.
+/// Whether redundant guides can be wedged: pressed against each other without any load, however hard.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Wedging {
+    /// Whether they can with the friction of the model: then nothing bounds the loads that it can hold.
+    pub possible: bool,
+    /// From which static friction on they can.
+    pub threshold: Threshold,
+}
+
+/// The static friction from which on the load alone, however great, is held, or guides wedge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Threshold {
@@ -149,8 +165,8 @@ pub struct Threshold {
     pub varied: String,
     /// Its value in the model: 1 for the factor.
     pub present: f64,
-    /// Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
-    /// nothing if no friction suffices.
+    /// Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
+    /// needed, nothing if no friction suffices.
     pub value: Option<f64>,
     /// Static coefficients of every contact at the threshold.
     pub coefficients: Vec<Coefficients>,
@@ -170,7 +186,7 @@ pub struct Coefficients {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AtRest {
-    /// The sign patterns of the normal forces that are possible; 0 for a contact in its gap.
+    /// The sign patterns of the normal forces that are possible; 0 for a contact in its gap, or open.
     pub patterns: Vec<String>,
     /// Reactions, over all these patterns.
     pub reactions: Reactions,
@@ -239,7 +255,7 @@ pub struct DriveRange {
 pub struct Release {
     /// What each sliding joint does.
     pub joints: Vec<JointRelease>,
-    /// The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap.
+    /// The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open.
     pub patterns: Vec<String>,
     /// Accelerations of the chosen coordinates.
     pub coordinates: Vec<CoordinateRange>,

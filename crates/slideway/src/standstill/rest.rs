@@ -2,7 +2,7 @@
 
 use super::TOLERANCE;
 use super::reactions::{range, reactions};
-use super::report::{AtRest, Range};
+use super::report::{AtRest, Range, Reactions};
 use super::setup::Setup;
 use super::state::{State, StateQuestion, sides};
 use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
@@ -35,6 +35,18 @@ pub(super) fn possible(region: Region) -> Result<Option<Region>, Unsolved> {
     Ok((slack >= -TOLERANCE).then(|| region.relaxed(-slack.min(0.0))))
 }
 
+/// One sign for each contact. One that shares a load and has no normal force is open, or just touches.
+pub(super) fn symbols(setup: &Setup, pattern: &Phase, reactions: &Reactions) -> String {
+    let nothing = TOLERANCE * setup.units.force;
+    let has_none = |end: Option<f64>| end.is_some_and(|force| force.abs() <= nothing);
+    let one = |(k, contact): (usize, &ContactPhase)| {
+        let Range { least, greatest } = reactions.contacts[k].normal_force;
+        let touches = setup.shares(k) && has_none(least) && has_none(greatest);
+        if touches { ContactPhase::PreloadGap.symbol() } else { contact.symbol() }
+    };
+    pattern.contacts.iter().enumerate().map(one).collect()
+}
+
 /// States one after another, until the work is to end.
 pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Item = T> {
     let all = states.len();
@@ -46,9 +58,8 @@ pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Ite
 pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option<AtRest>> {
     let mut over = Over { found: None::<AtRest>, undecided: 0 };
     for sides in until_over(sides(setup), work.part(0, 2)) {
-        let symbols: String = sides.iter().map(|side| side.symbol()).collect();
         let pattern = resting(setup, sides);
-        let question = StateQuestion { moving: false, factor: Some(factor) };
+        let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_coefficients(setup));
         let found =
@@ -62,7 +73,10 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
                     wedging: Vec::new(),
                     without_preloads: None,
                 });
-                rest.patterns.push(symbols);
+                let symbols = symbols(setup, &pattern, &reactions);
+                if !rest.patterns.contains(&symbols) {
+                    rest.patterns.push(symbols);
+                }
                 rest.reactions = rest.reactions.clone().hull(&reactions);
             }
             Err(Unsolved) => over.undecided += 1,
@@ -92,7 +106,7 @@ fn without_preloads(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> 
 pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
     let mut undecided = false;
     for sides in until_over(sides(setup), work) {
-        let question = StateQuestion { moving: false, factor: Some(factor) };
+        let question = StateQuestion::rest(Some(factor));
         let pattern = resting(setup, sides);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         match possible(state.region(&static_coefficients(setup))) {
@@ -109,7 +123,7 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
     for sides in until_over(sides(setup), work) {
         let pattern = resting(setup, sides);
-        let question = StateQuestion { moving: false, factor: None };
+        let question = StateQuestion::rest(None);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_coefficients(setup));
         let extent = |region: Region| range(&state, &region, &state.factor(), state.factor_unit());
