@@ -244,7 +244,7 @@ fn a_mode_has_one_colour_in_all_plots() {
     let drawer = model("drawer", &Settings::default());
     let colour = |figure: &Figure, signs: &str| {
         let branch = figure.branches.iter().find(|branch| branch.name.starts_with(signs));
-        branch.map(|branch| branch.colour).unwrap_or_else(|| panic!("{signs}: {:?}", figure.branches))
+        branch.map_or_else(|| panic!("{signs}: {:?}", figure.branches), |branch| branch.colour)
     };
     let options = DriveOptions::default().vary(Some(Vary::between("mu", 0.0, 1.0))).rows(11);
     let drive = drive_figure(&drive(&drawer, &options).expect("a report")).expect("a course");

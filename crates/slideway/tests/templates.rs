@@ -132,7 +132,7 @@ fn wrong_units_unknown_names_and_what_cannot_be_assembled_are_faults() {
         ("drawer", "Q", "-15 N", "Q >= 0 N is needed: the resistance is against the push"),
         ("drawer", "v", "0 mm/s", "v > 0 mm/s is needed"),
         ("sash", "a", "0.6 m", "a <= b/2 is needed: the pull is at the sash"),
-        ("carriage", "a", "-100 mm", "a >= 0 mm is needed"),
+        ("carriage", "v", "-100 mm/s", "v > 0 mm/s is needed"),
         ("bushing", "phi", "90 deg", "phi < 90 deg is needed"),
         ("telescope", "x", "-0.1 m", "x >= 0 mm is needed"),
         ("cylinder", "S", "-500 N", "S >= 0 N is needed"),
@@ -185,11 +185,13 @@ fn sash() {
 
 #[test]
 fn carriage() {
-    for (length, offset, mu, mass) in [(0.06, 0.1, 0.15, 1.5), (0.1, 0.2, 0.2, 3.0), (0.05, 0.03, 0.7, 1.0)] {
+    for (length, offset, mu, mass) in [(0.06, 0.1, 0.15, 1.5), (0.1, -0.2, 0.2, 3.0), (0.05, 0.03, 0.7, 1.0)]
+    {
         let values = [("L", length), ("a", offset), ("m", mass)];
         assert_close(effort("carriage", &[&values[..], &[("mu", mu)]].concat()), mu * mass * 9.81, "P");
-        assert_locks_at("carriage", length / (2.0 * offset), &values);
-        assert_locks_back_at("carriage", length / (2.0 * offset), &values, &[("v", -0.1)]);
+        let limit = length / (2.0 * f64::abs(offset));
+        assert_locks_at("carriage", limit, &values);
+        assert_locks_back_at("carriage", limit, &values, &[("v", -0.1)]);
     }
     // The rule of 2 : 1.
     // Its effort stays finite, so that drive says it in words: 0.25 / 0.2 = 1.25 times.

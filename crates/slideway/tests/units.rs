@@ -82,7 +82,7 @@ fn bare_numbers_count_as_si_units() {
 fn a_parameter_is_shown_as_it_was_typed_last() {
     let typed = model().with(&Settings::default().parameter("L", "50 cm")).expect("a length");
     let report = size(&typed, &SizeOptions::new(Vary::usual("L"), 2.0)).expect("an answer");
-    assert_shows(&text(&report), &["In the model L = 50 cm", "L in cm"], &[" mm"]);
+    assert_shows(&text(&report), &["In the model L = 50 cm", "L in cm"], &["L in mm", "500 mm"]);
     // A number without a unit is no unit.
     let bare = model().with(&Settings::default().parameter("L", 0.5)).expect("a length");
     assert_eq!(bare.units.parameter("L", "m").show(0.5), "500 mm");

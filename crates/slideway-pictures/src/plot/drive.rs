@@ -45,7 +45,7 @@ struct Stretch<'r> {
     ends: [End; 2],
 }
 
-impl<'r> Stretch<'r> {
+impl Stretch<'_> {
     /// The parts in which the mode has one stroke, each from the last row of the one before on.
     fn by_stroke(&self) -> Vec<Self> {
         let mut parts = Vec::new();

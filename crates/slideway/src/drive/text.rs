@@ -75,9 +75,14 @@ fn outcome(report: &DriveReport, direction: &DriveDirection, locked: &str) -> St
         ([], Status::Unknown) => "it is not known which effort moves it".to_owned(),
         ([], _) => format!("no effort moves it, {locked}"),
         ([only], _) => {
+            // One drive that does no work without friction has no effort then.
+            let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;
             let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
                 let unit = report.units.of(drive.unit);
                 let (with, without) = (unit.show(*with), unit.show(*without));
+                if is_idle {
+                    return format!("{} needs {with}", drive.name);
+                }
                 format!("{} needs {with} instead of {without} without friction", drive.name)
             };
             let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
@@ -115,9 +120,9 @@ fn without_bound(report: &DriveReport, blow_up: &BlowUp) -> String {
         [] => String::new(),
         contacts => format!(", as the normal forces of {} do", contacts.join(", ")),
     };
-    let from = if blow_up.side == Approach::Above { " from above" } else { "" };
+    let only = if blow_up.side == Approach::Above { ", which exists above it" } else { "" };
     format!(
-        "the {what} of {} {verb} without bound{from} in the mode {}{also}",
+        "the {what} of {} {verb} without bound in the mode {}{only}{also}",
         growing.join(", "),
         spaced(&blow_up.pattern)
     )
