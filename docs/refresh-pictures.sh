@@ -25,6 +25,10 @@ draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set directio
 draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150 deg"
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
 draw telescopic-boom.svg models/telescopic-boom.toml
+draw drawer-on-two-rails.svg models/drawer-on-two-rails.toml
+draw carriage-on-two-rods.svg models/carriage-on-two-rods.toml
+draw gate-on-two-posts.svg models/gate-on-two-posts.toml
+draw three-pad-telescope.svg models/three-pad-telescope.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.

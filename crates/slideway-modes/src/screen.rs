@@ -7,7 +7,7 @@
 //! problem needs the careful search.
 
 use crate::enumeration::{self, SUSPECT_PIVOT};
-use crate::problem::{ContactState, OpenContacts, Side};
+use crate::problem::{ContactState, ModeProblem, OpenContacts, Side};
 
 /// Largest number of contacts.
 pub const MOST_CONTACTS: usize = 8;
@@ -61,6 +61,21 @@ impl SmallProblem {
             right_hand_side: [0.0; MOST_CONTACTS],
             load: 0.0,
         }
+    }
+
+    /// Takes over the numbers of a mode problem with as many contacts; [`Self::load`] stays.
+    pub fn copy(&mut self, problem: &ModeProblem) {
+        for (index, side) in Side::BOTH.into_iter().enumerate() {
+            let (columns, jumps) = (problem.columns(side), problem.jumps(side));
+            for contact in 0..self.contacts {
+                for row in 0..self.contacts {
+                    self.columns[index][contact][row] = columns[(row, contact)];
+                    self.jumps[index][contact][row] = jumps[(row, contact)];
+                }
+            }
+        }
+        let load = problem.right_hand_side().iter().take(self.contacts);
+        self.right_hand_side.iter_mut().zip(load).for_each(|(target, load)| *target = *load);
     }
 
     fn has_jump(&self, contact: usize) -> bool {
@@ -373,7 +388,6 @@ impl SmallState {
 mod tests {
     use super::*;
     use crate::enumeration::enumerate;
-    use crate::problem::ModeProblem;
     use crate::solutions::Limits;
     use nalgebra::{DMatrix, DVector};
 
@@ -388,17 +402,7 @@ mod tests {
 
     fn small(problem: &ModeProblem) -> SmallProblem {
         let mut small = SmallProblem::new(problem.contacts());
-        for (index, side) in Side::BOTH.into_iter().enumerate() {
-            for contact in 0..problem.contacts() {
-                for row in 0..problem.contacts() {
-                    small.columns[index][contact][row] = problem.columns(side)[(row, contact)];
-                    small.jumps[index][contact][row] = problem.jumps(side)[(row, contact)];
-                }
-            }
-        }
-        for row in 0..problem.contacts() {
-            small.right_hand_side[row] = problem.right_hand_side()[row];
-        }
+        small.copy(problem);
         small
     }
 

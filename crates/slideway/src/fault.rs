@@ -373,6 +373,10 @@ pub enum FaultKind {
     PlayChangesSign { contact: String },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
+    #[error(
+        "the play of {contact}, {play}, is not less than the distance of the outermost contacts of its block, {distance}"
+    )]
+    PlayBeyondBlock { contact: String, play: String, distance: String },
     #[error("the guides cannot be assembled: {} are out of line by more than their play", listed(contacts))]
     OutOfLine { contacts: Vec<String> },
     #[error("the redundant guides do not fit together: {joint} is off by {gap}")]
@@ -545,6 +549,7 @@ impl FaultKind {
                 "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"
                     .to_owned(),
             ),
+            Self::PlayBeyondBlock { .. } => Some("check the unit: a block tilts little within its play".to_owned()),
             Self::OutOfLine { .. } => Some(
                 "give more play or less misalignment, or the `stiffness` of their faces, which yield then".to_owned(),
             ),

@@ -265,6 +265,10 @@ impl ModeProblemLine {
     /// and the pattern; `None` if no change is certain. Without jumps, every load has exactly one solution up
     /// to that parameter, if all determinants have the same orientation at `t = 0` (theory, section 5).
     ///
+    /// Where contacts share a load, the patterns are those of its determinate parts, each with as many open contacts
+    /// as there are self-stresses: up to that parameter every load has exactly one solution whatever the play, the
+    /// misalignment and the stiffness of the contacts (theory, eq. (R4)).
+    ///
     /// `sign_at` returns the sign of the determinant of a pattern at a parameter if it is certain. A zero
     /// counts only between two signs that are certain and opposite: zeros at infinity, which the rounding of
     /// the numbers along the line moves to great parameters, have no such sign beyond them.
@@ -277,8 +281,8 @@ impl ModeProblemLine {
         sign_at: &dyn Fn(f64, &[ContactState]) -> Option<Sign>,
     ) -> Result<Option<(f64, Vec<ContactState>)>, TooManyModes> {
         let mut first: Option<(f64, Vec<ContactState>)> = None;
-        let pressed = |pattern: &Vec<ContactState>| !pattern.contains(&ContactState::Gap);
-        for pattern in self.patterns(limit)?.into_iter().filter(pressed) {
+        let is_determinate = |pattern: &Vec<ContactState>| self.open.is_determinate(pattern);
+        for pattern in self.patterns(limit)?.into_iter().filter(is_determinate) {
             let known = first.as_ref().map_or(f64::INFINITY, |(known, _)| *known);
             let mut zeros = self.line(&pattern).determinant_zeros([0.0, 1.0]);
             zeros.retain(|&zero| zero > 0.0 && zero < known);
@@ -526,14 +530,13 @@ impl Mode<'_> {
         self.meanings.push(meaning);
     }
 
-    /// Where the mode exists. Up to infinity, the equations are expressed in the parameter `u = 1/t`:
-    /// multiplied by `u`, they have the same solution.
+    /// Where the mode exists. Up to infinity, the equations are expressed in the parameter `u = 1/t`.
     fn extent(&self, range: [f64; 2]) -> Extent {
         if range[1].is_finite() {
             return self.line.extent(&self.conditions, range);
         }
         let reciprocal = range[0].recip();
-        let extent = self.line.reversed().extent(&self.conditions, [0.0, reciprocal]);
+        let extent = self.line.reciprocal(&self.conditions).extent(&self.conditions, [0.0, reciprocal]);
         let Extent::Parts(mut parts) = extent else { return extent };
         // Forces that tend to zero have double zeros at infinity, which rounding moves.
         let infinity = INFINITY * reciprocal;

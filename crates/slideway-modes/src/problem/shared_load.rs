@@ -144,6 +144,25 @@ impl OpenContacts {
             .is_some_and(|forces| forces.row(contact).amax() > Self::ROUNDING * forces.amax())
     }
 
+    /// Whether a pattern leaves a determinate mechanism: as many contacts are open as there are self-stresses, and
+    /// the others hold.
+    pub fn is_determinate(&self, pattern: &[ContactState]) -> bool {
+        Self::between(pattern) == self.self_stresses() && self.holds(pattern)
+    }
+
+    /// How many more contacts a pattern presses than equilibrium determines.
+    pub fn excess(&self, pattern: &[ContactState]) -> usize {
+        self.self_stresses().saturating_sub(Self::between(pattern))
+    }
+
+    fn self_stresses(&self) -> usize {
+        self.self_stress.as_ref().map_or(0, DMatrix::ncols)
+    }
+
+    fn between(pattern: &[ContactState]) -> usize {
+        pattern.iter().filter(|state| **state == ContactState::Gap).count()
+    }
+
     /// Whether the states of a pattern are solutions: each contact is pressed, or open. Between its faces any other
     /// is in its preload gap.
     pub fn is_solution(&self, pattern: &[ContactState]) -> bool {

@@ -32,7 +32,16 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
         }
         SingleValues::LeftOut => sentences.push(format!("{single} omitted.")),
     }
-    let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
+    let existence = &found.existence;
+    let (rigid, singular): (Vec<_>, Vec<_>) =
+        existence.singular_throughout.iter().partition(|pattern| existence.open.excess(pattern) > 0);
+    if !rigid.is_empty() {
+        sentences.push(format!(
+            "{} modes press more contacts than equilibrium determines: with rigid faces they exist only where all of these fit exactly, and are left out.",
+            rigid.len()
+        ));
+    }
+    let left_out = singular.len() + existence.not_computed.len();
     if left_out > 0 {
         sentences.push(format!(
             "{left_out} modes are omitted: their determinant vanishes throughout, or eigenvalues could not be computed."

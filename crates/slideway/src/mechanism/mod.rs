@@ -418,9 +418,32 @@ impl Mechanism {
         let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
+        mechanism.check_play()?;
         mechanism.check_signs_of_play()?;
         mechanism.excess = mechanism.found_excess();
         Ok(mechanism)
+    }
+
+    /// Within its play a block tilts by small angles only, so the play is less than the distance of its outermost
+    /// contacts.
+    fn check_play(&self) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        for joint in &self.joints {
+            let JointKind::Slider(slider) = &joint.kind else { continue };
+            let contacts = || self.places_of(slider).map(|contact| &self.contacts[contact.index()]);
+            let ends = contacts()
+                .map(|contact| contact.offset)
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], offset| {
+                    [least.min(offset), most.max(offset)]
+                });
+            let distance = ends[1] - ends[0];
+            for contact in contacts().filter(|contact| distance > 0.0 && contact.play.abs() >= distance) {
+                let [play, distance] = [contact.play, distance].map(|length| self.units.of("m").show(length));
+                let kind = FaultKind::PlayBeyondBlock { contact: contact.place().to_owned(), play, distance };
+                faults.push(Fault::new(kind, joint.place.clone()));
+            }
+        }
+        faults.or(())
     }
 
     /// Products of a few quantities must stay within the range of floating point.

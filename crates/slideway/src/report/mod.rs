@@ -239,7 +239,8 @@ pub struct Solution {
     pub margin: Option<ModeMargin>,
     /// Determinant D of the mode's equations, eq. (6).
     pub determinant: f64,
-    /// D times the product of the signs; positive without friction (theory, section 5).
+    /// D times the product of the signs; positive without friction (theory, section 5). Of redundant guides the mean
+    /// of those of their determinate parts, 1 without friction (theory, eq. (R4)).
     pub oriented_determinant: f64,
     /// Whether a mechanism with slightly elastic guides settles on it.
     pub attainability: Attainability,
@@ -373,8 +374,9 @@ pub struct Margins {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several
-    /// already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
-    /// because preloads jump with the side of contact.
+    /// already): there a determinant is proven to change its sign. Of redundant guides, for every play, misalignment
+    /// and stiffness, too (theory, eq. (R4)). Absent if no determinant changes its sign, or if that was not asked
+    /// because preloads jump with the side of contact, or because of press fits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.

@@ -198,9 +198,13 @@ impl Text<'_> {
         if let Some(margin) = &solution.margin {
             self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
         }
+        // The determinant of equations with rows of compatibility has no meaning of its own.
+        let determinant = match self.report.sharing {
+            None => format!("determinant {}", number(solution.determinant)),
+            Some(_) => format!("oriented determinant {}", number(solution.oriented_determinant)),
+        };
         self.line(&format!(
-            "  determinant {}, equilibrium of every body to within {}",
-            number(solution.determinant),
+            "  {determinant}, equilibrium of every body to within {}",
             power_of_ten_above(solution.residual)
         ));
     }
@@ -277,18 +281,22 @@ impl Text<'_> {
             let (contact, factor) = (&critical.contact, number(critical.factor));
             parts.push(format!("{contact} is the most critical single contact, with a factor of {factor}"));
         }
-        match margins.uniqueness {
-            Some(factor) if factor < 1.0 => parts.push(format!(
-                "some other load has no solution or several already beyond a factor of {}",
-                number(factor)
-            )),
-            Some(factor) => {
-                parts.push(format!(
-                    "every load has exactly one solution up to a factor of {}",
-                    number(factor)
-                ));
-            }
-            None => {}
+        let guides = self.report.sharing.is_some();
+        if let Some(factor) = margins.uniqueness {
+            let [one, several] = if guides {
+                [
+                    "whatever the load and the play, misalignment and stiffness of the guides, there is exactly one \
+                     solution",
+                    "with another load, play, misalignment or stiffness there may be no solution or several",
+                ]
+            } else {
+                ["every load has exactly one solution", "some other load has no solution or several"]
+            };
+            parts.push(if factor < 1.0 {
+                format!("{several} already beyond a factor of {}", number(factor))
+            } else {
+                format!("{one} up to a factor of {}", number(factor))
+            });
         }
         if !parts.is_empty() {
             self.line(&format!("Margins, if all friction grows: {}.", parts.join("; ")));

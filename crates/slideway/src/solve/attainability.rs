@@ -28,15 +28,14 @@ impl Answer<'_> {
                 "the block floats within its play"
             });
         }
-        if inside.is_empty() {
+        if inside.is_empty() && self.shared.is_none() {
             return Ok(());
         }
         let problem = mode_problem(self.mechanism, self.influence, self.velocity_signs)?;
         let guides = ElasticGuides::new(self.mechanism, self.equations, &problem);
-        for &index in &inside {
-            let states = states(&solutions[index]);
-            if let Some(mean) = guides.oriented_mean(&states) {
-                solutions[index].oriented_determinant = mean;
+        for solution in solutions.iter_mut() {
+            if let Some(mean) = guides.oriented_mean(&states(solution)) {
+                solution.oriented_determinant = mean;
             }
         }
         let candidates: Vec<Candidate> = inside.iter().map(|&index| candidate(&solutions[index])).collect();

@@ -1,5 +1,6 @@
 //! How far friction may grow before the answer changes.
 
+use super::mode_problem::determinate_problem;
 use super::stages::ProblemData;
 use super::state::pattern;
 use crate::enclosure::EnclosedModeProblem;
@@ -13,7 +14,7 @@ use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts, is_same_end,
     nothing_is_left,
 };
-use crate::modes::{BySide, ContactState};
+use crate::modes::{BySide, ContactState, SharedLoad};
 use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport};
 use nalgebra::DMatrix;
 
@@ -62,9 +63,39 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
-        uniqueness: enclosed.and_then(|enclosed| all.uniqueness(enclosed)),
+        uniqueness: enclosed.and_then(|enclosed| uniqueness(data, enclosed)),
         critical_contact: critical_contact(data),
     });
+}
+
+/// The factor up to which every load has exactly one solution, where a determinant is proven to change its sign;
+/// none if there is no such factor, or with jumps of preloads. Of redundant guides, whatever their play,
+/// misalignment and stiffness: these decide which determinate part of the mechanism carries alone, and the
+/// determinants of all of these parts count. Not asked of press fits, whose faces are pressed both.
+fn uniqueness(data: ProblemData<'_>, enclosed: &EnclosedModeProblem) -> Option<f64> {
+    let ProblemData { mechanism, influence, velocity_signs } = data;
+    let determinate = determinate_problem(mechanism, influence, velocity_signs).ok()?;
+    if determinate.jumps_of_contacts().contains(&true) || !mechanism.press_fits().is_empty() {
+        return None;
+    }
+    let shared = enclosed.shared.as_ref().map(|shared| SharedLoad {
+        clearance: shared.clearance.map(|_| Interval::point(1.0)),
+        ..shared.clone()
+    });
+    let mut loose = mechanism.clone();
+    for contact in loose.contacts.iter_mut().filter(|_| shared.is_some()) {
+        (contact.play, contact.misalignment, contact.stiffness) = (2.0, 0.0, Some(1.0));
+    }
+    let line = line(ProblemData { mechanism: &loose, ..data }, &|_| true).ok()?;
+    let sign_at = |factor: f64, pattern: &[ContactState]| {
+        let rougher = rougher(&enclosed.influence, factor)?;
+        let problem = IntervalModeProblem::from_influence(&rougher).ok()?;
+        match &shared {
+            Some(shared) => proven_determinant_sign(&problem.with_shared_load(shared).ok()?, pattern),
+            None => proven_determinant_sign(&problem, pattern),
+        }
+    };
+    line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
 }
 
 /// The modes as friction grows by a factor.
@@ -101,23 +132,6 @@ impl Growth {
         let existence = line.existence(&options).ok()?;
         let counts = counts(&line, &existence, GROWING);
         Some(Self { line, existence, counts })
-    }
-
-    /// The factor up to which every load has exactly one solution, where a determinant is proven to change its
-    /// sign; none if there is no such factor, or with jumps.
-    fn uniqueness(&self, enclosed: &EnclosedModeProblem) -> Option<f64> {
-        if self.line.has_jump.iter().any(|&jump| jump) {
-            return None;
-        }
-        let sign_at = |factor: f64, pattern: &[ContactState]| {
-            let rougher = rougher(&enclosed.influence, factor)?;
-            let problem = IntervalModeProblem::from_influence(&rougher).ok()?;
-            match &enclosed.shared {
-                Some(shared) => proven_determinant_sign(&problem.with_shared_load(shared).ok()?, pattern),
-                None => proven_determinant_sign(&problem, pattern),
-            }
-        };
-        self.line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
     }
 
     /// The factor at which there is another number of solutions, gap states counted apart.

@@ -7,7 +7,8 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::{Limits, ModeProblem, SharedLoad, SolutionSet, enumerate};
+use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
+use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, SolutionSet, enumerate};
 use crate::report::{Elasticity, LoadSharing, PressFit, SolveReport, StiffnessRatios};
 use crate::sharing::{elasticity, groups, shared_load};
 use nalgebra::{DMatrix, DVector};
@@ -106,7 +107,8 @@ fn cannot_be_assembled(influence: &Influence, shared: &SharedLoad) -> bool {
 /// many patterns.
 fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
     let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
-    let Some(as_given) = patterns(&problem, shared) else { return Ok(None) };
+    let mut patterns = Patterns::new(&problem, &stages.mechanism.excess.open);
+    let Some(as_given) = patterns.of(shared) else { return Ok(None) };
     let places = stages.mechanism.places().map(ContactId::index);
     let sharing: Vec<usize> = places.filter(|&k| shared.shares(k)).collect();
     let mut others = BTreeSet::new();
@@ -115,7 +117,7 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
         let mut compliance: DVector<f64> = shared.compliance.clone();
         sharing.iter().zip(&factors).for_each(|(&k, factor)| compliance[k] /= *factor);
         shared.press_fits.iter().for_each(|&[face, other]| compliance[other] = compliance[face]);
-        let Some(found) = patterns(&problem, &SharedLoad { compliance, ..shared.clone() }) else {
+        let Some(found) = patterns.of(&SharedLoad { compliance, ..shared.clone() }) else {
             return Ok(None);
         };
         tried += 1;
@@ -125,12 +127,36 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
     Ok(Some(StiffnessRatios { tried, same, others: others.into_iter().collect() }))
 }
 
-/// The patterns of all states, in rounded numbers; none if there are too many.
-fn patterns(problem: &ModeProblem, shared: &SharedLoad) -> Option<BTreeSet<String>> {
-    let found = enumerate(&problem.with_shared_load(shared).ok()?, &Limits::default()).ok()?;
-    let pressed = found.solutions.iter().map(|solution| {
-        super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
-    });
-    let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
-    Some(pressed.chain(open).collect())
+/// The patterns of all states for one shared load after another, in rounded numbers.
+struct Patterns<'p> {
+    problem: &'p ModeProblem,
+    /// None if there are too many contacts.
+    small: Option<(Screen, SmallProblem)>,
+}
+
+impl<'p> Patterns<'p> {
+    fn new(problem: &'p ModeProblem, open: &OpenContacts) -> Self {
+        let contacts = problem.contacts();
+        let small = (contacts <= MOST_CONTACTS)
+            .then(|| (Screen::new(contacts).with_open(open.clone()), SmallProblem::new(contacts)));
+        Self { problem, small }
+    }
+
+    /// None if there are too many patterns.
+    fn of(&mut self, shared: &SharedLoad) -> Option<BTreeSet<String>> {
+        let problem = self.problem.with_shared_load(shared).ok()?;
+        if let Some((screen, small)) = &mut self.small {
+            small.copy(&problem);
+            if let Ok(states) = screen.states(small, 0.0) {
+                let patterns = states.iter().map(|state| &state.pattern[..problem.contacts()]);
+                return Some(patterns.map(super::pattern).collect());
+            }
+        }
+        let found = enumerate(&problem, &Limits::default()).ok()?;
+        let pressed = found.solutions.iter().map(|solution| {
+            super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
+        });
+        let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
+        Some(pressed.chain(open).collect())
+    }
 }

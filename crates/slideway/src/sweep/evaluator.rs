@@ -15,7 +15,6 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
-use crate::modes::{ModeProblem, Side};
 use crate::progress::{Callback, Progress};
 use crate::solve::{
     self, SolveOptions, Trail, mode_problem, solve_with, solve_with_friction, velocity_signs,
@@ -299,7 +298,7 @@ impl<'p> Evaluator<'p> {
             velocity_signs(&self.mechanism, &stages.configuration)?;
         }
         if let Some((screen, problem)) = &mut self.small {
-            fill(problem, &self.mechanism, stages)?;
+            fill(problem, &self.mechanism, stages);
             problem.load = if self.plan.columns.may_be_between_faces(&self.mechanism) {
                 stages.accuracy.of_load
             } else {
@@ -344,42 +343,22 @@ fn write(
 }
 
 /// The columns and jumps of eq. (6).
-fn fill(problem: &mut SmallProblem, mechanism: &Mechanism, stages: &Stages) -> Result<(), Faults> {
+fn fill(problem: &mut SmallProblem, mechanism: &Mechanism, stages: &Stages) {
     let count = mechanism.contacts.len();
-    if !mechanism.excess.is_empty() {
-        fill_from(problem, &mode_problem(mechanism, &stages.influence, &stages.signs)?);
-        return Ok(());
-    }
+    problem.right_hand_side = stages.right_hand_side;
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         let sign = stages.signs[k];
-        for (side, orientation) in [1.0, -1.0].into_iter().enumerate() {
+        for side in 0..2 {
             let (mu, preload) = (contact.mu[side] * sign, contact.preload[side] * sign);
-            let eta = &stages.eta[side][k][..count];
-            let column = &mut problem.columns[side][k][..count];
-            // c_k^{sigma} = sigma e_k - mu_k s_k eta_k^{sigma}
-            column.iter_mut().zip(eta).for_each(|(entry, eta)| *entry = -mu * eta);
-            column[k] += orientation;
-            // d_k^{sigma} = s_k F_k0 eta_k^{sigma}
-            let eta = &stages.eta_preload[side][k][..count];
-            let jump = &mut problem.jumps[side][k][..count];
-            jump.iter_mut().zip(eta).for_each(|(entry, eta)| *entry = preload * eta);
-        }
-        problem.right_hand_side[k] = stages.normal_forces[k];
-    }
-    Ok(())
-}
-
-/// Those of redundant guides.
-fn fill_from(problem: &mut SmallProblem, shared: &ModeProblem) {
-    for (side, sign) in Side::BOTH.into_iter().enumerate() {
-        for k in 0..shared.contacts() {
-            for row in 0..shared.contacts() {
-                problem.columns[side][k][row] = shared.columns(sign)[(row, k)];
-                problem.jumps[side][k][row] = shared.jumps(sign)[(row, k)];
+            let (columns, jumps) = (&stages.columns[side][k], &stages.jumps[side][k]);
+            let (eta, eta_preload) = (&stages.eta[side][k], &stages.eta_preload[side][k]);
+            for row in 0..count {
+                // c_k^{sigma} = sigma e_k - mu_k s_k eta_k^{sigma}, d_k^{sigma} = s_k F_k0 eta_k^{sigma}
+                problem.columns[side][k][row] = columns[row] - mu * eta[row];
+                problem.jumps[side][k][row] = jumps[row] + preload * eta_preload[row];
             }
         }
     }
-    (0..shared.contacts()).for_each(|row| problem.right_hand_side[row] = shared.right_hand_side()[row]);
 }
 
 /// Whether there is no position, or another reason why a point is not solved.

@@ -6,8 +6,8 @@ use crate::fault::Faults;
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, Influences};
 use crate::mechanism::Mechanism;
-use crate::modes::screen::MOST_CONTACTS;
-use crate::solve::{Trail, preload_columns, sides, sliding_signs};
+use crate::modes::screen::{MOST_CONTACTS, SmallProblem};
+use crate::solve::{Trail, mode_problem, preload_columns, sides, sliding_signs};
 use nalgebra::{DMatrix, DVector};
 
 type Square = [[f64; MOST_CONTACTS]; MOST_CONTACTS];
@@ -19,8 +19,11 @@ pub(super) struct Stages {
     pub(super) influence: Influence,
     /// Signs of the sliding velocities.
     pub(super) signs: DVector<f64>,
-    /// `N(0)`, and both versions of `eta` for the friction of pressure and of preload, for few contacts.
-    pub(super) normal_forces: DVector<f64>,
+    /// For few contacts: columns, jumps and right-hand side of eq. (6) without any friction, and both versions of
+    /// `eta` for the friction of pressure and of preload.
+    pub(super) columns: [Square; 2],
+    pub(super) jumps: [Square; 2],
+    pub(super) right_hand_side: [f64; MOST_CONTACTS],
     pub(super) eta: [Square; 2],
     pub(super) eta_preload: [Square; 2],
     /// Outputs without friction.
@@ -42,7 +45,7 @@ impl Stages {
     /// Whatever `solve` refuses, but for contacts at rest.
     pub(super) fn along(trail: &mut Trail, mechanism: &Mechanism, columns: &Columns) -> Result<Self, Faults> {
         let (configuration, influences) = trail.state(mechanism)?;
-        Ok(Self::new(mechanism, configuration, influences, columns))
+        Self::new(mechanism, configuration, influences, columns)
     }
 
     fn new(
@@ -50,7 +53,7 @@ impl Stages {
         configuration: Configuration,
         influences: Influences,
         columns: &Columns,
-    ) -> Self {
+    ) -> Result<Self, Faults> {
         let outputs = |unknowns: &DVector<f64>, without_friction: bool| -> Vec<f64> {
             let one = |output: &Output| match *output {
                 Output::Coordinate(index) => influences.coordinate(index, unknowns, without_friction),
@@ -64,21 +67,14 @@ impl Stages {
         let self_stresses = influences.self_stresses.iter().map(|stress| outputs(stress, false)).collect();
         let (greatest_load, accuracy) = (influences.greatest_load, influences.accuracy());
         let influence = Influence::of(influences);
-        let (eta, eta_preload) = if columns.contacts <= MOST_CONTACTS {
-            let eta = sides(mechanism, &influence);
-            let preload = preload_columns(mechanism, &eta);
-            (
-                [square(&eta.positive), square(&eta.negative)],
-                [square(&preload.positive), square(&preload.negative)],
-            )
-        } else {
-            Default::default()
-        };
-        Self {
-            signs: sliding_signs(mechanism, &configuration),
-            normal_forces: influence.normal_forces(),
-            eta,
-            eta_preload,
+        let signs = sliding_signs(mechanism, &configuration);
+        let mut stages = Self {
+            columns: Default::default(),
+            jumps: Default::default(),
+            right_hand_side: Default::default(),
+            eta: Default::default(),
+            eta_preload: Default::default(),
+            signs,
             frictionless,
             influences: per_force,
             self_stresses,
@@ -86,7 +82,36 @@ impl Stages {
             accuracy,
             configuration,
             influence,
+        };
+        if columns.contacts <= MOST_CONTACTS {
+            stages.put_numbers(mechanism)?;
         }
+        Ok(stages)
+    }
+
+    /// The numbers of eq. (6) for few contacts.
+    fn put_numbers(&mut self, mechanism: &Mechanism) -> Result<(), Faults> {
+        let eta = sides(mechanism, &self.influence);
+        let preload = preload_columns(mechanism, &eta);
+        self.eta = [square(&eta.positive), square(&eta.negative)];
+        self.eta_preload = [square(&preload.positive), square(&preload.negative)];
+        if mechanism.excess.is_empty() {
+            for (k, force) in self.influence.normal_forces().iter().enumerate() {
+                (self.columns[0][k][k], self.columns[1][k][k]) = (1.0, -1.0);
+                self.right_hand_side[k] = *force;
+            }
+            return Ok(());
+        }
+        let mut frictionless = mechanism.clone();
+        for contact in &mut frictionless.contacts {
+            (contact.mu, contact.preload) = ([0.0; 2], [0.0; 2]);
+        }
+        let problem = mode_problem(&frictionless, &self.influence, &self.signs)?;
+        let mut numbers = SmallProblem::new(problem.contacts());
+        numbers.copy(&problem);
+        (self.columns, self.jumps, self.right_hand_side) =
+            (numbers.columns, numbers.jumps, numbers.right_hand_side);
+        Ok(())
     }
 }
 

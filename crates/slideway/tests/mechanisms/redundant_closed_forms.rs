@@ -266,3 +266,42 @@ fn the_carriage_runs_on_the_rod_that_fits() {
     assert_close(contact(solution, "near.rear").normal_force, (across - sum) / 2.0, along, 1e-12);
     assert_close(effort(solution), along + mu * sum, along, 1e-12);
 }
+
+/// Pulled beside the middle towards the left rail, the right rail alone is the first determinate part to lock, at
+/// `mu = L / (2 (a + B/2))`. Below it there is one solution whatever the play, stiffness and misalignment; a little
+/// above it none if the right rail is tight and rigid.
+#[test]
+fn up_to_the_first_part_that_locks_nothing_else_matters() {
+    let drawer = model(DRAWER);
+    let uniqueness = |a: f64| {
+        let a = a.to_string();
+        let margins = solve(&set(&drawer, &[&[("a", &a)]])).unwrap().margins;
+        margins.and_then(|margins| margins.uniqueness).unwrap()
+    };
+    for a in [0.15, 0.25, 0.4] {
+        assert_close(uniqueness(a) * MU, L / (2.0 * (a + HALF_B)), 1.0, 1e-12);
+    }
+    let first = L / (2.0 * (0.25 + HALF_B));
+    let [below, above] = [0.99 * first, 1.01 * first].map(|mu| mu.to_string());
+    let mut counts = [0; 2];
+    for seed in 0..60_u64 {
+        let digit = |place: u32| (seed.wrapping_mul(6_364_136_223_846_793_005) >> (56 - 6 * place)) % 7;
+        let of = |place: u32, unit: &str, scale: f64| format!("{} {unit}", scale * digit(place) as f64);
+        let settings = [
+            ("mu", below.clone()),
+            ("play_left", of(0, "mm", 0.13)),
+            ("play_right", of(1, "mm", 0.11)),
+            ("k_left", format!("{} kN/m", 1 + 9 * digit(2))),
+            ("k_right", format!("{} kN/m", 2 + 7 * digit(3))),
+            ("eps", of(4, "mm", 0.07)),
+            ("Q", format!("{} N", 4 + 5 * digit(5))),
+        ];
+        let settings: Vec<(&str, &str)> =
+            settings.iter().map(|(name, value)| (*name, value.as_str())).collect();
+        let report = solve(&set(&drawer, &[&settings])).unwrap();
+        counts[usize::from(report.solutions.len() == 1)] += 1;
+    }
+    assert_eq!(counts, [0, 60]);
+    let tight = [("mu", above.as_str()), ("play_left", "0.6 mm"), ("play_right", "0.2 mm")];
+    assert_eq!(solve(&set(&rigid(), &[&tight])).unwrap().solutions.len(), 0);
+}
