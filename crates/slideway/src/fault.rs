@@ -275,6 +275,8 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error("{relation} is needed: {meaning}")]
+    NeedUnmet { relation: String, meaning: String },
     #[error("the parts do not meet with {name} = {value} ({meaning})")]
     PartsApart { name: String, value: String, meaning: String },
     #[error(
@@ -371,6 +373,11 @@ pub enum FaultKind {
     PreloadOfPressFit { contacts: Vec<String> },
     #[error("the play of {contact} is negative for some values only, which makes a press fit of it")]
     PlayChangesSign { contact: String },
+    #[error(
+        "whether it holds at rest is not determined by rigid guides that share a load: pressed against each other, {} could hold any load",
+        listed(contacts)
+    )]
+    RigidAtRest { contacts: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
     #[error(
@@ -414,7 +421,7 @@ pub enum FaultKind {
     ZeroLength { load: String },
 
     // Kinetics.
-    #[error("the mechanism can move without inertia: {motion}")]
+    #[error("what moves is massless, so that no acceleration can be computed: {motion}")]
     MotionWithoutInertia { motion: String },
     #[error("the drives cannot produce their motion: {motion}")]
     DriveCannotMove { drives: Vec<String>, motion: String },
@@ -453,8 +460,6 @@ pub enum FaultKind {
     NothingToSimulate { start: f64, end: f64 },
 
     // Design and drives.
-    #[error("a margin at rest needs a load")]
-    LoadNeeded { known: Vec<String> },
     #[error("the load {load} plays no part in a margin against locking")]
     LoadUnused { load: String },
     #[error("the limit is in {typed}, which does not fit the drives")]
@@ -526,8 +531,11 @@ impl FaultKind {
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
             Self::SharedLoad { .. } => Some(
-                "contacts that open and close, and friction at rest between two faces, are states that only moving mechanisms with a given load have so far: ask `slideway solve`, `limits`, `drive`, `size`, `sweep` or `map`"
+                "contacts that open and close on the way are no event that motions have; ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
                     .to_owned(),
+            ),
+            Self::RigidAtRest { .. } => Some(
+                "give their `stiffness`, in N/m: then their deflection says how hard they can be pressed".to_owned(),
             ),
             Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
             Self::RigidWithoutPlay { .. } => Some(
@@ -571,7 +579,6 @@ impl FaultKind {
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
             Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
-            Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),
@@ -586,6 +593,12 @@ impl FaultKind {
             )),
             _ => self.fixed_hint().map(str::to_owned),
         }
+    }
+
+    /// What is wrong, and in parentheses what to do about it.
+    pub fn with_hint(&self) -> String {
+        let hint = self.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
+        format!("{self}{hint}")
     }
 
     /// Hints that do not depend on the values.
@@ -607,6 +620,9 @@ impl FaultKind {
             ),
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction must be finite and not negative at every speed that occurs, including zero",
+            ),
+            Self::NeedUnmet { .. } => Some(
+                "change it, or another size; for a problem of another kind change the model that the template writes",
             ),
             Self::PartsApart { .. } => Some("change it, or another size, so that the parts reach each other"),
             Self::StaticBelowKinetic { .. } => Some("omit `mu_static` to make it equal to `mu`"),
@@ -635,7 +651,7 @@ impl FaultKind {
                 Some("the block has left its guide; choose --at closer to the drawing")
             }
             Self::MotionWithoutInertia { .. } => Some(
-                "its acceleration is not determined: ask `slideway hold` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
+                "ask `slideway hold` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
             ),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NoDirectionAtRest => Some("omit --both-directions"),
@@ -652,7 +668,9 @@ impl FaultKind {
                 "+ and - are the signs of normal forces, 0 is a preload gap, = is a contact whose joint sticks",
             ),
             Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
-            Self::HeldLoadNeeded { .. } => Some("name it with --load"),
+            Self::HeldLoadNeeded { .. } => {
+                Some("name it with --load; the name of a drive stands for its effort")
+            }
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
                 "friction coefficients must be linear functions of it, and nothing else may depend on it",

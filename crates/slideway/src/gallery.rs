@@ -7,7 +7,7 @@ pub struct GalleryModel {
     pub name: &'static str,
     /// The text of its file.
     pub text: &'static str,
-    /// Whether its guides are redundant: its motion in time and whether it holds at rest are not computed.
+    /// Whether its guides are redundant: its motion in time is not computed.
     pub redundant: bool,
 }
 

@@ -11,7 +11,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Real;
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::modes::SharedLoad;
-use crate::report::Elasticity;
+use crate::report::{Elasticity, LoadSharing, PressFit};
 use nalgebra::{DMatrix, DVector};
 
 /// Normal forces of a self-stress below this are rounding.
@@ -50,6 +50,35 @@ pub fn shared_load<T: Real>(
         clearance: vector(&clearance),
         misalignment: vector(&|contact| contact.misalignment + contact.interference()),
         self_stress,
+    }))
+}
+
+/// How redundant guides share their load, in names, given their self-stresses; none if nothing is in excess.
+///
+/// # Errors
+/// As [`shared_load`].
+pub fn load_sharing(
+    mechanism: &Mechanism,
+    self_stress: &DMatrix<f64>,
+) -> Result<Option<LoadSharing>, Faults> {
+    let Some(shared) = shared_load(mechanism, self_stress.clone())? else { return Ok(None) };
+    let places = |group: &Vec<usize>| -> Vec<String> {
+        let contacts = group.iter().map(|&k| &mechanism.contacts[k]);
+        // Both faces of a press fit have both parts in a group.
+        let places = contacts.filter(|contact| !contact.is_second_face());
+        places.map(|contact| contact.place().to_owned()).collect()
+    };
+    let fit = |&[face, _]: &[usize; 2]| {
+        let contact = &mechanism.contacts[face];
+        let grip = contact.stiffness.unwrap_or_default() * -contact.play;
+        PressFit { contact: contact.place().to_owned(), grip }
+    };
+    Ok(Some(LoadSharing {
+        self_stresses: shared.cut.len() - shared.press_fits.len(),
+        groups: groups(&shared).iter().map(places).filter(|group| group.len() > 1).collect(),
+        elasticity: elasticity(mechanism, self_stress)?,
+        press_fits: shared.press_fits.iter().map(fit).collect(),
+        stiffness_ratios: None,
     }))
 }
 
@@ -112,7 +141,7 @@ fn check_press_fits<T: Real>(mechanism: &Mechanism<T>) -> Result<(), Faults> {
 }
 
 /// The contacts that share a load, in groups that no self-stress connects.
-pub fn groups(shared: &SharedLoad) -> Vec<Vec<usize>> {
+fn groups(shared: &SharedLoad) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for stress in shared.self_stress.column_iter() {
         let mut group: Vec<usize> = (0..stress.len()).filter(|&k| stress[k] != 0.0).collect();

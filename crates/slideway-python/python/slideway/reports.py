@@ -171,10 +171,12 @@ __all__ = [
     "UncertainParameter",
     "Uncertainty",
     "UndecidedMode",
+    "Unlocking",
     "VariedQuantity",
     "Verdict",
     "WarningPlace",
     "WarningReport",
+    "Wedging",
     "WithinRounding",
     "WithinRoundingAnswer",
     "Zone",
@@ -591,9 +593,15 @@ class AtRest(Record):
     """All states of rest together."""
 
     patterns: tuple[str, ...]
-    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap."""
+    """The sign patterns of the normal forces that are possible; 0 for a contact in its gap, or open."""
     reactions: Reactions
     """Reactions, over all these patterns."""
+    wedging: tuple[str, ...]
+    """The contacts whose normal forces have no bound: pressed against each other they are in equilibrium without
+    any load, so that it can be wedged."""
+    without_preloads: bool | None = None
+    """Whether it could stay at rest without the preloads of its contacts; absent if there are none, or where
+    that was not decided."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1561,7 +1569,7 @@ class HingeRange(Record):
 class HoldReport(_mixins.HoldReport, Report):
     """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
 
-    _absent = {"steps_from_drawing": None}
+    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1582,6 +1590,10 @@ class HoldReport(_mixins.HoldReport, Report):
     """Drives that are taken as absent."""
     holding_drives: tuple[str, ...]
     """Drives that hold their coordinate."""
+    sharing: LoadSharing | None
+    """How redundant guides share their load; absent if no constraint is redundant."""
+    wedging: Wedging | None
+    """Whether redundant guides can be wedged; absent if no constraint is redundant."""
     load: LoadReport | None
     """The load that is varied, if one is."""
     at_rest: AtRest | None
@@ -1693,6 +1705,8 @@ class LimitsReport(_mixins.LimitsReport, Report):
     """The title of the model."""
     vary: VariedQuantity
     """What is varied."""
+    state: tuple[CoordinateState, ...]
+    """The coordinates for which it holds, but for one that is varied."""
     steps_from_drawing: int | None
     """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
     branch; absent where they are those of the drawing, and where a coordinate is varied: then `guarantee`
@@ -1800,6 +1814,8 @@ class MapClass(Record):
 class MapReport(_mixins.MapReport, Report):
     """A map of pixels and what their classes mean."""
 
+    _absent = {"remark": None}
+
     schema: str
     """Version of this layout: `SCHEMA`."""
     title: str | None
@@ -1816,6 +1832,8 @@ class MapReport(_mixins.MapReport, Report):
     """Number of points that were solved."""
     guarantee: str
     """What can have been missed, in words."""
+    remark: str | None
+    """What its colours do not tell, in words; absent if there is nothing."""
     rows: tuple[tuple[tuple[int, int], ...], ...]
     """Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels it
     has on end."""
@@ -1835,6 +1853,9 @@ class Margins(Record):
     """Up to this factor every load has exactly one solution (below 1: some other load has none or several
     already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
     because preloads jump with the side of contact."""
+    moves_below: Unlocking | None = None
+    """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
+    and where none comes."""
     critical_contact: CriticalContact | None = None
     """The contact whose friction alone changes the number of solutions first; absent if none does."""
 
@@ -2248,7 +2269,7 @@ class Release(Record):
     joints: tuple[JointRelease, ...]
     """What each sliding joint does."""
     patterns: tuple[str, ...]
-    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap."""
+    """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open."""
     coordinates: tuple[CoordinateRange, ...]
     """Accelerations of the chosen coordinates."""
     reactions: Reactions
@@ -2267,6 +2288,8 @@ class RestLimitsReport(Report):
     """The title of the model."""
     vary: VariedQuantity
     """What is varied."""
+    state: tuple[CoordinateValue, ...]
+    """The coordinates for which it holds, but for one that is varied."""
     load: str | None
     """The load that was named, if one was: with its present magnitude, the effort of a drive with none."""
     spans: tuple[SpanOfRest, ...]
@@ -2367,6 +2390,8 @@ class SizeReport(_mixins.SizeReport, Report):
     """The title of the model."""
     vary: VariedQuantity
     """What is varied."""
+    state: tuple[CoordinateState, ...]
+    """The coordinates for which it holds, but for one that is varied; at rest their rates are taken as zero."""
     against: MarginKind
     """Which margin is meant."""
     load: str | None
@@ -2535,6 +2560,9 @@ class SpeedLimits(Record):
     """Where it ends: where the acceleration vanishes, or the mode ends."""
     speed: SpeedChange
     """What becomes of the speed."""
+    friction_exceeds_loads: bool
+    """Whether it is proven somewhere in the interval that the loads push the motion and friction takes more
+    power than they give; never with drives."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2620,15 +2648,15 @@ class Theme(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Threshold(Record):
-    """The static friction from which on the load alone, however great, is held."""
+    """The static friction from which on the load alone, however great, is held, or guides wedge."""
 
     varied: str
     """What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter."""
     present: float
     """Its value in the model: 1 for the factor."""
     value: float | None
-    """Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
-    nothing if no friction suffices."""
+    """Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
+    needed, nothing if no friction suffices."""
     coefficients: tuple[Coefficients, ...]
     """Static coefficients of every contact at the threshold."""
 
@@ -2704,6 +2732,16 @@ class UndecidedMode(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Unlocking(Record):
+    """The friction below which a mechanism that is locked would move."""
+
+    factor: float
+    """As a factor of that of the model, below 1."""
+    mu: float | None = None
+    """The coefficient itself; absent where contacts differ in theirs."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class VariedQuantity(Record):
     """What is varied, in SI units."""
 
@@ -2744,6 +2782,16 @@ class WarningReport(Record):
     """What is perhaps not meant."""
     hint: str
     """What to do about it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Wedging(Record):
+    """Whether redundant guides can be wedged: pressed against each other without any load, however hard."""
+
+    possible: bool
+    """Whether they can with the friction of the model: then nothing bounds the loads that it can hold."""
+    threshold: Threshold
+    """From which static friction on they can."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

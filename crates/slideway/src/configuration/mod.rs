@@ -268,14 +268,8 @@ impl<T: Real> Configuration<T> {
     /// A fault for each coefficient that is not finite or is negative there, and for each misalignment that is
     /// not finite.
     pub fn put_friction(&self, mechanism: &mut Mechanism<T>) -> Result<(), Faults> {
-        let mut faults = Faults::default();
+        let mut faults = self.put_misalignments(mechanism).err().unwrap_or_default();
         for k in 0..mechanism.contacts.len() {
-            if let Some(law) = mechanism.contacts[k].misalignment_law {
-                match self.quantity(mechanism, Quantity::Varying(law)) {
-                    Ok(misalignment) => mechanism.contacts[k].misalignment = misalignment,
-                    Err(fault) => faults.push(fault),
-                }
-            }
             if !mechanism.contacts[k].depends_on_speed() {
                 continue;
             }
@@ -283,6 +277,22 @@ impl<T: Real> Configuration<T> {
             let speed = self.contact(mechanism, id).sliding_velocity.abs();
             match mechanism.friction_of(id, speed, self.pieces.as_deref()) {
                 Ok(mu) => mechanism.contacts[k].mu = mu,
+                Err(fault) => faults.push(fault),
+            }
+        }
+        faults.or(())
+    }
+
+    /// Puts the misalignments at the coordinates of this configuration into a mechanism.
+    ///
+    /// # Errors
+    /// A fault for each that is not finite.
+    pub fn put_misalignments(&self, mechanism: &mut Mechanism<T>) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        for k in 0..mechanism.contacts.len() {
+            let Some(law) = mechanism.contacts[k].misalignment_law else { continue };
+            match self.quantity(mechanism, Quantity::Varying(law)) {
+                Ok(misalignment) => mechanism.contacts[k].misalignment = misalignment,
                 Err(fault) => faults.push(fault),
             }
         }

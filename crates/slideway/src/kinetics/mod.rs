@@ -19,6 +19,7 @@ mod elastic;
 mod influences;
 mod loads;
 mod rows;
+mod self_stress;
 mod system;
 
 pub(crate) use elastic::MasslessMotions;
@@ -34,6 +35,7 @@ use crate::interval::Real;
 use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
+use self_stress::singular_position;
 use system::{Factorization, Singular};
 pub(crate) use system::{equilibration, scaled};
 
@@ -199,19 +201,10 @@ impl KineticEquations {
             let error = (row.times(&motion) - row.right_hand_side).abs();
             error > INCONSISTENT * (greatest + row.right_hand_side.abs())
         };
-        let joint = |contact: &ContactId| mechanism.contacts[contact.index()].joint;
-        let violated: Vec<JointId> = self
-            .layout
-            .cut
-            .iter()
-            .zip(cut_rows)
-            .filter(|(_, row)| violated(row))
-            .map(|(contact, _)| joint(contact))
-            .collect();
-        let Some(first) = violated.first() else { return Ok(()) };
-        let joints = violated.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();
-        let kind = FaultKind::SingularPosition { lost: violated.len(), joints };
-        Err(Fault::new(kind, mechanism.joints[first.index()].place.clone()).into())
+        let cut = self.layout.cut.iter().zip(cut_rows);
+        let violated: Vec<ContactId> =
+            cut.filter(|(_, row)| violated(row)).map(|(contact, _)| *contact).collect();
+        if violated.is_empty() { Ok(()) } else { Err(singular_position(mechanism, &violated)) }
     }
 
     /// What a unit normal force of each cut contact adds to all unknowns: the self-stresses.

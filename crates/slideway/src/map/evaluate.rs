@@ -75,10 +75,7 @@ impl<'a> Evaluator<'a> {
         };
         let faults = faults.unwrap_or_default();
         let sorted = faults.sorted();
-        let reason = sorted.first().map_or_else(String::new, |fault| {
-            let hint = fault.kind.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
-            format!("{}{hint}", fault.kind)
-        });
+        let reason = sorted.first().map_or_else(String::new, |fault| fault.kind.with_hint());
         Fault::general(FaultKind::NoAnswerOnMap { reason }).into()
     }
 

@@ -136,7 +136,10 @@ impl Friction {
                 }
             }
             // The friction of the preload is the same at both faces.
-            (JointPhase::Sticking, ContactPhase::PreloadGap) => friction.hold(2, &mut unknown),
+            (JointPhase::Sticking, ContactPhase::PreloadGap) if friction.law.preload != [0.0; 2] => {
+                friction.hold(2, &mut unknown);
+            }
+            (JointPhase::Sticking, ContactPhase::PreloadGap) => {}
         }
         friction
     }

@@ -26,4 +26,4 @@ mod simplex;
 pub(crate) use affine::{Affine, AffineExpression, AffineSet};
 pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipping};
 pub(crate) use phase::{ContactPhase, JointPhase, Phase};
-pub(crate) use program::{Region, Unsolved};
+pub(crate) use program::{NOTHING, Region, Unsolved};

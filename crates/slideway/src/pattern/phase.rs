@@ -1,6 +1,6 @@
 //! What every sliding joint and contact does while the motion is smooth.
 
-use crate::ids::{ContactId, JointId};
+use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
 
@@ -45,12 +45,13 @@ pub enum JointPhase {
 pub enum ContactPhase {
     /// The block is pressed against this side.
     Pressed(Side),
-    /// N = 0, and the friction of the preload acts between the faces (theory, section 3: preload gap).
+    /// N = 0, and the friction of the preload acts between the faces (theory, section 3: preload gap). Of
+    /// redundant guides, the contact is open (section 10).
     PreloadGap,
 }
 
 impl ContactPhase {
-    /// `+` or `-` for the sign of the normal force, `0` in a preload gap.
+    /// `+` or `-` for the sign of the normal force, `0` between the faces.
     pub(crate) fn symbol(self) -> char {
         match self {
             Self::Pressed(Side::Positive) => '+',
@@ -59,9 +60,9 @@ impl ContactPhase {
         }
     }
 
-    /// What a contact may do: it is in a gap only where the friction of its preload jumps.
-    pub(crate) fn options(mechanism: &Mechanism, contact: ContactId) -> &'static [Self] {
-        if mechanism.preload_jumps(contact) { &Self::ALL } else { &Self::ALL[..2] }
+    /// What a contact may do, which may be between its faces or not.
+    pub(crate) fn options(between_faces: bool) -> &'static [Self] {
+        if between_faces { &Self::ALL } else { &Self::ALL[..2] }
     }
 
     const ALL: [Self; 3] = [Self::Pressed(Side::Positive), Self::Pressed(Side::Negative), Self::PreloadGap];

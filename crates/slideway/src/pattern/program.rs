@@ -15,7 +15,7 @@ const UNBOUNDED: f64 = 1e9;
 /// A direction counts as one of recession if it misses no constraint by more than this.
 const RECESSION: f64 = 1e-10;
 /// Optima below this are rounding errors of terms of order one.
-const NOTHING: f64 = 1e-12;
+pub(crate) const NOTHING: f64 = 1e-12;
 
 /// The points at which every one of some functions, the slacks, is at least zero.
 #[derive(Debug, Clone)]

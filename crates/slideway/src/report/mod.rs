@@ -21,6 +21,7 @@ pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
+pub(crate) use speed::no_drive_prescribes;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
@@ -379,9 +380,24 @@ pub struct Margins {
     /// because preloads jump with the side of contact, or because of press fits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
+    /// Where there is no solution: to what all friction would have to fall for one; absent where there is one, and
+    /// where none comes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moves_below: Option<Unlocking>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_contact: Option<CriticalContact>,
+}
+
+/// The friction below which a mechanism that is locked would move.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Unlocking {
+    /// As a factor of that of the model, below 1.
+    pub factor: f64,
+    /// The coefficient itself; absent where contacts differ in theirs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
 }
 
 /// The contact whose coefficient of friction matters most.

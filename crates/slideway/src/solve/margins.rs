@@ -15,13 +15,15 @@ use crate::modes::existence::{
     nothing_is_left,
 };
 use crate::modes::{BySide, ContactState, SharedLoad};
-use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport};
+use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Unlocking};
 use nalgebra::DMatrix;
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
 /// From the present friction without end, as a factor.
 pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
+/// From no friction to that of the model, as a factor.
+pub(crate) const FALLING: [f64; 2] = [0.0, 1.0];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.
 pub(crate) const AT_ONCE: f64 = 1e-9;
 
@@ -64,6 +66,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, enclosed)),
+        moves_below: all.counts.first().filter(|count| is_jammed(count)).and_then(|_| moves_below(data)),
         critical_contact: critical_contact(data),
     });
 }
@@ -107,6 +110,19 @@ struct Growth {
     counts: Vec<CountInterval>,
 }
 
+/// To what all friction would have to fall for a solution; none if there is none down to no friction at all, or
+/// one comes at once.
+fn moves_below(data: ProblemData<'_>) -> Option<Unlocking> {
+    let falling = Growth::over(FALLING, data, &|_| true)?;
+    let last = falling.counts.iter().rfind(|count| !is_jammed(count))?;
+    let factor = last.to;
+    let mut coefficients =
+        data.mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
+    let first = coefficients.next()?;
+    let mu = coefficients.all(|mu| mu == first).then_some(factor * first);
+    (factor < 1.0 - AT_ONCE).then_some(Unlocking { factor, mu })
+}
+
 /// The contact whose friction alone changes the number of solutions at the smallest factor.
 fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
     let contacts = data.mechanism.contacts.iter().enumerate();
@@ -129,10 +145,15 @@ fn line(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Result<ModeProb
 impl Growth {
     /// The modes while the friction of some contacts grows; none past the limit of work.
     fn along(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
+        Self::over(GROWING, data, grows)
+    }
+
+    /// The modes over a range of factors of the friction of some contacts; none past the limit of work.
+    fn over(range: [f64; 2], data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
         let line = line(data, grows).ok()?;
-        let options = ExistenceOptions { range: GROWING, greatest_normal_force: None, patterns: PATTERNS };
+        let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
         let existence = line.existence(&options).ok()?;
-        let counts = counts(&line, &existence, GROWING);
+        let counts = counts(&line, &existence, range);
         Some(Self { line, existence, counts })
     }
 

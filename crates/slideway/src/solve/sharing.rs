@@ -9,8 +9,8 @@ use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
 use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, SolutionSet, enumerate};
-use crate::report::{Elasticity, LoadSharing, PressFit, SolveReport, StiffnessRatios};
-use crate::sharing::{elasticity, groups, shared_load};
+use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
+use crate::sharing;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
@@ -34,30 +34,7 @@ pub(crate) fn load_sharing(
     mechanism: &Mechanism,
     influence: &Influence,
 ) -> Result<Option<LoadSharing>, Faults> {
-    let stresses = self_stresses(influence);
-    let Some(shared) = shared_load(mechanism, stresses.clone())? else { return Ok(None) };
-    let places = |group: &Vec<usize>| -> Vec<String> {
-        let contacts = group.iter().map(|&k| &mechanism.contacts[k]);
-        // Both faces of a press fit have both parts in a group.
-        contacts
-            .filter(|contact| !contact.is_second_face())
-            .map(|contact| contact.place().to_owned())
-            .collect()
-    };
-    let elasticity = elasticity(mechanism, &stresses)?;
-    let fit = |&[face, _]: &[usize; 2]| {
-        let contact = &mechanism.contacts[face];
-        let grip = contact.stiffness.unwrap_or_default() * -contact.play;
-        PressFit { contact: contact.place().to_owned(), grip }
-    };
-    let groups = groups(&shared).iter().map(places).filter(|group| group.len() > 1).collect();
-    Ok(Some(LoadSharing {
-        self_stresses: shared.cut.len() - shared.press_fits.len(),
-        groups,
-        elasticity,
-        press_fits: shared.press_fits.iter().map(fit).collect(),
-        stiffness_ratios: None,
-    }))
+    sharing::load_sharing(mechanism, &self_stresses(influence))
 }
 
 /// Refuses rigid guides that are out of line by more than their play.

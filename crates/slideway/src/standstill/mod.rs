@@ -15,6 +15,10 @@
 //! about 1e-12 of the greatest force; a state that misses its inequalities by less than 1e-9 of it counts as
 //! possible.
 //!
+//! Of redundant guides a contact may also be open, and the deflections of all contacts must fit together
+//! (theory, section 10). Where the guides came to rest within their play is not known: that, too, is a range. Without
+//! stiffness nothing bounds how hard they are pressed against each other, and such guides are refused.
+//!
 //! ```
 //! use slideway::model::{Model, Settings};
 //! use slideway::standstill::{HoldOptions, hold};
@@ -48,7 +52,7 @@ mod words;
 
 pub use report::{
     AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, HingeRange, HoldReport,
-    HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold,
+    HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Wedging,
 };
 
 use crate::configuration::{free_motions, motions_without_inertia, unit};
@@ -57,6 +61,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
+use crate::sharing::load_sharing;
 use nalgebra::DMatrix;
 use rest::Over;
 use setup::Setup;
@@ -142,7 +147,8 @@ pub(crate) fn hold_within(
     let [rest_patterns, all_patterns] = check_states(&setup, most_states)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
-    let load = load_report(model, options, &setup, work.part(1, 4))?;
+    let load = load_report(model, options, &setup, work.part(1, 4).part(0, 2))?;
+    let wedging = threshold::wedging(model, options, &setup, work.part(1, 4).part(1, 2))?;
     let motions_without_inertia = undriven_without_inertia(&setup);
     let release = if motions_without_inertia.is_empty() {
         release::releases(&setup, nominal, rest.found.is_some(), work.part(2, 4))
@@ -159,7 +165,8 @@ pub(crate) fn hold_within(
     };
     let original = Mechanism::new(model)?;
     original.check_no_press_fit("whether it holds at rest")?;
-    original.check_determinate("whether it holds at rest")?;
+    let undecided =
+        [load.as_ref().map(|load| load.undecided), wedging.as_ref().map(|wedging| wedging.undecided)];
     let mut report = HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
@@ -171,7 +178,12 @@ pub(crate) fn hold_within(
         rates_ignored: original.coordinates.iter().any(|coordinate| coordinate.rate != 0.0),
         released_drives: drives(&original, options, false),
         holding_drives: drives(&original, options, true),
-        undecided: rest.undecided + release.undecided + load.as_ref().map_or(0, |load| load.undecided),
+        undecided: rest.undecided + release.undecided + undecided.into_iter().flatten().sum::<usize>(),
+        sharing: match &setup.shared {
+            Some(shared) => load_sharing(&setup.mechanism, &shared.self_stress)?,
+            None => None,
+        },
+        wedging: wedging.map(|wedging| told_wedging(wedging.found)),
         load: load.map(|load| load.found),
         at_rest: rest.found,
         releases: release.found,
@@ -224,12 +236,20 @@ fn with_load(model: &Model, options: &HoldOptions) -> Result<HoldOptions, Faults
     if options.vary.is_none() || options.load.is_some() {
         return Ok(options.clone());
     }
+    Ok(options.clone().load(&only_load(model)?))
+}
+
+/// The name of the only load of a model, weights together being one.
+///
+/// # Errors
+/// Several loads, or none, of which one would have to be named; values that the model must not have.
+pub fn only_load(model: &Model) -> Result<String, Faults> {
     let mechanism = Mechanism::new(model)?;
     let weights = (mechanism.gravity.norm() > 0.0).then(|| setup::GRAVITY.to_owned());
     let loads = mechanism.loads.iter().map(|load| load.name.to_string());
     let known: Vec<String> = loads.chain(weights).collect();
     match known.as_slice() {
-        [only] => Ok(options.clone().load(only)),
+        [only] => Ok(only.clone()),
         _ => Err(Fault::general(FaultKind::HeldLoadNeeded { known }).into()),
     }
 }
@@ -266,6 +286,12 @@ fn load_report(
         threshold: threshold.found,
     };
     Ok(Some(Over { found: report, undecided }))
+}
+
+/// Whether the threshold is reached.
+fn told_wedging(threshold: Threshold) -> Wedging {
+    let reached = |value: f64| value <= threshold.present * (1.0 + TOLERANCE);
+    Wedging { possible: threshold.value.is_some_and(reached), threshold }
 }
 
 fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> HoldVerdict {

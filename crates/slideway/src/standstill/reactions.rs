@@ -15,7 +15,9 @@ pub(super) fn range(
     expression: &AffineExpression,
     unit: f64,
 ) -> Result<Range, Unsolved> {
-    let [least, greatest] = region.extent(&state.function(expression))?;
+    let ends = region.extent(&state.function(expression))?;
+    // Open contacts make many reactions vanish.
+    let [least, greatest] = ends.map(|end| end.map(|end| if state.is_rounding(end) { 0.0 } else { end }));
     Ok(Range { least, greatest }.times(unit))
 }
 

@@ -3,12 +3,12 @@
 use super::TOLERANCE;
 use super::reactions::{range, reactions};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
-use super::rest::{Over, possible, static_coefficients, until_over};
+use super::rest::{Over, possible, static_coefficients, symbols, until_over};
 use super::setup::{Setup, SlidingJoint};
 use super::state::{State, StateQuestion, sides};
 use super::words::slip_in_words;
 use crate::configuration::unit;
-use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
+use crate::pattern::{JointPhase, Phase, Region, Unsolved};
 use crate::progress::Work;
 
 /// Two states are the same if no number differs by more than this, relative to the units of the programs.
@@ -52,7 +52,7 @@ fn sliding_states(joints: usize) -> Vec<Vec<JointPhase>> {
 }
 
 fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release>, Unsolved> {
-    let question = StateQuestion { moving: true, factor: Some(factor) };
+    let question = StateQuestion { moving: true, ..StateQuestion::rest(Some(factor)) };
     let Some(state) = State::new(setup, pattern, question) else { return Ok(None) };
     let Some(region) = possible(state.region(&static_coefficients(setup)))? else { return Ok(None) };
     let Some(region) = really_slipping(setup, pattern, &state, region)? else { return Ok(None) };
@@ -73,11 +73,12 @@ fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release
         })
     };
     let joints = setup.sliders.iter().enumerate().map(of_joint).collect::<Result<_, _>>()?;
+    let reactions = reactions(setup, &state, &region)?;
     Ok(Some(Release {
         joints,
-        patterns: vec![pattern.contacts.iter().map(|contact: &ContactPhase| contact.symbol()).collect()],
+        patterns: vec![symbols(setup, pattern, &reactions)],
         coordinates: coordinates(setup, &state, &region)?,
-        reactions: reactions(setup, &state, &region)?,
+        reactions,
     }))
 }
 
@@ -146,7 +147,11 @@ fn add(found: &mut Vec<Release>, release: Release, setup: &Setup) {
         slips && motion && ranges.into_iter().all(|(a, b)| close(a, b, force))
     };
     match found.iter_mut().find(same) {
-        Some(other) => other.patterns.extend(release.patterns),
+        Some(other) => {
+            let new = release.patterns.into_iter().filter(|pattern| !other.patterns.contains(pattern));
+            let new: Vec<String> = new.collect();
+            other.patterns.extend(new);
+        }
         None => found.push(release),
     }
 }

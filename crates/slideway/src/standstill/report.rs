@@ -1,5 +1,6 @@
 //! What the analysis of standstill tells, as plain data.
 
+use crate::report::{CoordinateState, LoadSharing};
 use crate::units::Units;
 use serde::Serialize;
 
@@ -70,6 +71,12 @@ pub struct HoldReport {
     pub released_drives: Vec<String>,
     /// Drives that hold their coordinate.
     pub holding_drives: Vec<String>,
+    /// How redundant guides share their load; absent if no constraint is redundant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sharing: Option<LoadSharing>,
+    /// Whether redundant guides can be wedged; absent if no constraint is redundant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wedging: Option<Wedging>,
     /// The load that is varied, if one is.
     pub load: Option<LoadReport>,
     /// The states of rest, if there is one.
@@ -115,6 +122,12 @@ pub struct CoordinateValue {
     pub value: f64,
 }
 
+impl From<CoordinateState> for CoordinateValue {
+    fn from(state: CoordinateState) -> Self {
+        Self { name: state.name, unit: state.unit, value: state.value }
+    }
+}
+
 /// What is known of a load that is multiplied by a factor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -133,7 +146,17 @@ pub struct LoadReport {
     pub threshold: Threshold,
 }
 
-/// The static friction from which on the load alone, however great, is held.
+/// Whether redundant guides can be wedged: pressed against each other without any load, however hard.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Wedging {
+    /// Whether they can with the friction of the model: then nothing bounds the loads that it can hold.
+    pub possible: bool,
+    /// From which static friction on they can.
+    pub threshold: Threshold,
+}
+
+/// The static friction from which on the load alone, however great, is held, or guides wedge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Threshold {
@@ -142,8 +165,8 @@ pub struct Threshold {
     pub varied: String,
     /// Its value in the model: 1 for the factor.
     pub present: f64,
-    /// Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
-    /// nothing if no friction suffices.
+    /// Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
+    /// needed, nothing if no friction suffices.
     pub value: Option<f64>,
     /// Static coefficients of every contact at the threshold.
     pub coefficients: Vec<Coefficients>,
@@ -163,10 +186,17 @@ pub struct Coefficients {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AtRest {
-    /// The sign patterns of the normal forces that are possible; 0 for a contact in its gap.
+    /// The sign patterns of the normal forces that are possible; 0 for a contact in its gap, or open.
     pub patterns: Vec<String>,
     /// Reactions, over all these patterns.
     pub reactions: Reactions,
+    /// The contacts whose normal forces have no bound: pressed against each other they are in equilibrium without
+    /// any load, so that it can be wedged.
+    pub wedging: Vec<String>,
+    /// Whether it could stay at rest without the preloads of its contacts; absent if there are none, or where that
+    /// was not decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_preloads: Option<bool>,
 }
 
 /// Ranges of reactions.
@@ -225,7 +255,7 @@ pub struct DriveRange {
 pub struct Release {
     /// What each sliding joint does.
     pub joints: Vec<JointRelease>,
-    /// The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap.
+    /// The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open.
     pub patterns: Vec<String>,
     /// Accelerations of the chosen coordinates.
     pub coordinates: Vec<CoordinateRange>,
@@ -282,6 +312,14 @@ impl Range {
 }
 
 impl Reactions {
+    /// The contacts whose normal forces have no bound.
+    pub(super) fn unbounded(&self) -> Vec<String> {
+        let is_unbounded = |contact: &&ContactRange| {
+            contact.normal_force.least.is_none() || contact.normal_force.greatest.is_none()
+        };
+        self.contacts.iter().filter(is_unbounded).map(|contact| contact.name.clone()).collect()
+    }
+
     /// The least ranges that hold both.
     pub(super) fn hull(mut self, other: &Self) -> Self {
         for (one, other) in self.contacts.iter_mut().zip(&other.contacts) {

@@ -2,7 +2,7 @@
 
 use super::TOLERANCE;
 use super::reactions::{range, reactions};
-use super::report::{AtRest, Range};
+use super::report::{AtRest, Range, Reactions};
 use super::setup::Setup;
 use super::state::{State, StateQuestion, sides};
 use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
@@ -35,6 +35,18 @@ pub(super) fn possible(region: Region) -> Result<Option<Region>, Unsolved> {
     Ok((slack >= -TOLERANCE).then(|| region.relaxed(-slack.min(0.0))))
 }
 
+/// One sign for each contact. One that shares a load and has no normal force is open, or just touches.
+pub(super) fn symbols(setup: &Setup, pattern: &Phase, reactions: &Reactions) -> String {
+    let nothing = TOLERANCE * setup.units.force;
+    let has_none = |end: Option<f64>| end.is_some_and(|force| force.abs() <= nothing);
+    let one = |(k, contact): (usize, &ContactPhase)| {
+        let Range { least, greatest } = reactions.contacts[k].normal_force;
+        let touches = setup.shares(k) && has_none(least) && has_none(greatest);
+        if touches { ContactPhase::PreloadGap.symbol() } else { contact.symbol() }
+    };
+    pattern.contacts.iter().enumerate().map(one).collect()
+}
+
 /// States one after another, until the work is to end.
 pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Item = T> {
     let all = states.len();
@@ -44,11 +56,10 @@ pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Ite
 
 /// All states of rest with a factor of the varied load.
 pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option<AtRest>> {
-    let mut over = Over { found: None, undecided: 0 };
-    for sides in until_over(sides(setup), work) {
-        let symbols: String = sides.iter().map(|side| side.symbol()).collect();
+    let mut over = Over { found: None::<AtRest>, undecided: 0 };
+    for sides in until_over(sides(setup), work.part(0, 2)) {
         let pattern = resting(setup, sides);
-        let question = StateQuestion { moving: false, factor: Some(factor) };
+        let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_coefficients(setup));
         let found =
@@ -56,16 +67,38 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
         match found {
             Ok(None) => {}
             Ok(Some(reactions)) => {
-                let rest = over
-                    .found
-                    .get_or_insert_with(|| AtRest { patterns: Vec::new(), reactions: reactions.clone() });
-                rest.patterns.push(symbols);
+                let rest = over.found.get_or_insert_with(|| AtRest {
+                    patterns: Vec::new(),
+                    reactions: reactions.clone(),
+                    wedging: Vec::new(),
+                    without_preloads: None,
+                });
+                let symbols = symbols(setup, &pattern, &reactions);
+                if !rest.patterns.contains(&symbols) {
+                    rest.patterns.push(symbols);
+                }
                 rest.reactions = rest.reactions.clone().hull(&reactions);
             }
             Err(Unsolved) => over.undecided += 1,
         }
     }
+    if let Some(rest) = &mut over.found {
+        rest.wedging = rest.reactions.unbounded();
+        rest.without_preloads = without_preloads(setup, factor, work.part(1, 2));
+    }
     over
+}
+
+/// Whether some state of rest is possible without the preloads; none if there are none, or where that is not
+/// decided.
+fn without_preloads(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
+    let mut slack = setup.clone();
+    let mut is_preloaded = false;
+    for contact in &mut slack.mechanism.contacts {
+        is_preloaded |= contact.preload != [0.0; 2];
+        contact.preload = [0.0; 2];
+    }
+    if is_preloaded { is_possible(&slack, factor, work) } else { None }
 }
 
 /// Whether some state of rest is possible with a factor of the varied load; none where a linear program that
@@ -73,7 +106,7 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
 pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
     let mut undecided = false;
     for sides in until_over(sides(setup), work) {
-        let question = StateQuestion { moving: false, factor: Some(factor) };
+        let question = StateQuestion::rest(Some(factor));
         let pattern = resting(setup, sides);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         match possible(state.region(&static_coefficients(setup))) {
@@ -90,7 +123,7 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
     for sides in until_over(sides(setup), work) {
         let pattern = resting(setup, sides);
-        let question = StateQuestion { moving: false, factor: None };
+        let question = StateQuestion::rest(None);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_coefficients(setup));
         let extent = |region: Region| range(&state, &region, &state.factor(), state.factor_unit());

@@ -8,8 +8,11 @@ use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
+use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
-use nalgebra::{DVector, Vector2};
+use crate::report::Elasticity;
+use crate::sharing::{NO_STRESS, elasticity, shared_load};
+use nalgebra::{DVector, DVectorView, Vector2};
 
 /// Units of the linear programs.
 #[derive(Debug, Clone, Copy)]
@@ -63,6 +66,8 @@ pub(super) struct Setup {
     pub(super) sliders: Vec<SlidingJoint>,
     /// Units.
     pub(super) units: Units,
+    /// How redundant guides share their load; none if nothing is in excess.
+    pub(super) shared: Option<SharedLoad>,
 }
 
 impl Setup {
@@ -74,9 +79,9 @@ impl Setup {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
         original.check_no_press_fit("whether it holds at rest")?;
-        original.check_determinate("whether it holds at rest")?;
         let configuration = Configuration::new(&original)?;
         let mut mechanism = original.clone();
+        configuration.put_misalignments(&mut mechanism)?;
         if !options.hold_drives {
             mechanism.drives.clear();
         }
@@ -92,8 +97,32 @@ impl Setup {
         let assembled = Assembled::new(&mechanism, &configuration)?;
         let given = forces(&mechanism, &assembled);
         let sliders = sliders(&mechanism, &assembled);
-        let units = units(&mechanism, &given, load.as_ref());
-        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units })
+        let shared = shared(&mechanism, &assembled)?;
+        let mut units = units(&mechanism, &given, load.as_ref());
+        units.force = shared.as_ref().map_or(units.force, |shared| units.force.max(misfit(shared)));
+        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared })
+    }
+
+    /// A mechanism with these forces in the equations of motion alone, and without any other load, preload, play and
+    /// misalignment: what remains of it where the forces, or those between its guides, are great enough.
+    pub(super) fn alone(&self, forces: DVector<f64>) -> Self {
+        let mut alone = Self { load: None, ..self.clone() };
+        let force = greatest_force(&forces, alone.units.length);
+        alone.units.force = if force > 0.0 { force } else { 1.0 };
+        alone.given = forces;
+        for contact in &mut alone.mechanism.contacts {
+            contact.preload = [0.0; 2];
+        }
+        if let Some(shared) = &mut alone.shared {
+            shared.clearance.fill(0.0);
+            shared.misalignment.fill(0.0);
+        }
+        alone
+    }
+
+    /// Whether a contact takes part in a self-stress.
+    pub(super) fn shares(&self, k: usize) -> bool {
+        self.shared.as_ref().is_some_and(|shared| shared.shares(k))
     }
 
     /// Coulomb's law of a contact in the units of the programs; its static coefficients may be varied.
@@ -121,6 +150,40 @@ impl Setup {
     pub(super) fn equations_of_motion(&self) -> usize {
         3 * self.mechanism.bodies.len()
     }
+}
+
+/// How redundant guides share their load; none if nothing is in excess.
+///
+/// # Errors
+/// Nothing says how; rigid faces, whose self-stresses are not bounded by anything.
+fn shared(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Result<Option<SharedLoad>, Faults> {
+    if mechanism.excess.is_empty() {
+        return Ok(None);
+    }
+    let without_rounding = |force: f64| if force.abs() <= NO_STRESS { 0.0 } else { force };
+    let self_stress = assembled.self_stresses(mechanism)?.map(without_rounding);
+    let elasticity = elasticity(mechanism, &self_stress)?;
+    let shared = shared_load(mechanism, self_stress)?;
+    match &shared {
+        Some(shared) if elasticity == Elasticity::Rigid => {
+            let sharing = (0..mechanism.contacts.len()).filter(|&k| shared.shares(k));
+            let contacts = sharing.map(|k| mechanism.contacts[k].name.to_string()).collect();
+            let joint = mechanism.contacts[shared.cut[0]].joint;
+            let place = mechanism.joints[joint.index()].place.clone();
+            Err(Fault::new(FaultKind::RigidAtRest { contacts }, place).into())
+        }
+        _ => Ok(shared),
+    }
+}
+
+/// The greatest normal force (N) at a cut contact by which misalignments beyond the play press the guides against
+/// each other, as far as one self-stress `z` alone tells: `(|z^T e| - sum_k delta_k |z_k|)^+ / sum_k f_k z_k^2`.
+fn misfit(shared: &SharedLoad) -> f64 {
+    let of = |stress: DVectorView<'_, f64>| {
+        let beyond = stress.dot(&shared.misalignment).abs() - stress.abs().dot(&shared.clearance);
+        beyond.max(0.0) / stress.component_mul(&stress).dot(&shared.compliance)
+    };
+    shared.self_stress.column_iter().map(of).fold(0.0, f64::max)
 }
 
 /// The mechanism without velocities: the rates of the model count as zero, and drives that hold do not

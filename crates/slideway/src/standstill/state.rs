@@ -5,8 +5,10 @@ use super::setup::{Setup, SlidingJoint};
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
 use crate::mechanism::Effort;
+use crate::modes::SharedLoad;
 use crate::pattern::{
-    Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, Phase, Region, without_tipping,
+    Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING, Phase, Region,
+    without_tipping,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -17,6 +19,15 @@ pub(super) struct StateQuestion {
     pub(super) moving: bool,
     /// The factor of the varied load; nothing where it is an unknown.
     pub(super) factor: Option<f64>,
+    /// Whether guides that share a load are to be pressed against each other, with one unit of force in all.
+    pub(super) wedged: bool,
+}
+
+impl StateQuestion {
+    /// Rest with a factor of the varied load; nothing where it is an unknown.
+    pub(super) fn rest(factor: Option<f64>) -> Self {
+        Self { moving: false, factor, wedged: false }
+    }
 }
 
 /// A pattern with its equations solved as far as they go.
@@ -25,6 +36,8 @@ pub(super) struct State<'s> {
     pattern: &'s Phase,
     question: StateQuestion,
     friction: Vec<Friction>,
+    /// The share of the way from the negative to the positive face at which an open contact is, an unknown.
+    between: Vec<Option<usize>>,
     columns: usize,
     solutions: AffineSet,
 }
@@ -37,11 +50,13 @@ impl<'s> State<'s> {
             pattern,
             question,
             friction: Vec::new(),
+            between: Vec::new(),
             columns: 0,
             solutions: AffineSet::empty(),
         };
         state.columns = state.first_force() + setup.assembled.layout.len() - setup.equations_of_motion();
         state.friction = (0..setup.mechanism.contacts.len()).map(|k| state.new_friction(k)).collect();
+        state.between = (0..setup.mechanism.contacts.len()).map(|k| state.new_place(k)).collect();
         state.columns += usize::from(question.factor.is_none());
         let (matrix, right_hand_side) = state.equations();
         state.solutions = AffineSet::of(matrix, right_hand_side)?;
@@ -67,6 +82,17 @@ impl<'s> State<'s> {
         })
     }
 
+    /// Where an open contact is: where the friction of its preload is shared out, that share.
+    fn new_place(&mut self, k: usize) -> Option<usize> {
+        let is_open = self.pattern.contacts[k] == ContactPhase::PreloadGap && self.setup.shares(k);
+        is_open.then(|| {
+            self.friction[k].share.unwrap_or_else(|| {
+                self.columns += 1;
+                self.columns - 1
+            })
+        })
+    }
+
     fn first_force(&self) -> usize {
         if self.question.moving { self.setup.equations_of_motion() } else { 0 }
     }
@@ -76,10 +102,11 @@ impl<'s> State<'s> {
         self.first_force() + place - self.setup.equations_of_motion()
     }
 
-    /// Equations of motion (or of statics), of the joints' accelerations, and of the joints that stick:
+    /// Equations of motion (or of statics), of the joints' accelerations, of the joints that stick, and of the
+    /// deflections of redundant guides:
     ///
     /// ```text
-    /// M a - G^T lambda - B u - sum_k W_k F_k = f      G a = 0      C a = 0      S_j a = 0
+    /// M a - G^T lambda - B u - sum_k W_k F_k = f      G a = 0      C a = 0      S_j a = 0      Z^T (d + e) = 0
     /// ```
     fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
         let (mut matrix, mut right_hand_side) = self.motion();
@@ -88,20 +115,67 @@ impl<'s> State<'s> {
             matrix.row_mut(row).scale_mut(*factor);
             right_hand_side[row] *= factor;
         }
-        let mut further: Vec<DVector<f64>> = Vec::new();
+        let mut further: Vec<(DVector<f64>, f64)> = Vec::new();
         if self.question.moving {
-            further.extend(self.kinematics());
+            further.extend(self.kinematics().into_iter().map(|row| (row, 0.0)));
         }
         let contacts = self.pattern.contacts.iter().enumerate();
         let in_gap = contacts.filter(|(_, contact)| **contact == ContactPhase::PreloadGap);
-        further.extend(in_gap.map(|(k, _)| self.dense(&self.normal_force(k))));
+        further.extend(in_gap.map(|(k, _)| (self.dense(&self.normal_force(k)), 0.0)));
+        further.extend(self.compatibility());
+        if self.question.wedged {
+            further.extend(self.pressed_together());
+        }
         let first = matrix.nrows();
         let mut matrix = matrix.resize_vertically(first + further.len(), 0.0);
-        let right_hand_side = right_hand_side.resize_vertically(first + further.len(), 0.0);
-        for (index, row) in further.iter().enumerate() {
+        let mut right_hand_side = right_hand_side.resize_vertically(first + further.len(), 0.0);
+        for (index, (row, value)) in further.iter().enumerate() {
             matrix.row_mut(first + index).copy_from(&row.transpose());
+            right_hand_side[first + index] = *value;
         }
         (matrix, right_hand_side)
+    }
+
+    /// Z^T (d + e) = 0 of redundant guides, with the law of each contact, eq. (R1).
+    fn compatibility(&self) -> Vec<(DVector<f64>, f64)> {
+        let Some(shared) = &self.setup.shared else { return Vec::new() };
+        let stresses = shared.self_stress.column_iter();
+        let equation = stresses.map(|stress| {
+            let taking_part = (0..stress.len()).filter(|&k| stress[k] != 0.0);
+            let sum = taking_part.fold(AffineExpression::default(), |sum, k| {
+                sum.plus(stress[k], &self.deflection(shared, k).shifted(shared.misalignment[k]))
+            });
+            let row = self.dense(&sum);
+            let scale = row.amax();
+            if scale > 0.0 { (row / scale, -sum.constant / scale) } else { (row, -sum.constant) }
+        });
+        equation.collect()
+    }
+
+    /// Deflection `d_k` of a contact that shares a load (m): `-sigma delta - f N` where it is pressed, and anything from
+    /// `-delta` to `delta` where it is open.
+    fn deflection(&self, shared: &SharedLoad, k: usize) -> AffineExpression {
+        let clearance = shared.clearance[k];
+        match self.pattern.contacts[k] {
+            ContactPhase::Pressed(side) => {
+                let yields = shared.compliance[k] * self.setup.units.force;
+                self.normal_force(k).times(-yields).shifted(-side.sign() * clearance)
+            }
+            ContactPhase::PreloadGap => {
+                let place = self.between[k].expect("open contacts have a place");
+                AffineExpression::unknown(place, -2.0 * clearance).shifted(clearance)
+            }
+        }
+    }
+
+    /// The normal forces of the contacts that share a load are one unit in all, and drives do nothing.
+    fn pressed_together(&self) -> Vec<(DVector<f64>, f64)> {
+        let sharing = (0..self.friction.len()).filter(|&k| self.setup.shares(k));
+        let sum =
+            sharing.fold(AffineExpression::default(), |sum, k| sum.plus(1.0, &self.friction[k].pressure));
+        let drives = (0..self.setup.mechanism.drives.len()).map(DriveId);
+        let efforts = drives.map(|drive| (self.dense(&self.effort(drive)), 0.0));
+        [(self.dense(&sum), 1.0)].into_iter().chain(efforts).collect()
     }
 
     /// The equations of motion with unknowns in the units of the programs, and rows in N and N m.
@@ -228,6 +302,11 @@ impl State<'_> {
         AffineExpression::unknown(self.force(place), 1.0)
     }
 
+    /// Whether a quantity in the units of the programs is but rounding, of redundant guides.
+    pub(super) fn is_rounding(&self, value: f64) -> bool {
+        self.setup.shared.is_some() && value.abs() <= NOTHING
+    }
+
     /// Effort of a drive.
     pub(super) fn effort(&self, drive: DriveId) -> AffineExpression {
         self.reaction(self.setup.assembled.layout.effort(drive))
@@ -277,6 +356,12 @@ impl State<'_> {
         for (friction, mu_static) in self.friction.iter().zip(mu_static) {
             slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
         }
+        for (friction, place) in self.friction.iter().zip(&self.between) {
+            if let Some(place) = place.filter(|_| friction.share.is_none()) {
+                slacks.push(AffineExpression::unknown(place, 1.0));
+                slacks.push(AffineExpression::unknown(place, -1.0).shifted(1.0));
+            }
+        }
         for slider in &self.setup.sliders {
             if let SlidingJoint { couple: Some(couple), contacts, .. } = slider
                 && let [k] = contacts[..]
@@ -313,6 +398,9 @@ pub(super) fn sides(setup: &Setup) -> Vec<Vec<ContactPhase>> {
 
 /// The sides that each contact may take.
 pub(super) fn side_options(setup: &Setup) -> Vec<&'static [ContactPhase]> {
-    let contacts = (0..setup.mechanism.contacts.len()).map(ContactId);
-    contacts.map(|contact| ContactPhase::options(&setup.mechanism, contact)).collect()
+    let may_be_open = |k: usize| setup.shared.as_ref().is_some_and(|shared| shared.may_be_open(k));
+    let contacts = 0..setup.mechanism.contacts.len();
+    contacts
+        .map(|k| ContactPhase::options(setup.mechanism.preload_jumps(ContactId(k)) || may_be_open(k)))
+        .collect()
 }

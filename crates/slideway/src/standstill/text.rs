@@ -1,11 +1,13 @@
 //! The analysis of standstill as text for people.
 
-use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
+use super::report::{
+    Coefficients, HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold, Wedging,
+};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Report, Style, count, followed, spaced};
-use crate::units::{Unit, Units};
+use crate::units::Unit;
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
@@ -15,6 +17,7 @@ impl Report for HoldReport {
         let mut text = Page::new(self, style);
         text.heading();
         text.verdict();
+        text.wedging();
         text.load();
         text.at_rest();
         for (index, release) in self.releases.iter().enumerate() {
@@ -32,6 +35,7 @@ impl HoldReport {
         let mut text = Page::new(self, Style::Plain);
         text.drives();
         text.verdict();
+        text.wedging();
         text.load();
         text.text().trim().to_owned()
     }
@@ -75,6 +79,9 @@ impl Text<'_> {
             self.line(&followed(steps));
         }
         self.drives();
+        for line in report.sharing.iter().flat_map(|sharing| sharing.in_words(&report.units)) {
+            self.line(&line);
+        }
         self.line("");
     }
 
@@ -95,11 +102,36 @@ impl Text<'_> {
             HoldVerdict::Moves | HoldVerdict::Neither | HoldVerdict::DoesNotHold => AnsiColor::Red,
         };
         self.painted(colour.on_default().bold(), &self.report.answer(), "");
+        self.what_holds();
         if !self.report.motions_without_inertia.is_empty() {
-            self.line("How it begins to move is not determined, since these motions have no inertia:");
+            let what = if self.report.holds { "Whether it could also begin" } else { "How it begins" };
+            self.line(&format!("{what} to move is not determined, since these motions have no inertia:"));
             for motion in &self.report.motions_without_inertia {
                 self.line(&format!("  {motion}"));
             }
+        }
+    }
+
+    fn wedging(&mut self) {
+        let Some(wedging) = &self.report.wedging else { return };
+        self.line("");
+        for line in wedging_in_words(wedging) {
+            self.line(&line);
+        }
+    }
+
+    /// What holds it, if that is not the friction which its loads cause.
+    fn what_holds(&mut self) {
+        let Some(rest) = &self.report.at_rest else { return };
+        if rest.without_preloads == Some(false) {
+            self.line("Its preloads hold it: without them it would not stay at rest.");
+        }
+        // Of redundant guides it is said from which friction on.
+        if !rest.wedging.is_empty() && self.report.wedging.is_none() {
+            self.line(&format!(
+                "It can be wedged: {} can press against each other without any load, however hard.",
+                rest.wedging.join(", ")
+            ));
         }
     }
 
@@ -107,13 +139,14 @@ impl Text<'_> {
         let Some(load) = &self.report.load else { return };
         self.line("");
         self.headline(&load_title(load));
-        for line in held_in_words(load, &self.report.units) {
+        for line in held_in_words(self.report, load) {
             self.line(&format!("  {line}"));
         }
         for line in threshold_in_words(load) {
             self.line(&format!("  {line}"));
         }
-        if self.report.verdict == HoldVerdict::HoldsOrSlips {
+        // Of redundant guides it was said what that depends on.
+        if self.report.verdict == HoldVerdict::HoldsOrSlips && self.report.wedging.is_none() {
             self.line("  At rest it is wedged in now, and it can also begin to slide: do not rely on it.");
         }
     }
@@ -128,6 +161,9 @@ impl Text<'_> {
             rest.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>().join(" or ")
         ));
         self.reactions(&rest.reactions);
+        if self.report.sharing.is_some() {
+            self.line("  Which of these states it is in depends on how it came to rest.");
+        }
     }
 
     fn release(&mut self, index: usize, release: &Release) {
@@ -227,9 +263,9 @@ fn at_factor(load: &LoadReport) -> String {
     if load.unit.is_empty() { String::new() } else { format!(" without {}", load.name) }
 }
 
-fn held_in_words(load: &LoadReport, units: &Units) -> Vec<String> {
+fn held_in_words(report: &HoldReport, load: &LoadReport) -> Vec<String> {
     let what = if load.unit.is_empty() { "factor" } else { "effort" };
-    let unit = units.of(load.unit);
+    let unit = report.units.of(load.unit);
     let one = |range: &Range| match (range.least, range.greatest) {
         (None, None) => format!("every {what}"),
         (Some(least), None) => format!("every {what} from {} on", unit.show(least)),
@@ -247,28 +283,67 @@ fn held_in_words(load: &LoadReport, units: &Units) -> Vec<String> {
             vec![format!("It holds with {}.", held.iter().map(one).collect::<Vec<_>>().join(", and with "))]
         }
     };
-    lines.push(if load.self_locking {
-        "Self-locking: no load is too great.".to_owned()
-    } else {
-        "Not self-locking: a sufficiently large load moves it.".to_owned()
+    // Where no sliding is possible the load itself sees to it that it is held.
+    let is_sure =
+        load.factor == 1.0 && matches!(report.verdict, HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed);
+    let is_wedged = report.at_rest.as_ref().is_some_and(|rest| !rest.wedging.is_empty());
+    lines.push(match (load.self_locking, is_wedged && !is_sure) {
+        (true, false) => "Self-locking: no load is too great.".to_owned(),
+        (true, true) => {
+            "No load is too great while it stays wedged, which need not be the load's doing.".to_owned()
+        }
+        (false, _) => "Not self-locking: a sufficiently large load moves it.".to_owned(),
     });
     lines
 }
 
 fn threshold_in_words(load: &LoadReport) -> Vec<String> {
-    let Threshold { varied, present, value, coefficients } = &load.threshold;
-    let Some(value) = value else {
+    let varied = &load.threshold.varied;
+    let Some(value) = load.threshold.value else {
         return vec![format!("No {varied} makes it self-locking for {} alone.", load.name)];
     };
-    if *value == 0.0 {
+    if value == 0.0 {
         return vec![format!("{} alone is held whatever its magnitude, without friction.", load.name)];
     }
-    let what = if varied == "static friction" {
-        format!("{} times the static friction of the model", number(*value))
-    } else {
-        format!("{varied} = {} (the model has {})", number(*value), number(*present))
+    let what = threshold_value(&load.threshold, value);
+    vec![
+        format!("For {} alone: self-locking from {what} on, free below it.", load.name),
+        coefficients_in_words(&load.threshold.coefficients),
+    ]
+}
+
+/// From which friction on guides that share a load wedge.
+fn wedging_in_words(wedging: &Wedging) -> Vec<String> {
+    let Wedging { possible, threshold } = wedging;
+    let Some(value) = threshold.value else {
+        return vec![format!("No {} lets the guides be wedged.", threshold.varied)];
     };
-    let mut lines = vec![format!("For {} alone: self-locking from {what} on, free below it.", load.name)];
+    let what = threshold_value(threshold, value);
+    let whole = if *possible {
+        format!(
+            "The guides can be wedged: once pressed against each other, however hard, they stay so without any load. That is \
+             so from {what} on. Then nothing bounds the loads that friction can hold, and whether it holds one depends on how \
+             it came to rest."
+        )
+    } else {
+        format!(
+            "The guides cannot be wedged. From {what} on they can: once pressed against each other, however hard, they stay \
+             so without any load."
+        )
+    };
+    vec![whole, coefficients_in_words(&threshold.coefficients)]
+}
+
+/// "2 times the static friction of the model", "mu = 0.6 (the model has 0.3)".
+fn threshold_value(threshold: &Threshold, value: f64) -> String {
+    if threshold.varied == "static friction" {
+        format!("{} times the static friction of the model", number(value))
+    } else {
+        format!("{} = {} (the model has {})", threshold.varied, number(value), number(threshold.present))
+    }
+}
+
+fn coefficients_in_words(coefficients: &[Coefficients]) -> String {
     let list = |[plus, minus]: [f64; 2]| {
         if plus == minus { number(plus) } else { format!("{} (+), {} (-)", number(plus), number(minus)) }
     };
@@ -280,8 +355,7 @@ fn threshold_in_words(load: &LoadReport) -> Vec<String> {
         let named = coefficients.iter().map(|c| format!("{}: {}", c.contact, list(c.mu_static)));
         named.collect::<Vec<_>>().join(", ")
     };
-    lines.push(format!("There mu_static is {coefficients}."));
-    lines
+    format!("There mu_static is {coefficients}.")
 }
 
 /// Greatest finite magnitude among the ends.

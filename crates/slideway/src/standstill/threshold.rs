@@ -1,4 +1,4 @@
-//! From which static friction on a load alone, however great, is held.
+//! From which static friction on a load alone, however great, is held, or guides that share a load wedge.
 //!
 //! The load can grow without bound where the cone of recession of the states of rest reaches in its
 //! direction:
@@ -11,6 +11,10 @@
 //! static friction only widens this cone, so that there is one threshold, found by bisection of the linear
 //! programs' feasibility and polished by a secant: self-locking from there on, free below. The accuracy is
 //! about 1e-12, and 1e-11 where a block wedges in its guide, as the reactions grow without bound there.
+//!
+//! Redundant guides *wedge* where the cone without any load holds normal forces that do not vanish: friction then
+//! keeps them pressed against each other, however hard. Play and misalignment are negligible beside the deflections of
+//! such forces, so that they move no threshold.
 
 use super::HoldOptions;
 use super::report::{Coefficients, Threshold};
@@ -20,7 +24,7 @@ use super::state::{State, StateQuestion, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::model::Model;
-use crate::pattern::Unsolved;
+use crate::pattern::{Phase, Unsolved};
 use crate::progress::Work;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
@@ -58,23 +62,41 @@ pub(super) fn threshold(
     work: Work<'_>,
 ) -> Result<Option<Over<Threshold>>, Faults> {
     let Some(load) = &setup.load else { return Ok(None) };
-    let law = match &options.vary {
-        None => Law {
+    let law = law(model, options, setup)?;
+    let least = least_value(&setup.alone(load.forces.clone()), &law, StateQuestion::rest(Some(0.0)), work);
+    Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
+}
+
+/// The threshold from which on guides that share a load wedge; nothing if there are none.
+///
+/// # Errors
+/// As [`threshold`].
+pub(super) fn wedging(
+    model: &Model,
+    options: &HoldOptions,
+    setup: &Setup,
+    work: Work<'_>,
+) -> Result<Option<Over<Threshold>>, Faults> {
+    if setup.shared.is_none() {
+        return Ok(None);
+    }
+    let law = law(model, options, setup)?;
+    let unloaded = setup.alone(setup.given.map(|_| 0.0));
+    let wedged = StateQuestion { wedged: true, ..StateQuestion::rest(Some(0.0)) };
+    let least = least_value(&unloaded, &law, wedged, work);
+    Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
+}
+
+/// How static friction depends on what is varied.
+fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Faults> {
+    match &options.vary {
+        None => Ok(Law {
             varied: "static friction".to_owned(),
             present: 1.0,
             lines: static_coefficients(setup).iter().map(|mu| mu.map(|mu| [0.0, mu])).collect(),
-        },
-        Some(name) => parameter_law(model, setup, name)?,
-    };
-    let mut alone = setup.clone();
-    alone.given = load.forces.clone();
-    alone.load = None;
-    alone.units.force = super::setup::greatest_force(&alone.given, alone.units.length);
-    for contact in &mut alone.mechanism.contacts {
-        contact.preload = [0.0; 2];
+        }),
+        Some(name) => parameter_law(model, setup, name),
     }
-    let least = least_value(&alone, &law, work);
-    Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
 }
 
 fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
@@ -90,21 +112,40 @@ fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
     }
 }
 
-/// The least value for which some pattern holds the load.
-fn least_value(alone: &Setup, law: &Law, work: Work<'_>) -> Over<Option<f64>> {
-    let mut over = Over { found: None, undecided: 0 };
+/// The least value for which some pattern answers the question.
+///
+/// Patterns that never do are tried with ever more friction, which a linear program may not be solved for. They are
+/// tried again up to what the others need.
+fn least_value(alone: &Setup, law: &Law, question: StateQuestion, work: Work<'_>) -> Over<Option<f64>> {
+    let mut found: Option<f64> = None;
+    let mut undecided = 0;
+    let mut again = Vec::new();
     for sides in until_over(sides(alone), work) {
         let pattern = resting(alone, sides);
-        let question = StateQuestion { moving: false, factor: Some(0.0) };
-        let Some(state) = State::new(alone, &pattern, question) else { continue };
-        let best = over.found.unwrap_or(GREATEST);
-        let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);
-        match least_of(best, missing) {
-            Ok(least) => over.found = least.or(over.found),
-            Err(Unsolved) => over.undecided += 1,
+        match least_in(alone, &pattern, law, (question, found)) {
+            Ok(least) => found = least.or(found),
+            Err(Unsolved) => again.push(pattern),
         }
     }
-    over
+    for pattern in &again {
+        match least_in(alone, pattern, law, (question, found)) {
+            Ok(least) => found = least.or(found),
+            Err(Unsolved) => undecided += 1,
+        }
+    }
+    Over { found, undecided }
+}
+
+/// The least value for which a pattern answers the question, if it is less than the one already found.
+fn least_in(
+    alone: &Setup,
+    pattern: &Phase,
+    law: &Law,
+    (question, found): (StateQuestion, Option<f64>),
+) -> Result<Option<f64>, Unsolved> {
+    let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
+    let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);
+    least_of(found.unwrap_or(GREATEST), missing)
 }
 
 /// The least value from 0 to `best` where a falling function is no more than zero.

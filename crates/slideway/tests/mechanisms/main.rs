@@ -34,6 +34,7 @@ mod press_fits;
 mod properties;
 mod redundant;
 mod redundant_closed_forms;
+mod redundant_rest;
 mod rest;
 mod speeds;
 mod standstill;

@@ -48,7 +48,7 @@ fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let change = if is_free { greatest_changes(instant) } else { None };
     contacts
         .map(|j| {
-            let all = ContactPhase::options(instant.mechanism, ContactId(j));
+            let all = ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j)));
             let normal = instant.outputs.base[j];
             match &change {
                 Some(change) if normal.abs() > change[j] + BOUNDARY => vec![all[usize::from(normal < 0.0)]],

@@ -1,0 +1,65 @@
+//! Self-stresses of redundant guides from statics alone, so that no motion needs inertia.
+
+use super::{Assembled, INCONSISTENT, Reaction};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
+use crate::mechanism::Mechanism;
+use nalgebra::{DMatrix, DVector};
+
+impl Assembled<f64> {
+    /// The normal forces of the self-stresses: a row for each contact, a column for each cut one, whose own normal
+    /// force is 1 there and that of the other cut contacts 0.
+    ///
+    /// ```text
+    /// G^T lambda = 0
+    /// ```
+    ///
+    /// # Errors
+    /// The position is singular: a cut contact has no self-stress here.
+    pub(crate) fn self_stresses(&self, mechanism: &Mechanism) -> Result<DMatrix<f64>, Faults> {
+        let bodies = 3 * mechanism.bodies.len();
+        let place =
+            |contact: ContactId| self.layout.reaction(Reaction::Normal(contact)).map(|at| at - bodies);
+        let cut: Vec<usize> = self.layout.cut.iter().filter_map(|contact| place(*contact)).collect();
+        // Moments count in forces times the size of the mechanism.
+        let mut balance = self.matrix.view((0, bodies), (bodies, self.layout.reactions.len())).into_owned();
+        (2..bodies).step_by(3).for_each(|row| balance.row_mut(row).scale_mut(1.0 / mechanism.size));
+        let kept: Vec<usize> = (0..balance.ncols()).filter(|column| !cut.contains(column)).collect();
+        let of_kept = balance.select_columns(&kept);
+        let of_cut = balance.select_columns(&cut);
+        let greatest = of_kept.amax();
+        let answer = of_kept.clone().svd(true, true).solve(&-&of_cut, f64::EPSILON * greatest);
+        let answer = answer.expect("both factors were computed");
+        let left = &of_kept * &answer + &of_cut;
+        let lost = self.layout.cut.iter().zip(left.column_iter().zip(of_cut.column_iter()));
+        let lost: Vec<ContactId> = lost
+            .filter(|(_, (left, own))| left.amax() > INCONSISTENT * own.amax())
+            .map(|(contact, _)| *contact)
+            .collect();
+        if !lost.is_empty() {
+            return Err(singular_position(mechanism, &lost));
+        }
+        let force = |k: usize, stress: usize| {
+            let at = place(ContactId(k))?;
+            if at == cut[stress] {
+                return Some(1.0);
+            }
+            kept.iter().position(|column| *column == at).map(|row| answer[(row, stress)])
+        };
+        let row =
+            |k: usize| DVector::from_fn(cut.len(), |stress, _| force(k, stress).unwrap_or(0.0)).transpose();
+        Ok(DMatrix::from_rows(&(0..mechanism.contacts.len()).map(row).collect::<Vec<_>>()))
+    }
+}
+
+/// The fault of contacts whose excess does not persist.
+pub(super) fn singular_position(mechanism: &Mechanism, contacts: &[ContactId]) -> Faults {
+    let joint = |contact: &ContactId| &mechanism.joints[mechanism.contacts[contact.index()].joint.index()];
+    let joints = contacts.iter().map(|contact| joint(contact).name.to_string()).collect();
+    let kind = FaultKind::SingularPosition { lost: contacts.len(), joints };
+    let place = contacts.first().map(|contact| joint(contact).place.clone());
+    match place {
+        Some(place) => Fault::new(kind, place).into(),
+        None => Fault::general(kind).into(),
+    }
+}
