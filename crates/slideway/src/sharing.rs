@@ -9,8 +9,7 @@
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Real;
-use crate::mechanism::{Contact, Mechanism};
-use crate::model::{Face, SliderKind};
+use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::modes::SharedLoad;
 use crate::report::{Elasticity, LoadSharing, PressFit};
 use nalgebra::{DMatrix, DVector};
@@ -40,17 +39,16 @@ pub fn shared_load<T: Real>(
         (Elasticity::Equal, _) => T::one(),
         _ => T::zero(),
     };
-    let half = |play: T| play / T::exactly(2.0);
+    let clearance = |contact: &Contact<T>| match contact.face {
+        Some(_) => T::zero(),
+        None => contact.play / T::exactly(2.0),
+    };
     Ok(Some(SharedLoad {
         press_fits: mechanism.press_fits(),
         cut: mechanism.excess.contacts.iter().map(|contact| contact.index()).collect(),
         compliance: vector(&compliance),
-        clearance: vector(&|contact| if contact.face.is_some() { T::zero() } else { half(contact.play) }),
-        misalignment: vector(&|contact| match contact.face {
-            Some(Face { is_positive: true, .. }) => contact.misalignment - half(contact.play),
-            Some(_) => contact.misalignment + half(contact.play),
-            None => contact.misalignment,
-        }),
+        clearance: vector(&clearance),
+        misalignment: vector(&|contact| contact.misalignment + contact.interference()),
         self_stress,
     }))
 }
@@ -89,6 +87,7 @@ pub fn load_sharing(
 /// # Errors
 /// As [`shared_load`].
 pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -> Result<Elasticity, Faults> {
+    check_press_fits(mechanism)?;
     let takes_part = |k: &usize| self_stress.row(*k).iter().any(|force| !force.is_zero());
     let sharing: Vec<&Contact<T>> =
         (0..mechanism.contacts.len()).filter(takes_part).map(|k| &mechanism.contacts[k]).collect();
@@ -103,28 +102,6 @@ pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -
             None => Fault::general(kind),
         });
     };
-    let is_guided = |contact: &Contact<T>| {
-        mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided)
-    };
-    let fits = |those: &dyn Fn(&Contact<T>) -> bool| -> Vec<String> {
-        let fits = mechanism.contacts.iter().filter(|contact| contact.is_second_face());
-        fits.filter(|contact| those(contact)).map(|contact| contact.place().to_owned()).collect()
-    };
-    let refusals: [(Vec<String>, fn(Vec<String>) -> FaultKind); 3] = [
-        (fits(&is_guided), |contacts| FaultKind::GuidedPressFit { contacts }),
-        (fits(&|contact| contact.preload[0] != contact.preload[1]), |contacts| {
-            FaultKind::PreloadOfPressFit { contacts }
-        }),
-        (fits(&|contact| contact.stiffness.is_none()), |contacts| FaultKind::PressFitWithoutStiffness {
-            contacts,
-        }),
-    ];
-    let is_refused = refusals.iter().any(|(contacts, _)| !contacts.is_empty());
-    let refusals = refusals.into_iter().filter(|(contacts, _)| !contacts.is_empty());
-    refusals.for_each(|(contacts, kind)| refuse(kind(contacts)));
-    if is_refused {
-        return faults.or(Elasticity::Given);
-    }
     let without = named(&|contact| contact.stiffness.is_none());
     let has_length = |contact: &&Contact<T>| !contact.play.is_zero() || !contact.misalignment.is_zero();
     let elasticity = if without.is_empty() {
@@ -142,6 +119,25 @@ pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -
         Elasticity::Rigid
     };
     faults.or(elasticity)
+}
+
+/// Refuses press fits of which nothing says how they grip, or that are of no kind with a law.
+fn check_press_fits<T: Real>(mechanism: &Mechanism<T>) -> Result<(), Faults> {
+    let mut faults = Faults::default();
+    let mut refuse = |is_wrong: &dyn Fn(&Contact<T>) -> bool, kind: &dyn Fn(Vec<String>) -> FaultKind| {
+        let fits = mechanism.contacts.iter().filter(|contact| contact.is_second_face() && is_wrong(contact));
+        let fits: Vec<&Contact<T>> = fits.collect();
+        let Some(first) = fits.first() else { return };
+        let places = fits.iter().map(|contact| contact.place().to_owned()).collect();
+        faults.push(Fault::new(kind(places), mechanism.joints[first.joint.index()].place.clone()));
+    };
+    let is_guided = |contact: &Contact<T>| mechanism.slider(contact.joint).is_some_and(Slider::is_guided);
+    refuse(&is_guided, &|contacts| FaultKind::GuidedPressFit { contacts });
+    let has_two_preloads = |contact: &Contact<T>| contact.preload[0] != contact.preload[1];
+    refuse(&has_two_preloads, &|contacts| FaultKind::PreloadOfPressFit { contacts });
+    let has_no_stiffness = |contact: &Contact<T>| contact.stiffness.is_none();
+    refuse(&has_no_stiffness, &|contacts| FaultKind::PressFitWithoutStiffness { contacts });
+    faults.or(())
 }
 
 /// The contacts that share a load, in groups that no self-stress connects.

@@ -1856,7 +1856,7 @@ class Margins(Record):
     """Up to this factor every load has exactly one solution (below 1: some other load has none or several
     already): there a determinant is proven to change its sign. Of redundant guides, for every play,
     misalignment and stiffness, too (theory, eq. (R4)). Absent if no determinant changes its sign, or if that
-    was not asked because preloads jump with the side of contact, or because of press fits."""
+    was not asked because preloads jump with the side of contact."""
     moves_below: Unlocking | None = None
     """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
     and where none comes."""

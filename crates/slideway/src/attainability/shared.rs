@@ -67,7 +67,7 @@ impl SharedGaps {
         Some(Self {
             offset,
             clearance: DVector::from_fn(contacts, clearance),
-            interference: DVector::from_fn(contacts, |k, _| mechanism.interference(k)),
+            interference: DVector::from_fn(contacts, |k, _| mechanism.contacts[k].interference()),
             press_fits: shared.press_fits,
             rigid: shared.compliance.iter().all(|compliance| *compliance == 0.0),
             // sigma e_k, and -sigma Z of a cut contact, times sigma: E^T.

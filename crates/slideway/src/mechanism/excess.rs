@@ -3,7 +3,8 @@
 //! A mechanism with `n` coordinates has `rows + n - 3 b` equations more than determine it. In the drawing, so
 //! many are chosen that follow from the others: the positions are found without these rows of the joints, and
 //! as many contacts are *cut*, whose normal forces become unknowns of their own (force method). The choice is
-//! the same in every position, so that all numbers that are made with it change continuously.
+//! the same in every position, so that all numbers that are made with it change continuously. The two faces of a
+//! press fit have one row, so that one of them is cut.
 
 use super::{Attachment, JointKind, Mechanism, Slider, rot90};
 use crate::ids::{ContactId, Frame};
@@ -61,8 +62,13 @@ impl Mechanism {
         let positions = self.position_rows();
         let left_out =
             dependent(&positions).into_iter().map(|(row, _)| row).take(excess(&positions)).collect();
-        let stresses: Vec<(usize, DVector<f64>)> =
-            dependent(&reactions).into_iter().take(excess(&reactions)).collect();
+        // Of both faces of a press fit one is always in excess, while other rows may be so in the drawing alone.
+        let is_second_face = |row: usize| {
+            contacts[row].is_some_and(|contact: ContactId| self.contacts[contact.index()].is_second_face())
+        };
+        let mut stresses = dependent(&reactions);
+        stresses.sort_by_key(|(row, _)| !is_second_face(*row));
+        stresses.truncate(excess(&reactions));
         let cut: Vec<Option<ContactId>> = stresses.iter().map(|(row, _)| contacts[*row]).collect();
         let mut forces = DMatrix::zeros(self.contacts.len(), stresses.len());
         for (row, contact) in contacts.iter().enumerate() {

@@ -4,8 +4,16 @@ use super::{Contact, Mechanism, Slider};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::interval::{Interval, Real};
-use crate::model::place_of;
+use crate::model::{SliderKind, place_of};
 use crate::modes::ContactState;
+
+impl<T: Real> Contact<T> {
+    /// Half of what both faces of a press fit overlap (m), by which the line of the guide is displaced towards `+n` for
+    /// the positive face and against it for the negative one; 0 for other contacts.
+    pub(crate) fn interference(&self) -> T {
+        self.face.map_or(T::zero(), |face| self.play / T::exactly(if face.is_positive { -2.0 } else { 2.0 }))
+    }
+}
 
 impl<T> Contact<T> {
     /// Its name, of the face of a press fit that of both: "joint.front" of "joint.front.plus".
@@ -16,6 +24,13 @@ impl<T> Contact<T> {
     /// Whether it is the negative face of a press fit, which is at the place of the positive one.
     pub fn is_second_face(&self) -> bool {
         self.face.is_some_and(|face| !face.is_positive)
+    }
+}
+
+impl<T> Slider<T> {
+    /// Whether its block cannot turn against the guide.
+    pub(crate) fn is_guided(&self) -> bool {
+        self.kind == SliderKind::Guided
     }
 }
 
@@ -67,13 +82,6 @@ impl<T: Real> Mechanism<T> {
 }
 
 impl Mechanism {
-    /// The half of both faces' overlap (m), by which the guide's line is displaced for a face of a press fit; 0 for
-    /// others.
-    pub(crate) fn interference(&self, contact: usize) -> f64 {
-        let Contact { face, play, .. } = &self.contacts[contact];
-        face.map_or(0.0, |face| if face.is_positive { -play / 2.0 } else { play / 2.0 })
-    }
-
     /// Turns forces as the mode problem has them into those of the faces of press fits: where both are in one state, one
     /// face carries the `sum` of both forces, and the other one, which is open, `nothing`.
     pub(crate) fn put_at_faces<V: Copy>(

@@ -377,7 +377,7 @@ pub struct Margins {
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several
     /// already): there a determinant is proven to change its sign. Of redundant guides, for every play, misalignment
     /// and stiffness, too (theory, eq. (R4)). Absent if no determinant changes its sign, or if that was not asked
-    /// because preloads jump with the side of contact, or because of press fits.
+    /// because preloads jump with the side of contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
     /// Where there is no solution: to what all friction would have to fall for one; absent where there is one, and

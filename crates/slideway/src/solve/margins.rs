@@ -74,20 +74,22 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
 /// The factor up to which every load has exactly one solution, where a determinant is proven to change its sign;
 /// none if there is no such factor, or with jumps of preloads. Of redundant guides, whatever their play,
 /// misalignment and stiffness: these decide which determinate part of the mechanism carries alone, and the
-/// determinants of all of these parts count. Not asked of press fits, whose faces are pressed both.
+/// determinants of all of these parts count, each with one face of a press fit at most.
 fn uniqueness(data: ProblemData<'_>, enclosed: &EnclosedModeProblem) -> Option<f64> {
     let ProblemData { mechanism, influence, velocity_signs } = data;
     let determinate = determinate_problem(mechanism, influence, velocity_signs).ok()?;
-    if determinate.jumps_of_contacts().contains(&true) || !mechanism.press_fits().is_empty() {
+    if determinate.jumps_of_contacts().contains(&true) {
         return None;
     }
     let shared = enclosed.shared.as_ref().map(|shared| SharedLoad {
         clearance: shared.clearance.map(|_| Interval::point(1.0)),
+        press_fits: Vec::new(),
         ..shared.clone()
     });
     let mut loose = mechanism.clone();
     for contact in loose.contacts.iter_mut().filter(|_| shared.is_some()) {
         (contact.play, contact.misalignment, contact.stiffness) = (2.0, 0.0, Some(1.0));
+        contact.face = None;
     }
     let line = line(ProblemData { mechanism: &loose, ..data }, &|_| true).ok()?;
     let sign_at = |factor: f64, pattern: &[ContactState]| {
