@@ -12,7 +12,6 @@ use slideway::model::{Model, Setting, SettingKind, Settings};
 use slideway::motion::{SimulateOptions, simulate};
 use slideway::report::{Proof, Status};
 use slideway::solve::solve;
-use slideway::standstill::{HoldOptions, hold};
 use std::collections::BTreeSet;
 
 #[test]
