@@ -56,7 +56,7 @@ golden! {
     hold_drawer_json: 0 ["hold", "models/drawer.toml", "--drives", "hold", "--format", "json"];
     limits_not_assembled: 0 ["limits", "models/slider-crank.toml", "--vary", "r=20 mm..400 mm"];
     size_drawer: 0 ["size", DRAWER, "--vary", "L", "--margin", "2"];
-    size_bracket: 0 ["size", BRACKET, "--vary", "x", "--margin", "1.5", "--against", "hold", "--load", "W"];
+    size_bracket: 0 ["size", BRACKET, "--vary", "x", "--margin", "1.5", "--against", "hold"];
     size_both_directions: 0 [
         "size", "models/wedge.toml", "--vary", "alpha=5 deg..80 deg", "--margin", "2", "--both-directions"
     ];

@@ -101,6 +101,7 @@ fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
         compliance: DVector::from_fn(contacts, |_, _| 1e-5 * (1.0 + 0.5 * random())),
         clearance: DVector::from_fn(contacts, |_, _| 1e-4 * (1.0 + 0.5 * random())),
         misalignment: DVector::from_fn(contacts, |_, _| 1e-4 * random()),
+        press_fits: Vec::new(),
     };
     determinate.with_shared_load(&shared).expect("shapes fit")
 }

@@ -287,6 +287,32 @@ fn all_text_is_within_the_picture_and_none_over_another() {
     }
 }
 
+/// A frame by itself is taller than one of several, and may have closer ticks, with longer numbers: 2.5 where the lower
+/// one has 2 and 3. The name of the axis keeps clear of them.
+#[test]
+fn numbers_of_a_tall_frame_have_room() {
+    let curve = plot::Curve {
+        branch: 0,
+        quantity: 0,
+        points: vec![[0.0, 0.0], [1.0, 3.2]],
+        ends: Default::default(),
+    };
+    let axis =
+        |name: &str, range| plot::Axis { name: name.to_owned(), range: Some(range), ..plot::Axis::default() };
+    let panel = plot::Panel {
+        x: axis("x", [0.0, 1.0]),
+        y: axis("factor of friction", [0.0, 3.2]),
+        curves: vec![curve],
+        ..plot::Panel::default()
+    };
+    let branch = plot::Branch { name: "a".to_owned(), colour: 0, stroke: plot::Stroke::Solid };
+    let figure = plot::Figure { panels: vec![panel], branches: vec![branch], ..plot::Figure::default() };
+    let svg = plot::to_svg(&figure, &LIGHT).expect("finite places");
+    let texts = texts(&svg);
+    let find = |wanted: &str| texts.iter().find(|text| text.text == wanted).expect(wanted);
+    assert!(find("factor of friction").edges[2] + 4.0 < find("2.5").edges[0]);
+}
+
 /// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as
 /// the rest.
 #[test]

@@ -212,7 +212,10 @@ fn efforts_and_efficiency_over_friction() {
     let titles: Vec<&str> = figure.panels.iter().map(|panel| &*panel.title).collect();
     assert_eq!(titles[..2], ["Moving as in the model: effort", "Moving as in the model: efficiency"]);
     // Beyond 2/3 friction holds what the load would push, so there is no efficiency.
-    assert_eq!(titles[3], "Moving in the opposite direction: efficiency; \u{2212} +: held by friction");
+    assert_eq!(
+        titles[3],
+        "Moving in the opposite direction with the same loads: efficiency; \u{2212} +: held by friction"
+    );
     let of = |panel: usize, value: &dyn Fn(f64) -> f64| {
         let curve = &figure.panels[panel].curves[0];
         assert!(curve.points.len() > 20, "{curve:?}");
@@ -227,6 +230,32 @@ fn efforts_and_efficiency_over_friction() {
     assert!((zone.from - 2.0 / 3.0).abs() < 1e-12 && zone.to == 1.0, "{zone:?}");
     assert!(texts(&svg(&figure)).iter().any(|text| text == "0.66666667: grows without bound"));
     assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report")), None);
+    // What comes from infinity beyond 2/3 is a threshold: dashed, cut, and told of.
+    let threshold =
+        figure.branches.iter().find(|branch| branch.stroke == Stroke::Dashed).expect("a threshold");
+    assert!(threshold.name.ends_with("(threshold, not attainable)"), "{}", threshold.name);
+    let settled = figure.branches.iter().filter(|branch| branch.stroke == Stroke::Solid).count();
+    assert_eq!(settled, 1);
+}
+
+/// A mode has the same colour whichever question is plotted, and whatever other modes the plot has.
+#[test]
+fn a_mode_has_one_colour_in_all_plots() {
+    let drawer = model("drawer", &Settings::default());
+    let colour = |figure: &Figure, signs: &str| {
+        let branch = figure.branches.iter().find(|branch| branch.name.starts_with(signs));
+        branch.map(|branch| branch.colour).unwrap_or_else(|| panic!("{signs}: {:?}", figure.branches))
+    };
+    let options = DriveOptions::default().vary(Some(Vary::between("mu", 0.0, 1.0))).rows(11);
+    let drive = drive_figure(&drive(&drawer, &options).expect("a report")).expect("a course");
+    let mut options = LimitsOptions::new(Vary::between("mu", 0.0, 1.0));
+    options.both_directions = true;
+    let (report, curves) = limits_with_curves(&drawer, &options, Quantity::NormalForce).expect("a report");
+    let limits = limits_figure(&report, &curves);
+    for signs in ["+ \u{2212}", "\u{2212} +"] {
+        assert_eq!(colour(&drive, signs), colour(&limits, signs), "{signs}");
+    }
+    assert_ne!(colour(&drive, "+ \u{2212}"), colour(&drive, "\u{2212} +"));
 }
 
 /// The margin of the drawer is L / (2 a mu) = L / 0.18 m: 2 at L = 0.36 m, 20/9 in the model.

@@ -18,7 +18,7 @@ use slideway::motion::{Thorough, simulate_all, simulate_with};
 use slideway::progress::Callback;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
-use slideway::standstill::hold_with;
+use slideway::standstill::{hold_with, only_load};
 use slideway::template::{self, TEMPLATES};
 use slideway::units::Unit;
 use slideway::{
@@ -689,16 +689,17 @@ impl Model {
 
 impl Model {
     fn against(&self, py: Python<'_>, against: &str, load: Option<String>) -> PyResult<Against> {
-        let refused = |kind: FaultKind| Err(self.refused(py, &Fault::general(kind).into()));
+        let load_at_rest = |load: Option<String>| match load {
+            Some(load) => Ok(load),
+            None => only_load(&self.asked.model).map_err(|faults| self.refused(py, &faults)),
+        };
         match (against, load) {
             ("locking", None) => Ok(Against::Locking),
-            ("self-locking", Some(load)) => Ok(Against::SelfLocking { load }),
-            ("hold", Some(load)) => Ok(Against::Hold { load }),
-            ("locking", Some(load)) => refused(FaultKind::LoadUnused { load }),
-            ("self-locking" | "hold", None) => {
-                let known = self.asked.model.loads.iter().map(|load| load.name.to_string()).collect();
-                refused(FaultKind::LoadNeeded { known })
+            ("locking", Some(load)) => {
+                Err(self.refused(py, &Fault::general(FaultKind::LoadUnused { load }).into()))
             }
+            ("self-locking", load) => Ok(Against::SelfLocking { load: load_at_rest(load)? }),
+            ("hold", load) => Ok(Against::Hold { load: load_at_rest(load)? }),
             _ => {
                 let known = "'locking', 'self-locking' or 'hold'";
                 Err(PyValueError::new_err(format!("against must be {known}, not {against:?}")))

@@ -275,6 +275,8 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error("{relation} is needed: {meaning}")]
+    NeedUnmet { relation: String, meaning: String },
     #[error("the parts do not meet with {name} = {value} ({meaning})")]
     PartsApart { name: String, value: String, meaning: String },
     #[error(
@@ -358,8 +360,19 @@ pub enum FaultKind {
     StiffnessOfSome { contacts: Vec<String> },
     #[error("{} share a load, but with rigid faces and no play nothing says how", listed(contacts))]
     RigidWithoutPlay { contacts: Vec<String> },
-    #[error("press fits (negative play) are not computed: {}", listed(contacts))]
-    PressFit { contacts: Vec<String> },
+    #[error("{question} is not computed for press fits: {}", listed(contacts))]
+    PressFit { question: &'static str, contacts: Vec<String> },
+    #[error("nothing says how firmly these press fits grip: {}", listed(contacts))]
+    PressFitWithoutStiffness { contacts: Vec<String> },
+    #[error("a guided slider with a press fit is not computed: {}", listed(contacts))]
+    GuidedPressFit { contacts: Vec<String> },
+    #[error(
+        "the preload of a press fit acts on both faces, but that of {} differs between them",
+        listed(contacts)
+    )]
+    PreloadOfPressFit { contacts: Vec<String> },
+    #[error("the play of {contact} is negative for some values only, which makes a press fit of it")]
+    PlayChangesSign { contact: String },
     #[error(
         "whether it holds at rest is not determined by rigid guides that share a load: pressed against each other, {} could hold any load",
         listed(contacts)
@@ -408,7 +421,7 @@ pub enum FaultKind {
     ZeroLength { load: String },
 
     // Kinetics.
-    #[error("the mechanism can move without inertia: {motion}")]
+    #[error("what moves is massless, so that no acceleration can be computed: {motion}")]
     MotionWithoutInertia { motion: String },
     #[error("the drives cannot produce their motion: {motion}")]
     DriveCannotMove { drives: Vec<String>, motion: String },
@@ -447,8 +460,6 @@ pub enum FaultKind {
     NothingToSimulate { start: f64, end: f64 },
 
     // Design and drives.
-    #[error("a margin at rest needs a load")]
-    LoadNeeded { known: Vec<String> },
     #[error("the load {load} plays no part in a margin against locking")]
     LoadUnused { load: String },
     #[error("the limit is in {typed}, which does not fit the drives")]
@@ -531,7 +542,21 @@ impl FaultKind {
                 "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"
                     .to_owned(),
             ),
-            Self::PressFit { .. } => Some("give a play of zero or more".to_owned()),
+            Self::PressFit { .. } => Some(
+                "give a play of zero or more; press fits that slide under a given load are for `slideway solve`, `limits`, `drive`, `size`, `sweep` and `map`"
+                    .to_owned(),
+            ),
+            Self::PressFitWithoutStiffness { .. } => Some(
+                "give the `stiffness` of one face, in N/m: with the negative `play` it tells the force between both faces".to_owned(),
+            ),
+            Self::GuidedPressFit { .. } => Some(
+                "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
+            ),
+            Self::PreloadOfPressFit { .. } => Some("give one `preload` for both faces".to_owned()),
+            Self::PlayChangesSign { .. } => Some(
+                "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"
+                    .to_owned(),
+            ),
             Self::PlayBeyondBlock { .. } => Some("check the unit: a block tilts little within its play".to_owned()),
             Self::OutOfLine { .. } => Some(
                 "give more play or less misalignment, or the `stiffness` of their faces, which yield then".to_owned(),
@@ -554,7 +579,6 @@ impl FaultKind {
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
             Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
-            Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),
@@ -569,6 +593,12 @@ impl FaultKind {
             )),
             _ => self.fixed_hint().map(str::to_owned),
         }
+    }
+
+    /// What is wrong, and in parentheses what to do about it.
+    pub fn with_hint(&self) -> String {
+        let hint = self.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
+        format!("{self}{hint}")
     }
 
     /// Hints that do not depend on the values.
@@ -590,6 +620,9 @@ impl FaultKind {
             ),
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction must be finite and not negative at every speed that occurs, including zero",
+            ),
+            Self::NeedUnmet { .. } => Some(
+                "change it, or another size; for a problem of another kind change the model that the template writes",
             ),
             Self::PartsApart { .. } => Some("change it, or another size, so that the parts reach each other"),
             Self::StaticBelowKinetic { .. } => Some("omit `mu_static` to make it equal to `mu`"),
@@ -618,7 +651,7 @@ impl FaultKind {
                 Some("the block has left its guide; choose --at closer to the drawing")
             }
             Self::MotionWithoutInertia { .. } => Some(
-                "its acceleration is not determined: ask `slideway hold` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
+                "ask `slideway hold` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
             ),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NoDirectionAtRest => Some("omit --both-directions"),
@@ -635,7 +668,9 @@ impl FaultKind {
                 "+ and - are the signs of normal forces, 0 is a preload gap, = is a contact whose joint sticks",
             ),
             Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
-            Self::HeldLoadNeeded { .. } => Some("name it with --load"),
+            Self::HeldLoadNeeded { .. } => {
+                Some("name it with --load; the name of a drive stands for its effort")
+            }
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
                 "friction coefficients must be linear functions of it, and nothing else may depend on it",

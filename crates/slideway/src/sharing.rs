@@ -4,12 +4,15 @@
 //! `2 delta` is the total play of a contact, `f = 1/k` the compliance of one of its faces, `e` the displacement
 //! of the guide's line there. Where the model gives no stiffness, faces are rigid (`f = 0`) as soon as it gives
 //! a play or a misalignment; without either only ratios of stiffnesses count, and they are taken to be equal.
+//! The faces of a press fit share their load, too: the line of the guide is displaced for each by half of what
+//! they overlap.
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::interval::Real;
 use crate::mechanism::{Contact, Mechanism};
+use crate::model::{Face, SliderKind};
 use crate::modes::SharedLoad;
-use crate::report::{Elasticity, LoadSharing};
+use crate::report::{Elasticity, LoadSharing, PressFit};
 use nalgebra::{DMatrix, DVector};
 
 /// Normal forces of a self-stress below this are rounding.
@@ -19,7 +22,8 @@ pub(crate) const NO_STRESS: f64 = 1e-13;
 /// one); none if nothing is in excess.
 ///
 /// # Errors
-/// Stiffnesses that are given for some of the contacts in excess only; rigid faces without play; press fits.
+/// Stiffnesses that are given for some of the contacts in excess only; rigid faces without play; press fits without
+/// stiffness, of guided sliders, or with another preload at each face.
 pub fn shared_load<T: Real>(
     mechanism: &Mechanism<T>,
     self_stress: DMatrix<T>,
@@ -36,11 +40,17 @@ pub fn shared_load<T: Real>(
         (Elasticity::Equal, _) => T::one(),
         _ => T::zero(),
     };
+    let half = |play: T| play / T::exactly(2.0);
     Ok(Some(SharedLoad {
+        press_fits: mechanism.press_fits(),
         cut: mechanism.excess.contacts.iter().map(|contact| contact.index()).collect(),
         compliance: vector(&compliance),
-        clearance: vector(&|contact| contact.play / T::exactly(2.0)),
-        misalignment: vector(&|contact| contact.misalignment),
+        clearance: vector(&|contact| if contact.face.is_some() { T::zero() } else { half(contact.play) }),
+        misalignment: vector(&|contact| match contact.face {
+            Some(Face { is_positive: true, .. }) => contact.misalignment - half(contact.play),
+            Some(_) => contact.misalignment + half(contact.play),
+            None => contact.misalignment,
+        }),
         self_stress,
     }))
 }
@@ -54,11 +64,22 @@ pub fn load_sharing(
     self_stress: &DMatrix<f64>,
 ) -> Result<Option<LoadSharing>, Faults> {
     let Some(shared) = shared_load(mechanism, self_stress.clone())? else { return Ok(None) };
-    let name = |k: &usize| mechanism.contacts[*k].name.to_string();
+    let places = |group: &Vec<usize>| -> Vec<String> {
+        let contacts = group.iter().map(|&k| &mechanism.contacts[k]);
+        // Both faces of a press fit have both parts in a group.
+        let places = contacts.filter(|contact| !contact.is_second_face());
+        places.map(|contact| contact.place().to_owned()).collect()
+    };
+    let fit = |&[face, _]: &[usize; 2]| {
+        let contact = &mechanism.contacts[face];
+        let grip = contact.stiffness.unwrap_or_default() * -contact.play;
+        PressFit { contact: contact.place().to_owned(), grip }
+    };
     Ok(Some(LoadSharing {
-        self_stresses: shared.cut.len(),
-        groups: groups(&shared).iter().map(|group| group.iter().map(name).collect()).collect(),
+        self_stresses: shared.cut.len() - shared.press_fits.len(),
+        groups: groups(&shared).iter().map(places).filter(|group| group.len() > 1).collect(),
         elasticity: elasticity(mechanism, self_stress)?,
+        press_fits: shared.press_fits.iter().map(fit).collect(),
         stiffness_ratios: None,
     }))
 }
@@ -82,9 +103,27 @@ pub fn elasticity<T: Real>(mechanism: &Mechanism<T>, self_stress: &DMatrix<T>) -
             None => Fault::general(kind),
         });
     };
-    let press_fits = named(&|contact| contact.play.lower() < 0.0);
-    if !press_fits.is_empty() {
-        refuse(FaultKind::PressFit { contacts: press_fits });
+    let is_guided = |contact: &Contact<T>| {
+        mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided)
+    };
+    let fits = |those: &dyn Fn(&Contact<T>) -> bool| -> Vec<String> {
+        let fits = mechanism.contacts.iter().filter(|contact| contact.is_second_face());
+        fits.filter(|contact| those(contact)).map(|contact| contact.place().to_owned()).collect()
+    };
+    let refusals: [(Vec<String>, fn(Vec<String>) -> FaultKind); 3] = [
+        (fits(&is_guided), |contacts| FaultKind::GuidedPressFit { contacts }),
+        (fits(&|contact| contact.preload[0] != contact.preload[1]), |contacts| {
+            FaultKind::PreloadOfPressFit { contacts }
+        }),
+        (fits(&|contact| contact.stiffness.is_none()), |contacts| FaultKind::PressFitWithoutStiffness {
+            contacts,
+        }),
+    ];
+    let is_refused = refusals.iter().any(|(contacts, _)| !contacts.is_empty());
+    let refusals = refusals.into_iter().filter(|(contacts, _)| !contacts.is_empty());
+    refusals.for_each(|(contacts, kind)| refuse(kind(contacts)));
+    if is_refused {
+        return faults.or(Elasticity::Given);
     }
     let without = named(&|contact| contact.stiffness.is_none());
     let has_length = |contact: &&Contact<T>| !contact.play.is_zero() || !contact.misalignment.is_zero();

@@ -21,6 +21,38 @@ pub struct Template {
     pub text: &'static str,
 }
 
+/// A relation between dimensions of a template.
+#[derive(Debug, Clone, Copy)]
+struct Need {
+    /// As it stands in the opening comment: "l <= h".
+    relation: &'static str,
+    /// Both sides, the greater one first.
+    sides: [&'static str; 2],
+    /// Whether they must not be equal.
+    strict: bool,
+    /// What it means.
+    meaning: &'static str,
+}
+
+impl Need {
+    /// From "l <= h: meaning".
+    fn of(line: &'static str) -> Option<Self> {
+        let (relation, meaning) = line.split_once(": ")?;
+        let operators =
+            [(" >= ", false, false), (" <= ", true, false), (" > ", false, true), (" < ", true, true)];
+        operators.into_iter().find_map(|(operator, swapped, strict)| {
+            let (left, right) = relation.split_once(operator)?;
+            let sides = if swapped { [right, left] } else { [left, right] };
+            Some(Self { relation, sides, strict, meaning })
+        })
+    }
+
+    /// Whether it is met if its greater side exceeds the other one by so much.
+    fn is_met(&self, excess: f64) -> bool {
+        if self.strict { excess > 0.0 } else { excess >= 0.0 }
+    }
+}
+
 /// A parameter of a template.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TemplateParameter {
@@ -44,6 +76,7 @@ macro_rules! templates {
 /// All templates.
 pub const TEMPLATES: &[Template] = templates![
     "drawer",
+    "sash",
     "carriage",
     "bushing",
     "telescope",
@@ -53,6 +86,9 @@ pub const TEMPLATES: &[Template] = templates![
     "slider-crank",
     "peg",
 ];
+
+/// How the parameters begin as which needs are evaluated.
+const EXCESS: &str = "excess_of_need_";
 
 /// What stands for the model's file in the commands of a template.
 pub const FILE: &str = "FILE";
@@ -75,9 +111,24 @@ impl Template {
 
     /// The rule that it must meet, without its source.
     pub fn rule(&self) -> String {
-        let lines = self.comment().skip_while(|line| !line.starts_with("Rule: "));
-        let lines: Vec<&str> = lines.take_while(|line| !line.starts_with("Source: ")).collect();
-        lines.join(" ").trim_start_matches("Rule: ").to_owned()
+        self.section("Rule: ", "Return: ")
+    }
+
+    /// What its motion the other way must meet.
+    pub fn way_back(&self) -> String {
+        self.section("Return: ", "Source: ")
+    }
+
+    /// The lines of its opening comment from the one that begins like this on, until one begins with the other.
+    fn section(&self, first: &str, next: &str) -> String {
+        let lines = self.comment().skip_while(|line| !line.starts_with(first));
+        let lines: Vec<&str> = lines.take_while(|line| !line.starts_with(next)).collect();
+        lines.join(" ").trim_start_matches(first).to_owned()
+    }
+
+    /// What its dimensions need so that it is what it is called and its rule holds.
+    fn needs(&self) -> impl Iterator<Item = Need> {
+        self.comment().filter_map(|line| line.strip_prefix("Needs: ")).filter_map(Need::of)
     }
 
     /// Commands to try, [`FILE`] in the place of its file; the first one answers its question.
@@ -127,8 +178,39 @@ impl Template {
         let mut doubts = Faults::default();
         doubts.extend(model.doubts.iter().cloned());
         doubts.or(())?;
+        self.check_needs(settings)?;
         Configuration::new(&Mechanism::new(&model)?)?;
         Ok(())
+    }
+
+    /// # Errors
+    /// The needs that are not met: each is evaluated as a parameter of the template, what one side has over the other.
+    fn check_needs(&self, settings: &Settings) -> Result<(), Faults> {
+        let needs: Vec<Need> = self.needs().collect();
+        let parameter = |(index, need): (usize, &Need)| {
+            format!("{EXCESS}{index} = \"({}) - ({})\"\n", need.sides[0], need.sides[1])
+        };
+        let excesses: String = needs.iter().enumerate().map(parameter).collect();
+        let text = self.text.replacen("[parameters]\n", &format!("[parameters]\n{excesses}"), 1);
+        let model = Model::parse(&text)?.with(settings)?;
+        let values = model.constants()?;
+        let mut faults = Faults::default();
+        for (index, need) in needs.iter().enumerate() {
+            let name = format!("{EXCESS}{index}");
+            let Some(excess) = model.parameters.iter().find(|parameter| *parameter.name == *name) else {
+                continue;
+            };
+            if need.is_met(values[excess.value.index()]) {
+                continue;
+            }
+            let kind =
+                FaultKind::NeedUnmet { relation: need.relation.to_owned(), meaning: need.meaning.to_owned() };
+            let place = model.setting_of(&[excess.value]);
+            faults.push(
+                place.map_or_else(|| Fault::general(kind.clone()), |place| Fault::new(kind.clone(), place)),
+            );
+        }
+        faults.or(())
     }
 
     /// Faults that name the template's parameters instead of what its model makes of them: of a parameter that

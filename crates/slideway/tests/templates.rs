@@ -16,11 +16,41 @@ fn model(name: &str, values: &[(&str, f64)]) -> Model {
 
 /// The only effort that the drive of a template needs, moving as in the model.
 fn effort(name: &str, values: &[(&str, f64)]) -> f64 {
+    effort_moving(0, name, values)
+}
+
+/// The same the other way, with the same loads.
+fn effort_back(name: &str, values: &[(&str, f64)]) -> f64 {
+    effort_moving(1, name, values)
+}
+
+fn effort_moving(direction: usize, name: &str, values: &[(&str, f64)]) -> f64 {
     let report = drive(&model(name, values), &DriveOptions::default()).unwrap();
-    let [solution] = &report.directions[0].solutions[..] else {
-        panic!("{name}: {:?}", report.directions[0])
+    let [solution] = &report.directions[direction].solutions[..] else {
+        panic!("{name}: {:?}", report.directions[direction])
     };
     solution.efforts[0]
+}
+
+/// Whether a template that moves the other way, against a load turned round, too, has exactly one solution with
+/// this friction, or none at all; both proven.
+fn moves_back(name: &str, values: &[(&str, f64)], turned: &[(&str, f64)]) -> bool {
+    let set = |settings: Settings, (name, value): &(&str, f64)| settings.parameter(name, *value);
+    let back = model(name, values).with(&turned.iter().fold(Settings::default(), set)).unwrap();
+    let report = solve(&back).unwrap();
+    assert_eq!(report.complete, Proof::Proven, "{name} {values:?}");
+    match report.status {
+        Status::One => true,
+        Status::None => false,
+        status => panic!("{name} {values:?}: {status:?}"),
+    }
+}
+
+/// Sees to it that it locks the other way at the same friction.
+fn assert_locks_back_at(name: &str, mu: f64, values: &[(&str, f64)], turned: &[(&str, f64)]) {
+    let with = |factor: f64| [values, &[("mu", factor * mu)]].concat();
+    assert!(moves_back(name, &with(1.0 - 1e-6), turned), "{name} {values:?}: below {mu}");
+    assert!(!moves_back(name, &with(1.0 + 1e-6), turned), "{name} {values:?}: above {mu}");
 }
 
 fn assert_close(found: f64, expected: f64, what: &str) {
@@ -58,6 +88,8 @@ fn opening_comments_and_parameters_are_read() {
             "{}",
             template.name
         );
+        let way_back = template.way_back();
+        assert!(way_back.ends_with('.') && !template.rule().contains(&way_back), "{}", template.name);
         assert!(template.commands().count() >= 2, "{}", template.name);
         assert!(
             template.commands().all(|command| command.split(' ').nth(2) == Some(FILE)),
@@ -94,6 +126,19 @@ fn wrong_units_unknown_names_and_what_cannot_be_assembled_are_faults() {
         // The crank pin is 40 mm * sin(60 deg) = 34.6 mm beside the axis of the cylinder.
         ("slider-crank", "l", "10 mm", "the parts do not meet with l = 10 mm (length of the connecting rod)"),
         ("peg", "l", "0 mm", "greater than zero"),
+        ("peg", "l", "100 mm", "l <= h is needed: no more of the peg is in the hole than there is of it"),
+        ("peg", "h", "1 cm", "l <= h is needed"),
+        ("peg", "e", "-1 mm", "e >= 0 mm is needed"),
+        ("drawer", "Q", "-15 N", "Q >= 0 N is needed: the resistance is against the push"),
+        ("drawer", "v", "0 mm/s", "v > 0 mm/s is needed"),
+        ("sash", "a", "0.6 m", "a <= b/2 is needed: the pull is at the sash"),
+        ("carriage", "a", "-100 mm", "a >= 0 mm is needed"),
+        ("bushing", "phi", "90 deg", "phi < 90 deg is needed"),
+        ("telescope", "x", "-0.1 m", "x >= 0 mm is needed"),
+        ("cylinder", "S", "-500 N", "S >= 0 N is needed"),
+        ("bracket", "x", "-300 mm", "x >= 0 mm is needed"),
+        ("wedge", "alpha", "-10 deg", "alpha >= 0 deg is needed"),
+        ("slider-crank", "phi", "-60 deg", "phi > 0 deg is needed"),
     ] {
         let settings = Settings::default().parameter(parameter, value);
         let faults = find(name).unwrap().model(&settings, "x.toml").unwrap_err();
@@ -108,6 +153,33 @@ fn drawer() {
         let expected = 20.0 / (1.0 - 2.0 * mu * offset / length);
         assert_close(effort("drawer", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
         assert_locks_at("drawer", length / (2.0 * offset), &values);
+        let turned = [("v", -0.1), ("Q", -20.0)];
+        assert_locks_back_at("drawer", length / (2.0 * offset), &values, &turned);
+    }
+    // At rest it can be wedged from mu = L/width on.
+    for (mu, wedges) in [(0.499, false), (0.501, true)] {
+        let model = model("drawer", &[("L", 0.4), ("width", 0.8), ("mu", mu)]);
+        let rest = hold(&model, &HoldOptions::default()).unwrap().at_rest;
+        assert_eq!(rest.is_some_and(|rest| rest.wedging.len() == 2), wedges, "{mu}");
+    }
+}
+
+#[test]
+fn sash() {
+    for (width, height, offset, mu, mass) in
+        [(0.9, 0.6, 0.45, 0.3, 8.0), (1.2, 0.5, 0.2, 0.6, 5.0), (0.6, 1.0, 0.3, 1.2, 12.0)]
+    {
+        let values = [("b", width), ("H", height), ("a", offset), ("m", mass)];
+        let with_friction = [&values[..], &[("mu", mu)]].concat();
+        let lever = 2.0 * mu * offset / height;
+        assert_close(effort("sash", &with_friction), mass * 9.81 / (1.0 - lever), "P");
+        assert_locks_at("sash", height / (2.0 * offset), &values);
+        assert_close(effort_back("sash", &with_friction), mass * 9.81 / (1.0 + lever), "P, lowered");
+    }
+    // From mu = H/b on it can stay up without any pull.
+    for (mu, wedges) in [(0.666, false), (0.667, true)] {
+        let report = hold(&model("sash", &[("mu", mu)]), &HoldOptions::default()).unwrap();
+        assert_eq!(report.at_rest.is_some_and(|rest| rest.wedging.len() == 2), wedges, "{mu}");
     }
 }
 
@@ -117,6 +189,7 @@ fn carriage() {
         let values = [("L", length), ("a", offset), ("m", mass)];
         assert_close(effort("carriage", &[&values[..], &[("mu", mu)]].concat()), mu * mass * 9.81, "P");
         assert_locks_at("carriage", length / (2.0 * offset), &values);
+        assert_locks_back_at("carriage", length / (2.0 * offset), &values, &[("v", -0.1)]);
     }
     // The rule of 2 : 1.
     // Its effort stays finite, so that drive says it in words: 0.25 / 0.2 = 1.25 times.
@@ -137,7 +210,10 @@ fn bushing() {
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
         let arm = |mu: f64| 2.0 * overhang + bushing - mu * diameter;
         let expected = 200.0 / (cos - mu / bushing * sin * arm(mu));
-        assert_close(effort("bushing", &[&values[..], &[("mu", mu)]].concat()), expected, "V");
+        let with_friction = [&values[..], &[("mu", mu)]].concat();
+        assert_close(effort("bushing", &with_friction), expected, "V");
+        let held = 200.0 / (cos + mu / bushing * sin * arm(-mu));
+        assert_close(effort_back("bushing", &with_friction), held, "V, moving back");
         // tan(phi) = B/(mu (2 A + B - mu d)), a quadratic equation of mu: its lesser root.
         let half = f64::midpoint(2.0 * overhang, bushing);
         let limit = bushing * cos / sin / (half + (half * half - diameter * bushing * cos / sin).sqrt());
@@ -154,7 +230,11 @@ fn telescope() {
         let values = [("e", overlap), ("x", overhang), ("h", height), ("a", offset)];
         let expected = mu * 10.0 * 9.81 * (1.0 + (2.0 * overhang + mu * height) / overlap)
             / (1.0 - 2.0 * mu * offset / overlap);
-        assert_close(effort("telescope", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        let with_friction = [&values[..], &[("mu", mu)]].concat();
+        assert_close(effort("telescope", &with_friction), expected, "P");
+        let pulled = -mu * 10.0 * 9.81 * (1.0 + (2.0 * overhang - mu * height) / overlap)
+            / (1.0 + 2.0 * mu * offset / overlap);
+        assert_close(effort_back("telescope", &with_friction), pulled, "P, pulled in");
         assert_locks_at("telescope", overlap / (2.0 * offset), &values);
     }
 }
@@ -176,6 +256,7 @@ fn cylinder() {
         ];
         let expected = 5000.0 + seal + side * (gland * (distance + overhang) + piston * overhang) / distance;
         assert_close(effort("cylinder", &values), expected, "P");
+        assert_close(effort_back("cylinder", &values), 2.0 * 5000.0 - expected, "P, pushed in");
         // However great the friction is.
         assert!(moves("cylinder", &[&values[..], &[("mu_gland", 20.0), ("mu_piston", 30.0)]].concat()));
     }
@@ -205,6 +286,10 @@ fn wedge() {
         assert_close(effort("wedge", &values), load * (alpha + 2.0 * f64::atan(mu)).tan(), "P");
         let limit = ((f64::to_radians(90.0) - alpha) / 2.0).tan();
         assert_locks_at("wedge", limit, &[("alpha", alpha)]);
+        if f64::atan(mu) < alpha {
+            let back = load * (alpha - 2.0 * f64::atan(mu)).tan();
+            assert_close(effort_back("wedge", &values), back, "P, pulled out");
+        }
         // The load does not drive it out from alpha = 2 rho on.
         let model = model("wedge", &values);
         let report = hold(&model, &HoldOptions::default().load("Q").vary("mu")).unwrap();
@@ -222,7 +307,10 @@ fn slider_crank() {
         let psi = f64::asin(radius / rod * phi.sin());
         let values = [("r", radius), ("l", rod), ("phi", phi)];
         let expected = 2000.0 * radius * (phi + psi).sin() / (psi.cos() - mu * psi.sin());
-        assert_close(effort("slider-crank", &[&values[..], &[("mu", mu)]].concat()), expected, "T");
+        let with_friction = [&values[..], &[("mu", mu)]].concat();
+        assert_close(effort("slider-crank", &with_friction), expected, "T");
+        let back = 2000.0 * radius * (phi + psi).sin() / (psi.cos() + mu * psi.sin());
+        assert_close(effort_back("slider-crank", &with_friction), back, "T, turning back");
         // A piston without width does not tip: it locks where tan(psi) = 1/mu.
         assert_locks_at("slider-crank", 1.0 / psi.tan(), &[&values[..], &[("bore", 0.0)]].concat());
     }
@@ -244,6 +332,8 @@ fn peg() {
         let expected = 5.0 / (1.0 - 2.0 * mu * offset / depth);
         assert_close(effort("peg", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
         assert_locks_at("peg", depth / (2.0 * offset), &values);
+        let turned = [("v", -1e-3), ("R", -5.0)];
+        assert_locks_back_at("peg", depth / (2.0 * offset), &values, &turned);
     }
 }
 

@@ -4,7 +4,9 @@ use super::values::{Limit, efficiency, effort, force, positive, pressure};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind, Faults};
+use slideway::model::Model;
 use slideway::size;
+use slideway::standstill::only_load;
 use slideway::units::Unit;
 
 pub(super) const HELP: &str = "\
@@ -13,7 +15,7 @@ Examples:
   slideway size drawer.toml --vary a --margin 1.5 --both-directions
   slideway size drawer.toml --vary L --margin 2 --plot margin.svg
   slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
-  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
+  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
   slideway size drawer.toml --vary L --max-effort 30N          how long for a push of 30 N
   slideway size drawer.toml --vary L --min-efficiency 70%
@@ -52,7 +54,7 @@ pub(crate) struct SizeArguments {
     #[arg(long, value_enum, default_value_t)]
     against: Against,
 
-    /// The load, or the drive whose effort is the load, for a margin at rest; the drive of --max-effort, or the
+    /// The load, or the drive whose effort is the load, for a margin at rest, by default the only load; the drive of --max-effort, or the
     /// contact of --max-normal-force or --max-pressure, by default all of them.
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
@@ -136,8 +138,8 @@ impl SizeArguments {
     /// Against what, with the load, drive or contact that it concerns.
     ///
     /// # Errors
-    /// A margin at rest without a load, one of motion with a load.
-    pub(crate) fn against(&self, loads: Vec<String>) -> Result<size::Against, Faults> {
+    /// A margin at rest without a load where the model has several, one of motion with a load.
+    pub(crate) fn against(&self, model: &Model) -> Result<size::Against, Faults> {
         if self.limit.max_effort.is_some() {
             return Ok(size::Against::Effort { drive: self.load.clone() });
         }
@@ -153,12 +155,12 @@ impl SizeArguments {
                 Some(load) => Err(Fault::general(FaultKind::LoadUnused { load: load.clone() }).into()),
             };
         }
+        let load = || self.load.clone().map_or_else(|| only_load(model), Ok);
         match (self.against, self.load.clone()) {
             (Against::Locking, None) => Ok(size::Against::Locking),
-            (Against::SelfLocking, Some(load)) => Ok(size::Against::SelfLocking { load }),
-            (Against::Hold, Some(load)) => Ok(size::Against::Hold { load }),
             (Against::Locking, Some(load)) => Err(Fault::general(FaultKind::LoadUnused { load }).into()),
-            (_, None) => Err(Fault::general(FaultKind::LoadNeeded { known: loads }).into()),
+            (Against::SelfLocking, _) => Ok(size::Against::SelfLocking { load: load()? }),
+            (Against::Hold, _) => Ok(size::Against::Hold { load: load()? }),
         }
     }
 }

@@ -83,8 +83,7 @@ fn written(template: &Template, settings: &Settings, file: &str) -> String {
     if !others.is_empty() {
         let _ = write!(text, ", as in the template: {}", others.join(", "));
     }
-    let rule = template.rule();
-    let _ = writeln!(text, ".\nRule: {rule}");
+    let _ = writeln!(text, ".\nRule: {}\nReturn: {}", template.rule(), template.way_back());
     if let Some(command) = template.commands().next() {
         let _ = writeln!(text, "\n$ {}", command.replace(FILE, &printable::line(file)));
     }

@@ -17,10 +17,8 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let vary = input.vary(&model, &arguments.vary)?;
-    let loads = model.loads.iter().map(|load| &load.name);
-    let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
     let mut watch = Watch::new(arguments.time.time_limit);
-    let report = arguments.against(names).and_then(|against| {
+    let report = arguments.against(&model).and_then(|against| {
         let options = SizeOptions::new(vary, arguments.wanted())
             .against(against)
             .typed_in(arguments.typed_in())

@@ -113,6 +113,32 @@ impl Line {
         Self { matrix: [m1, m0], right_hand_side: [b1, b0] }
     }
 
+    /// The equations in the parameter `u = 1 / t`, with the same signs of these conditions for `u > 0`.
+    ///
+    /// If the load does not vary, unknowns of columns that do are divided by `u`: `(c_0 + t c_1) z = (u c_0 + c_1) z / u`,
+    /// and as few columns vary as before. That keeps the sign of a condition without offset on such unknowns alone, and
+    /// every condition on others. Otherwise the equations are [`Self::reversed`].
+    pub(super) fn reciprocal(&self, conditions: &[Condition]) -> Self {
+        let varies: Vec<bool> =
+            self.matrix[1].column_iter().map(|column| column.iter().any(|entry| *entry != 0.0)).collect();
+        let keeps_its_sign = |condition: &Condition| {
+            let mut unknowns = condition.weights.iter().filter(|(_, weight)| *weight != 0.0);
+            let scaled = unknowns.clone().filter(|(unknown, _)| varies[*unknown]).count();
+            scaled == 0 || condition.offset == 0.0 && unknowns.all(|(unknown, _)| varies[*unknown])
+        };
+        let is_constant = self.right_hand_side[1].iter().all(|entry| *entry == 0.0);
+        if !is_constant || !conditions.iter().all(keeps_its_sign) {
+            return self.reversed();
+        }
+        let mut line = self.clone();
+        let [constant, slope] = &mut line.matrix;
+        for column in (0..varies.len()).filter(|&column| varies[column]) {
+            constant.set_column(column, &self.matrix[1].column(column));
+            slope.set_column(column, &self.matrix[0].column(column));
+        }
+        line
+    }
+
     pub(super) fn matrix_at(&self, at: f64) -> DMatrix<f64> {
         &self.matrix[0] + &self.matrix[1] * at
     }

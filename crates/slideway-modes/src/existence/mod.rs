@@ -530,14 +530,13 @@ impl Mode<'_> {
         self.meanings.push(meaning);
     }
 
-    /// Where the mode exists. Up to infinity, the equations are expressed in the parameter `u = 1/t`:
-    /// multiplied by `u`, they have the same solution.
+    /// Where the mode exists. Up to infinity, the equations are expressed in the parameter `u = 1/t`.
     fn extent(&self, range: [f64; 2]) -> Extent {
         if range[1].is_finite() {
             return self.line.extent(&self.conditions, range);
         }
         let reciprocal = range[0].recip();
-        let extent = self.line.reversed().extent(&self.conditions, [0.0, reciprocal]);
+        let extent = self.line.reciprocal(&self.conditions).extent(&self.conditions, [0.0, reciprocal]);
         let Extent::Parts(mut parts) = extent else { return extent };
         // Forces that tend to zero have double zeros at infinity, which rounding moves.
         let infinity = INFINITY * reciprocal;

@@ -20,6 +20,14 @@ use crate::problem::side::{BySide, ProblemPart, Side};
 /// ```
 ///
 /// with deflections `d` that are compatible, `Z^T (d + e) = 0`.
+///
+/// The faces of a press fit of interference `2 i`, both pressed at once, are two contacts `p` and `m` at one place,
+/// without play and with `e_p - e_m = 2 i`. Their sum is the normal force of the press fit. As long as `N_p >= 0 >= N_m`
+/// these are the forces of both faces. Beyond that one face is open, and the other one yields alone:
+///
+/// ```text
+/// d_p = -f N_p - l,    d_m = -f N_m - l,    l = f max(0, N_m) - f max(0, -N_p)
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedLoad<T: Real = f64> {
     /// The contacts that are cut (rho).
@@ -32,6 +40,8 @@ pub struct SharedLoad<T: Real = f64> {
     pub clearance: DVector<T>,
     /// `e`: by how much the line of the guide is displaced towards `+n` (r, m).
     pub misalignment: DVector<T>,
+    /// The faces `[p, m]` of each press fit.
+    pub press_fits: Vec<[usize; 2]>,
 }
 
 impl<T: Real> SharedLoad<T> {
@@ -58,13 +68,27 @@ impl<T: Real> SharedLoad<T> {
         T::exactly(if greatest > 0.0 { 1.0 / power_of_two_above(greatest) } else { 1.0 })
     }
 
+    /// The other face of a press fit, if this one is open when its normal force has this sign.
+    fn other_face(&self, side: Side, contact: usize) -> Option<usize> {
+        self.press_fits.iter().find_map(|&[positive, negative]| match side {
+            Side::Positive => (contact == negative).then_some(positive),
+            Side::Negative => (contact == positive).then_some(negative),
+        })
+    }
+
     /// `c_k^sigma` in a row, from the number that stands there without self-stresses: `-sigma Z_jl` more for a
-    /// contact that is cut, and `sigma f_k Z_kl` in the row of a self-stress.
+    /// contact that is cut, and `sigma f_k Z_kl` in the row of a self-stress, to which an open face of a press fit
+    /// adds `sigma f_k (Z_pl + Z_ml)`.
     fn column(&self, side: Side, row: usize, contact: usize, given: T) -> T {
         let sign = T::exactly(side.sign());
         match (self.stress_of(row), self.stress_of(contact)) {
             (Some(stress), _) => {
-                sign * self.compliance[contact] * self.self_stress[(contact, stress)] * self.scale(stress)
+                let own = self.self_stress[(contact, stress)];
+                let force = match self.other_face(side, contact) {
+                    None => own,
+                    Some(other) => own + (own + self.self_stress[(other, stress)]),
+                };
+                sign * self.compliance[contact] * force * self.scale(stress)
             }
             (None, Some(stress)) => given - sign * self.self_stress[(row, stress)],
             (None, None) => given,
@@ -90,7 +114,7 @@ impl<T: Real> SharedLoad<T> {
         let expected = (contacts, self.cut.len());
         let fits = self.self_stress.shape() == expected
             && lengths == [contacts; 3]
-            && self.cut.iter().all(|&cut| cut < contacts);
+            && self.cut.iter().chain(self.press_fits.iter().flatten()).all(|&contact| contact < contacts);
         let found = self.self_stress.shape();
         let part = ProblemPart::Columns(Side::Positive);
         if fits { Ok(()) } else { Err(ModeProblemError::Shape { part, expected, found }) }
@@ -194,6 +218,7 @@ impl ModeProblem {
     ///     compliance: dvector![1e-3, 1e-3],
     ///     clearance: dvector![2e-3, 0.0],
     ///     misalignment: dvector![0.0, 0.0],
+    ///     press_fits: vec![],
     /// })?;
     /// let solutions = enumerate(&shared, &Limits::default())?;
     /// assert!((&solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);

@@ -140,18 +140,18 @@ impl Painter<'_> {
             return Vec::new();
         };
         let units = magnification * self.view.scale;
-        let station = |id: &ContactId| {
+        let station = |id: ContactId| {
             let contact = &self.mechanism.contacts[id.index()];
-            let clearance = 0.5 * contact.play * units;
-            let deflection = self.states.deflection(self.mechanism, *id) * units;
+            let clearance = 0.5 * contact.play.max(0.0) * units;
+            let deflection = self.states.deflection(self.mechanism, id) * units;
             Station {
-                along: (self.contact_place(*id) - guide.origin).dot(&guide.along),
+                along: (self.contact_place(id) - guide.origin).dot(&guide.along),
                 offset: contact.misalignment * units,
                 clearance,
                 yielding: (deflection.abs() - clearance).max(0.0) * deflection.signum(),
             }
         };
-        let mut stations: Vec<Station> = slider.contacts.iter().map(station).collect();
+        let mut stations: Vec<Station> = self.mechanism.places_of(slider).map(station).collect();
         stations.sort_by(|one, other| one.along.total_cmp(&other.along));
         stations
     }
@@ -192,12 +192,13 @@ impl Painter<'_> {
     /// The pads of blocks that have more than two.
     pub(super) fn supports(&mut self) {
         let mechanism = self.mechanism;
-        for (joint, slider) in sliders(mechanism).filter(|(_, slider)| slider.contacts.len() > 2) {
+        let has_supports = |slider: &Slider| mechanism.places_of(slider).count() > 2;
+        for (joint, slider) in sliders(mechanism).filter(|(_, slider)| has_supports(slider)) {
             let Some(slide) = self.slide(joint).filter(|slide| slide.look != Look::Rollers) else { continue };
             let faced = if let Look::Face(side) = slide.look { side } else { 0.0 };
-            for contact in &slider.contacts {
+            for contact in mechanism.places_of(slider) {
                 for side in [1.0, -1.0].into_iter().filter(|side| side * faced >= 0.0) {
-                    let pad = self.support_pad(&slide, *contact, side);
+                    let pad = self.support_pad(&slide, contact, side);
                     self.area(Class::Pad, pad);
                 }
             }

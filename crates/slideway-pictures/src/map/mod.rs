@@ -56,9 +56,10 @@ pub fn to_svg(report: &MapReport, settings: &Settings, theme: &Theme) -> Result<
     }
     let size = coordinate(SMALL);
     let plain = [("class", "subtitle"), ("font-size", &*size), ("fill", theme.ink)];
-    let changes = changes(settings);
-    for line in wrapped(&changes, SMALL, whole - 2.0 * MARGIN).iter().filter(|line| !line.is_empty()) {
-        svg.label([MARGIN, top - 0.15 * TITLE], &plain, line);
+    let below = [changes(settings), report.remark.clone().unwrap_or_default()];
+    let lines = below.iter().flat_map(|text| wrapped(text, SMALL, whole - 2.0 * MARGIN));
+    for line in lines.filter(|line| !line.is_empty()) {
+        svg.label([MARGIN, top - 0.15 * TITLE], &plain, &line);
         top += LINE;
     }
     let placed = Placed::new(axes, [left, top, left + width, top + HEIGHT]);

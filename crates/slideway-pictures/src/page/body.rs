@@ -10,14 +10,13 @@ use slideway::units::{Unit, Units};
 
 /// Everything between the ends of `body`.
 pub(super) fn body(page: &Page<'_>) -> String {
-    let states = page.report.map(states).unwrap_or_default();
-    let units = page.report.map(|report| report.model.units.clone()).unwrap_or_default();
+    let solutions = page.report.map(solutions).unwrap_or_default();
     format!(
         "{}\n<div class=\"beside\">\n{}\n{}</div>\n{}\n{}\n{}",
-        header(page, !states.is_empty()),
+        header(page, !solutions.is_empty()),
         drawing(page),
         summary(page),
-        solutions(&states, &units),
+        solutions,
         limits(page),
         model(page),
     )
@@ -30,7 +29,7 @@ fn count(number: usize, one: &str, several: &str) -> String {
 
 fn header(page: &Page<'_>, has_states: bool) -> String {
     let answer = match page.report {
-        Ok(report) => answer(report),
+        Ok(report) => answer_at(page.at_middle, report),
         Err(refused) => {
             let reasons = all(refused, |line| format!("<p>{}</p>\n", text(line)));
             let words = match page.rest {
@@ -38,6 +37,7 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
                 Err(_) => "The kinetic problem has no answer in this state.".to_owned(),
             };
             let motion = if page.rest.is_ok() { "<p>In motion it has no answer:</p>\n" } else { "" };
+            let words = at_middle(page.at_middle, &words);
             format!("<p class=\"answer\"><strong>{}</strong></p>\n{motion}{reasons}", text(&words))
         }
     };
@@ -51,8 +51,22 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
     )
 }
 
+/// An answer that holds for the middle of what is known within bounds.
+fn at_middle(parameters: &[String], answer: &str) -> String {
+    match parameters {
+        [] => answer.to_owned(),
+        [one] => format!("In the middle of its range, {one}: {answer}"),
+        several => format!("In the middle of their ranges, {}: {answer}", several.join(", ")),
+    }
+}
+
 /// The state that was solved, and how many solutions it has.
 pub(super) fn answer(report: &SolveReport) -> String {
+    answer_at(&[], report)
+}
+
+/// The same for the middle of what is known within bounds.
+fn answer_at(parameters: &[String], report: &SolveReport) -> String {
     let model = &report.model;
     let drives = match model.drives {
         0 => String::new(),
@@ -76,17 +90,18 @@ pub(super) fn answer(report: &SolveReport) -> String {
     };
     format!(
         "<p>{},\n{},\n{}{drives}.\nState: {}{followed}.</p>\n\
-         <p class=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}{}",
+         <p class=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}{}{}",
         count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
         count(model.bodies, "body", "bodies"),
         count(model.contacts, "contact", "contacts"),
         coordinates.join("; "),
-        text(&crate::drawing::answer(report)),
-        all(&report.open, |line| format!("<p>{}</p>\n", text(line))),
-        all(report.sharing.iter().flat_map(LoadSharing::in_words), |line| format!(
-            "<p>{}</p>\n",
-            text(&line)
-        )),
+        text(&at_middle(parameters, &crate::drawing::answer(report))),
+        all(report.for_all_values().iter().chain(&report.open), |line| format!("<p>{}</p>\n", text(line))),
+        all(report.remark(), |line| format!("<p>{}</p>\n", text(&line))),
+        all(
+            report.sharing.iter().flat_map(|sharing: &LoadSharing| sharing.in_words(&report.model.units)),
+            |line| format!("<p>{}</p>\n", text(&line))
+        ),
     )
 }
 
@@ -116,17 +131,18 @@ pub(super) fn states(report: &SolveReport) -> Vec<(String, &Solution)> {
         .collect()
 }
 
-fn solutions(states: &[(String, &Solution)], units: &Units) -> String {
+fn solutions(report: &SolveReport) -> String {
+    let states = all(states(report), |(heading, solution)| state(report, &heading, solution));
     if states.is_empty() {
-        return String::new();
+        return states;
     }
-    let states = all(states, |(heading, solution)| state(heading, solution, units));
     format!(
         "<section id=\"solutions\">\n<h2>Solutions</h2>\n<div class=\"columns\">\n{states}</div>\n</section>\n"
     )
 }
 
-pub(super) fn state(heading: &str, solution: &Solution, units: &Units) -> String {
+pub(super) fn state(report: &SolveReport, heading: &str, solution: &Solution) -> String {
+    let units = &report.model.units;
     let [force, friction, sliding] = [("Normal force", "N"), ("Friction", "N"), ("Sliding", "m/s")]
         .map(|(what, si)| text(&units.of(si).title(what)));
     let deflection = if has_deflections(solution) {
@@ -137,13 +153,14 @@ pub(super) fn state(heading: &str, solution: &Solution, units: &Units) -> String
     let joints: Vec<String> = solution.joints.iter().map(|joint| joint_mode(joint, ": ")).collect();
     let end = if joints.is_empty() { "" } else { "." };
     format!(
-        "<section class=\"state\">\n<h3>{}</h3>\n<p>{}{end}\n{}</p>\n<div class=\"wide\">\n\
+        "<section class=\"state\">\n<h3>{}</h3>\n<p>{}{end}\n{}{}</p>\n<div class=\"wide\">\n\
          <table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">{force}</th>\
          <th class=\"number\">{friction}</th>\n<th class=\"number\">{sliding}</th>{deflection}</tr></thead>\n<tbody>\n{}\
          </tbody>\n</table>\n<table class=\"rest\">\n<thead><tr><th>Of</th><th>What</th><th class=\"number\">Value</th>\
          <th>Unit</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n</section>\n",
         text(heading),
         joints.join("; "),
+        all(report.speeds_in_words(solution), |sentence| text(&sentence) + "\n"),
         text(&solution.attainability.in_words()),
         contacts(solution, units),
         everything_else(solution, units),

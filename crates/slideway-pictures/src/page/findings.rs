@@ -10,7 +10,7 @@ use slideway::drive::{DriveOptions, drive_with};
 use slideway::fault::Faults;
 use slideway::limits::{FRICTION, LimitsOptions, LimitsReport, Quantity, Vary, curves_with};
 use slideway::mechanism::Mechanism;
-use slideway::model::{Model, Setting, Settings};
+use slideway::model::{Model, ParameterRange, Setting, Settings};
 use slideway::progress::{Callback, Progress};
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
@@ -20,6 +20,7 @@ use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 #[derive(Debug, Clone)]
 pub struct Findings {
     title: String,
+    at_middle: Vec<String>,
     drawings: Vec<Sheet>,
     answer: Result<SolveReport, Vec<String>>,
     efficiency: Vec<String>,
@@ -63,7 +64,8 @@ impl Findings {
         let efficiency = efficiency(model, &mut look);
         let rest = rest(model, &mut look);
         let limits = limits.filter(|_| is_whole);
-        Ok(limits.map(|limits| Self { title, drawings, answer, efficiency, rest, limits }))
+        let at_middle = at_middle(model)?;
+        Ok(limits.map(|limits| Self { title, at_middle, drawings, answer, efficiency, rest, limits }))
     }
 
     /// The page as HTML.
@@ -85,6 +87,7 @@ impl Findings {
             text: origin.text,
             settings: &settings,
             title: &self.title,
+            at_middle: &self.at_middle,
             drawings: &self.drawings,
             report: self.answer.as_ref().map_err(Vec::as_slice),
             efficiency: &self.efficiency,
@@ -95,9 +98,21 @@ impl Findings {
     }
 }
 
-/// What keeps a question from being answered, in words: a line for each fault.
+/// What keeps a question from being answered, in words, and what to do about it: a line for each fault.
 pub fn reasons(faults: &Faults) -> Vec<String> {
-    faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
+    faults.sorted().iter().map(|fault| fault.kind.with_hint()).collect()
+}
+
+/// The parameters that are known within bounds, with the middle for which the page holds: "mu = 0.25 (0.2 to 0.3)".
+///
+/// # Errors
+/// Values that the model must not have.
+fn at_middle(model: &Model) -> Result<Vec<String>, Faults> {
+    let one = |range: ParameterRange| {
+        let [from, to, middle] = [range.from, range.to, range.middle].map(|value| range.shown_in.show(value));
+        format!("{} = {middle} ({from} to {to})", range.name)
+    };
+    Ok(model.ranges()?.into_iter().map(one).collect())
 }
 
 /// Which efforts the drives need, in sentences, or why that is not known; nothing without drives.

@@ -39,6 +39,9 @@ pub struct Page<'a> {
     pub settings: &'a [String],
     /// The title of the mechanism.
     pub title: &'a str,
+    /// The parameters that are known within bounds, each with its middle, for which everything holds but the answer
+    /// for the whole ranges.
+    pub at_middle: &'a [String],
     /// The drawings of the mechanism and its solutions.
     pub drawings: &'a [Sheet],
     /// All solutions, or why there is no answer.
@@ -81,7 +84,7 @@ pub fn solve_parts(report: &SolveReport) -> Vec<String> {
         format!("<p>{}</p>\n", text(line))
     });
     let states = body::states(report);
-    let states = states.iter().map(|(heading, solution)| body::state(heading, solution, &report.model.units));
+    let states = states.iter().map(|(heading, solution)| body::state(report, heading, solution));
     std::iter::once(body::answer(report) + &margins).chain(states).collect()
 }
 

@@ -1,16 +1,17 @@
 //! The figure of driven motion: efforts and efficiency over what is varied.
 
+use super::colours::ModeColours;
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
-use super::limits::{in_words, without_empty_ends};
+use super::limits::{in_parentheses, in_words, stroke_of, without_empty_ends};
 use crate::drawing::signs;
 use slideway::drive::{Course, CourseDirection, CourseRow, DriveReport, Sense};
-use slideway::report::precise;
+use slideway::report::{Verdict, precise};
 
 /// The figure of a [`DriveReport`] with a course: for each direction of motion and each unit a panel with the efforts, with and without friction, and one with the efficiency;
 /// none without a course. Its rows should be dense.
 pub fn drive_figure(report: &DriveReport) -> Option<Figure> {
     let course = report.course.as_ref()?;
-    let mut builder = Builder { report, course, branches: Vec::new() };
+    let mut builder = Builder { report, course, branches: Vec::new(), colours: ModeColours::default() };
     let mut units: Vec<&str> = report.drives.iter().map(|drive| drive.unit).collect();
     units.dedup();
     let mut panels = Vec::new();
@@ -34,6 +35,7 @@ struct Builder<'r> {
     report: &'r DriveReport,
     course: &'r Course,
     branches: Vec<Branch>,
+    colours: ModeColours,
 }
 
 /// Rows of one mode at values that follow one another, and what its ends are.
@@ -41,6 +43,35 @@ struct Stretch<'r> {
     pattern: &'r str,
     rows: Vec<&'r CourseRow>,
     ends: [End; 2],
+}
+
+impl<'r> Stretch<'r> {
+    /// The parts in which the mode has one stroke, each from the last row of the one before on.
+    fn by_stroke(&self) -> Vec<Self> {
+        let mut parts = Vec::new();
+        let mut start = 0;
+        for run in self.rows.chunk_by(|one, next| stroke(one) == stroke(next)) {
+            let end = start + run.len();
+            let ends = [
+                if start == 0 { self.ends[0] } else { End::Plain },
+                if end == self.rows.len() { self.ends[1] } else { End::Plain },
+            ];
+            let rows = self.rows[start.saturating_sub(1)..end].to_vec();
+            parts.push(Self { pattern: self.pattern, rows, ends });
+            start = end;
+        }
+        parts
+    }
+
+    /// What a mechanism with slightly elastic guides does along it.
+    fn verdict(&self) -> Verdict {
+        self.rows.last().and_then(|row| row.attainability).unwrap_or(Verdict::NotComputed)
+    }
+}
+
+/// The stroke of the mode of a row.
+fn stroke(row: &CourseRow) -> Stroke {
+    stroke_of(row.attainability.unwrap_or(Verdict::NotComputed))
 }
 
 impl Builder<'_> {
@@ -51,7 +82,7 @@ impl Builder<'_> {
         let drives: Vec<usize> =
             all.filter(|(_, drive)| drive.unit == unit).map(|(index, _)| index).collect();
         for stretch in stretches(direction) {
-            let branch = self.branch(stretch.pattern, direction);
+            let branch = self.branch(&stretch, direction);
             for &drive in &drives {
                 let value =
                     |row: &CourseRow| row.efforts.as_ref().map(|efforts| shown.number_of(efforts[drive]));
@@ -77,7 +108,7 @@ impl Builder<'_> {
     fn efficiency(&mut self, direction: &CourseDirection) -> Panel {
         let mut curves = Vec::new();
         for stretch in stretches(direction) {
-            let branch = self.branch(stretch.pattern, direction);
+            let branch = self.branch(&stretch, direction);
             let value = |row: &CourseRow| Some(100.0 * row.efficiency?.value?);
             let curve = self.curve(&stretch.rows, (branch, 0), [End::Plain; 2], value);
             curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
@@ -94,7 +125,7 @@ impl Builder<'_> {
         let vary = &self.course.vary;
         let way = match direction.direction {
             Sense::Model => "as in the model",
-            Sense::Reversed => "in the opposite direction",
+            Sense::Reversed => "in the opposite direction with the same loads",
         };
         let scale = self.course.vary.shown_in.scale();
         Panel {
@@ -124,12 +155,14 @@ impl Builder<'_> {
     }
 
     /// The branch of a mode, with its words.
-    fn branch(&mut self, pattern: &str, direction: &CourseDirection) -> usize {
+    fn branch(&mut self, stretch: &Stretch<'_>, direction: &CourseDirection) -> usize {
+        let Stretch { pattern, .. } = *stretch;
         let mode = direction.modes.iter().find(|mode| mode.pattern == pattern);
         let words = mode.map_or_else(String::new, |mode| format!(":\u{a0}{}", mode.words));
-        let name = format!("{}{words}", signs(pattern));
-        let modes = self.branches.iter().filter(|branch| branch.stroke == Stroke::Solid).count();
-        self.entry(&name, modes, Stroke::Solid)
+        let verdict = stretch.verdict();
+        let name = format!("{}{words}{}", signs(pattern), in_parentheses(std::iter::once(verdict)));
+        let colour = self.colours.of(pattern);
+        self.entry(&name, colour, stroke_of(verdict))
     }
 
     fn entry(&mut self, name: &str, colour: usize, stroke: Stroke) -> usize {
@@ -228,7 +261,8 @@ fn stretches(direction: &CourseDirection) -> Vec<Stretch<'_>> {
         }
         place += usize::from(!is_between);
     }
-    stretches.into_iter().map(|(.., stretch)| stretch).filter(|stretch| stretch.rows.len() > 1).collect()
+    let all = stretches.into_iter().map(|(.., stretch)| stretch).filter(|stretch| stretch.rows.len() > 1);
+    all.flat_map(|stretch| stretch.by_stroke()).filter(|part| part.rows.len() > 1).collect()
 }
 
 fn from_infinity(pattern: &str) -> Stretch<'_> {

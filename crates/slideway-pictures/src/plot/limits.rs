@@ -1,5 +1,6 @@
 //! The figure of limits: a quantity along every mode over what is varied.
 
+use super::colours::ModeColours;
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
 use super::scale::extent;
 use slideway::limits::{
@@ -22,7 +23,7 @@ const NEAR: f64 = 1e-3;
 pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
     let mut units: Vec<&str> = curves.series.iter().map(|series| series.unit).collect();
     units.dedup();
-    let mut builder = Builder { curves, branches: Vec::new(), patterns: Vec::new() };
+    let mut builder = Builder { curves, branches: Vec::new(), colours: ModeColours::default() };
     let mut panels = Vec::new();
     let opposite = report.reversed.as_ref().zip(curves.reversed.as_ref());
     for unit in &units {
@@ -32,7 +33,12 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
         panels.push(builder.panel(report, title, unit, direction));
         if let Some((reversed, found)) = opposite {
             let direction = (&*reversed.modes, &**found, &*reversed.counts, &*reversed.without_mode_problem);
-            panels.push(builder.panel(report, "Moving in the opposite direction", unit, direction));
+            panels.push(builder.panel(
+                report,
+                "Moving in the opposite direction with the same loads",
+                unit,
+                direction,
+            ));
         }
     }
     without_empty_ends(&mut panels);
@@ -52,8 +58,7 @@ type Direction<'r> = (&'r [ModeLimits], &'r [limits::Curve], &'r [CountLimits], 
 struct Builder<'c> {
     curves: &'c Curves,
     branches: Vec<Branch>,
-    /// The modes that have colours, in their order.
-    patterns: Vec<String>,
+    colours: ModeColours,
 }
 
 impl Builder<'_> {
@@ -128,10 +133,7 @@ impl Builder<'_> {
         stroke: Stroke,
         verdicts: impl Iterator<Item = Verdict>,
     ) -> usize {
-        let colour = self.patterns.iter().position(|pattern| *pattern == mode.pattern).unwrap_or_else(|| {
-            self.patterns.push(mode.pattern.clone());
-            self.patterns.len() - 1
-        });
+        let colour = self.colours.of(&mode.pattern);
         let name = mode_name(mode, verdicts);
         let same = self.branches.iter().position(|branch| branch.name == name);
         same.unwrap_or_else(|| {
@@ -207,10 +209,16 @@ fn mode_name(mode: &ModeLimits, verdicts: impl Iterator<Item = Verdict>) -> Stri
         mode.pattern.chars().map(|sign| sign.to_string().replace('-', "\u{2212}")).collect();
     let words: Vec<String> =
         mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
+    let meaning = if mode.preload_gap { " (preload gap)".to_owned() } else { in_parentheses(verdicts) };
+    format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
+}
+
+/// What a mechanism with slightly elastic guides does in a mode: " (threshold, not attainable)", nothing where it
+/// settles on it.
+pub(super) fn in_parentheses(verdicts: impl Iterator<Item = Verdict>) -> String {
     let mut meanings: Vec<&str> = Vec::new();
     for verdict in verdicts {
         let meaning = match verdict {
-            _ if mode.preload_gap => "preload gap",
             Verdict::Attainable => continue,
             Verdict::Unattainable => "threshold, not attainable",
             Verdict::Flutter => "attainable only with damping",
@@ -221,11 +229,10 @@ fn mode_name(mode: &ModeLimits, verdicts: impl Iterator<Item = Verdict>) -> Stri
             meanings.push(meaning);
         }
     }
-    let meaning = if meanings.is_empty() { String::new() } else { format!(" ({})", meanings.join(", or ")) };
-    format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
+    if meanings.is_empty() { String::new() } else { format!(" ({})", meanings.join(", or ")) }
 }
 
-fn stroke_of(verdict: Verdict) -> Stroke {
+pub(super) fn stroke_of(verdict: Verdict) -> Stroke {
     match verdict {
         Verdict::Attainable => Stroke::Solid,
         Verdict::Unattainable => Stroke::Dashed,

@@ -25,6 +25,7 @@
 //! ```
 
 pub(crate) mod clip;
+mod colours;
 mod drawn;
 mod drive;
 pub(crate) mod figure;
@@ -116,7 +117,7 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
     }
     y -= SMALL;
     let height = if figure.panels.len() == 1 { SINGLE_HEIGHT } else { STACKED_HEIGHT };
-    let space = figure.panels.iter().map(|panel| panel::space_on_the_left(figure, panel));
+    let space = figure.panels.iter().map(|panel| panel::space_on_the_left(figure, panel, height));
     let left = space.fold(0.0, f64::max);
     for (index, panel) in figure.panels.iter().enumerate() {
         let top = if index == 0 { y } else { y + BETWEEN };

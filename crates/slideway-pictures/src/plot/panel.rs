@@ -69,9 +69,9 @@ fn axes(figure: &Figure, panel: &Panel) -> [FrameAxis; 2] {
     [with(&panel.x, x_range(panel)), with(&panel.y, y_range(figure, panel))]
 }
 
-/// What the vertical axis needs beside the frame (px).
-pub(super) fn space_on_the_left(figure: &Figure, panel: &Panel) -> f64 {
-    axes(figure, panel)[1].space_on_the_left(super::STACKED_HEIGHT)
+/// What the vertical axis needs beside a frame of this height (px).
+pub(super) fn space_on_the_left(figure: &Figure, panel: &Panel, height: f64) -> f64 {
+    axes(figure, panel)[1].space_on_the_left(height)
 }
 
 /// A curve, by its index, that leaves the frame through its lower (0) or upper edge (1) at a place.

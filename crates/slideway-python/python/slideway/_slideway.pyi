@@ -145,7 +145,8 @@ class Mechanism:
         stiffness : float or str
             Stiffness of the guide at a contact (N/m), for attainability, and for how redundant contacts share a load.
         play : float or str
-            Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+            Total play between the two faces (m), which counts where redundant contacts share a load; negative
+            for a press fit. Default: 0.
         misalignment : float or str
             How far the guide's line is displaced at a contact (m), towards positive normal force, which counts where
             redundant contacts share a load; may depend on coordinates. Default: 0.

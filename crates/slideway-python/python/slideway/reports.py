@@ -130,6 +130,7 @@ __all__ = [
     "PhaseReport",
     "PointKind",
     "PointStatus",
+    "PressFit",
     "Proof",
     "Range",
     "RangeWithoutPosition",
@@ -170,6 +171,7 @@ __all__ = [
     "UncertainParameter",
     "Uncertainty",
     "UndecidedMode",
+    "Unlocking",
     "VariedQuantity",
     "Verdict",
     "WarningPlace",
@@ -594,6 +596,12 @@ class AtRest(Record):
     """The sign patterns of the normal forces that are possible; 0 for a contact in its gap, or open."""
     reactions: Reactions
     """Reactions, over all these patterns."""
+    wedging: tuple[str, ...]
+    """The contacts whose normal forces have no bound: pressed against each other they are in equilibrium without
+    any load, so that it can be wedged."""
+    without_preloads: bool | None = None
+    """Whether it could stay at rest without the preloads of its contacts; absent if there are none, or where
+    that was not decided."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1697,6 +1705,8 @@ class LimitsReport(_mixins.LimitsReport, Report):
     """The title of the model."""
     vary: VariedQuantity
     """What is varied."""
+    state: tuple[CoordinateState, ...]
+    """The coordinates for which it holds, but for one that is varied."""
     steps_from_drawing: int | None
     """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
     branch; absent where they are those of the drawing, and where a coordinate is varied: then `guarantee`
@@ -1740,14 +1750,17 @@ class LoadReport(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LoadSharing(Record):
-    """How redundant guides share a load."""
+    """How redundant guides share a load, and the two faces of press fits."""
 
     self_stresses: int
-    """Degree of redundancy: the number of independent self-stresses."""
+    """Degree of redundancy: the number of independent self-stresses, without those between the two faces of a
+    press fit."""
     groups: tuple[tuple[str, ...], ...]
     """The contacts that share a load, in groups that do not act on one another by self-stresses."""
     elasticity: Elasticity
     """What is taken for their elasticity."""
+    press_fits: tuple[PressFit, ...] = ()
+    """The press fits."""
     stiffness_ratios: StiffnessRatios | None = None
     """Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for
     rigid faces, and where there are too many patterns."""
@@ -1801,6 +1814,8 @@ class MapClass(Record):
 class MapReport(_mixins.MapReport, Report):
     """A map of pixels and what their classes mean."""
 
+    _absent = {"remark": None}
+
     schema: str
     """Version of this layout: `SCHEMA`."""
     title: str | None
@@ -1817,6 +1832,8 @@ class MapReport(_mixins.MapReport, Report):
     """Number of points that were solved."""
     guarantee: str
     """What can have been missed, in words."""
+    remark: str | None
+    """What its colours do not tell, in words; absent if there is nothing."""
     rows: tuple[tuple[tuple[int, int], ...], ...]
     """Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels it
     has on end."""
@@ -1836,6 +1853,9 @@ class Margins(Record):
     """Up to this factor every load has exactly one solution (below 1: some other load has none or several
     already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
     because preloads jump with the side of contact."""
+    moves_below: Unlocking | None = None
+    """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
+    and where none comes."""
     critical_contact: CriticalContact | None = None
     """The contact whose friction alone changes the number of solutions first; absent if none does."""
 
@@ -2034,6 +2054,17 @@ class PhaseReport(Record):
     """The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks."""
     sliding: tuple[int, ...]
     """For each sliding joint the sign of its velocity, 0 where it sticks."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PressFit(Record):
+    """A contact with negative play: both of its faces are pressed unless the load exceeds the grip."""
+
+    contact: str
+    """The contact; its faces have this name and ".plus" or ".minus" behind it."""
+    grip: float
+    """`N_0 = k |play|` (N), with the stiffness `k` of one face: the sum of the forces on both faces as long as
+    both are pressed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2257,6 +2288,8 @@ class RestLimitsReport(Report):
     """The title of the model."""
     vary: VariedQuantity
     """What is varied."""
+    state: tuple[CoordinateValue, ...]
+    """The coordinates for which it holds, but for one that is varied."""
     load: str | None
     """The load that was named, if one was: with its present magnitude, the effort of a drive with none."""
     spans: tuple[SpanOfRest, ...]
@@ -2357,6 +2390,8 @@ class SizeReport(_mixins.SizeReport, Report):
     """The title of the model."""
     vary: VariedQuantity
     """What is varied."""
+    state: tuple[CoordinateState, ...]
+    """The coordinates for which it holds, but for one that is varied; at rest their rates are taken as zero."""
     against: MarginKind
     """Which margin is meant."""
     load: str | None
@@ -2525,6 +2560,9 @@ class SpeedLimits(Record):
     """Where it ends: where the acceleration vanishes, or the mode ends."""
     speed: SpeedChange
     """What becomes of the speed."""
+    friction_exceeds_loads: bool
+    """Whether it is proven somewhere in the interval that the loads push the motion and friction takes more
+    power than they give; never with drives."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2691,6 +2729,16 @@ class UndecidedMode(Record):
     """The contact mode of each sliding joint."""
     contacts: tuple[str, ...]
     """The contacts whose normal force may be zero; none if the determinant may."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Unlocking(Record):
+    """The friction below which a mechanism that is locked would move."""
+
+    factor: float
+    """As a factor of that of the model, below 1."""
+    mu: float | None = None
+    """The coefficient itself; absent where contacts differ in theirs."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

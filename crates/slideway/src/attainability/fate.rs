@@ -243,16 +243,19 @@ impl<'p> FastMotion<'p> {
         }
     }
 
-    /// What a contact does: it is pressed where g + delta g' is beyond its clearance.
+    /// What a contact does: it is pressed where g + delta g' is beyond its clearance, a face of a press fit on its own
+    /// side alone.
     fn state(&self, state: &DVector<f64>, k: usize) -> ContactState {
         let (damped, clearance) = (self.damped(state, k), self.clearance(k));
-        if damped <= -clearance {
+        let side = if damped <= -clearance {
             ContactState::Positive
         } else if damped >= clearance {
             ContactState::Negative
         } else {
-            ContactState::Gap
-        }
+            return ContactState::Gap;
+        };
+        let only = self.shared.and_then(|shared| shared.only_side(k));
+        if only.is_none_or(|only| only == side) { side } else { ContactState::Gap }
     }
 
     fn states(&self, state: &DVector<f64>) -> Vec<ContactState> {

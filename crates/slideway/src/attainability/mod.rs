@@ -48,7 +48,7 @@ const ROUNDING: &str = "an eigenvalue of the fast motion is zero within rounding
 pub struct Candidate {
     /// The states of the contacts: their sides, or that one of redundant contacts is open.
     pub states: Vec<ContactState>,
-    /// The normal forces (N).
+    /// The normal forces (N), those of press fits at their faces.
     pub normal_force: DVector<f64>,
     /// The deflections of redundant contacts, where they are known (m).
     pub deflections: Vec<Option<f64>>,
@@ -111,7 +111,13 @@ impl<'p> ElasticGuides<'p> {
     /// problem has it.
     pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
         let shared = self.shared.as_ref()?;
-        Some(shared.oriented(&self.mode(states), states, &self.stiffness))
+        let states = shared.closed(states);
+        Some(shared.oriented(&self.mode(&states), &states, &self.stiffness))
+    }
+
+    /// The states of contacts that a pattern of the mode problem stands for.
+    fn closed(&self, pattern: &[ContactState]) -> Vec<ContactState> {
+        self.shared.as_ref().map_or_else(|| pattern.to_vec(), |shared| shared.closed(pattern))
     }
 
     /// `C S`: of redundant guides the rows of the contacts that are not cut.
@@ -143,8 +149,9 @@ impl<'p> ElasticGuides<'p> {
             return Verdict::NotComputed;
         }
         let (Some(inertia), None) = (&self.inertia, &self.reversed) else { return Verdict::Undecided };
-        let mode = self.mode(states);
-        let oriented = self.oriented(&mode, states);
+        let states = self.closed(states);
+        let mode = self.mode(&states);
+        let oriented = self.oriented(&mode, &states);
         let spectrum = Pencil::new(inertia, mode, self.shared.as_ref())
             .and_then(|pencil| pencil.spectrum(&self.stiffness, &equal_masses(inertia)));
         spectrum.map_or(Verdict::NotComputed, |spectrum| {
@@ -170,8 +177,9 @@ impl<'p> ElasticGuides<'p> {
             let reason = self.reversed.as_deref().unwrap_or_default();
             return Attainability::without_eigenvalues(Verdict::Undecided, reason);
         };
-        let mode = self.mode(states);
-        let oriented = self.oriented(&mode, states);
+        let states = self.closed(states);
+        let mode = self.mode(&states);
+        let oriented = self.oriented(&mode, &states);
         let computed = Pencil::new(inertia, mode, self.shared.as_ref()).and_then(|pencil| {
             let spectrum = pencil.spectrum(&self.stiffness, &equal_masses(inertia))?;
             Some((pencil, spectrum))
@@ -227,6 +235,10 @@ impl<'p> ElasticGuides<'p> {
 
     fn stiffness_ratios(&self) -> impl Iterator<Item = Vec<f64>> {
         ratios(self.stiffness.len()).into_iter().map(|ratios| {
+            let mut ratios = ratios;
+            for &[positive, negative] in self.shared.iter().flat_map(|shared| &shared.press_fits) {
+                ratios[negative] = ratios[positive];
+            }
             ratios.iter().zip(&self.stiffness).map(|(ratio, stiffness)| ratio * stiffness).collect()
         })
     }
@@ -240,10 +252,15 @@ impl<'p> ElasticGuides<'p> {
         let Some(mobility) = inertia.inverse(VANISHING_SHARE) else { return };
         let stays = |one: &Attainability| matches!(one.verdict, Verdict::Attainable | Verdict::Flutter);
         let numbers: Vec<usize> = (0..all.len()).filter(|&index| stays(&all[index])).collect();
+        let closed: Vec<_> = candidates.iter().map(|candidate| self.closed(&candidate.states)).collect();
         let rest = |index: usize| {
-            let Candidate { states, normal_force, deflections } = &candidates[index];
-            let deflection = |k: usize| {
-                deflections.get(k).copied().flatten().unwrap_or(-normal_force[k] / self.stiffness[k])
+            let Candidate { normal_force, deflections, .. } = &candidates[index];
+            let states = &closed[index];
+            // The law of a face of a press fit begins where it touches.
+            let interference = |k: usize| self.shared.as_ref().map_or(0.0, |shared| shared.interference[k]);
+            let deflection = |k: usize| match deflections.get(k).copied().flatten() {
+                Some(deflection) => deflection - interference(k),
+                None => -normal_force[k] / self.stiffness[k],
             };
             let kept = |shared: &SharedGaps| shared.kept.iter().map(|&k| deflection(k)).collect::<Vec<_>>();
             let gap = self.shared.as_ref().map_or_else(|| (0..states.len()).map(deflection).collect(), kept);

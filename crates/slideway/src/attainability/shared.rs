@@ -30,6 +30,10 @@ pub(super) struct SharedGaps {
     pub(super) clearance: DVector<f64>,
     /// Whether faces are rigid, so that there is no fast motion.
     pub(super) rigid: bool,
+    /// The faces of press fits, the positive one first.
+    pub(super) press_fits: Vec<[usize; 2]>,
+    /// By how much the line of the guide is displaced for each face of a press fit (m).
+    pub(super) interference: DVector<f64>,
     /// (C S)_kept without friction, all contacts pressed.
     frictionless: DMatrix<f64>,
 }
@@ -63,11 +67,36 @@ impl SharedGaps {
         Some(Self {
             offset,
             clearance: DVector::from_fn(contacts, clearance),
+            interference: DVector::from_fn(contacts, |k, _| mechanism.interference(k)),
+            press_fits: shared.press_fits,
             rigid: shared.compliance.iter().all(|compliance| *compliance == 0.0),
             // sigma e_k, and -sigma Z of a cut contact, times sigma: E^T.
             frictionless: gaps.transpose(),
             kept,
             gaps,
+        })
+    }
+
+    /// The states of contacts that a pattern of the mode problem stands for: where both faces of a press fit have one
+    /// sign, one of them is open.
+    pub(super) fn closed(&self, pattern: &[ContactState]) -> Vec<ContactState> {
+        let mut states = pattern.to_vec();
+        for &[positive, negative] in &self.press_fits {
+            match [pattern[positive], pattern[negative]] {
+                [ContactState::Positive, ContactState::Positive] => states[negative] = ContactState::Gap,
+                [ContactState::Negative, ContactState::Negative] => states[positive] = ContactState::Gap,
+                _ => {}
+            }
+        }
+        states
+    }
+
+    /// The only side on which a contact can be pressed, that of a face of a press fit.
+    pub(super) fn only_side(&self, contact: usize) -> Option<ContactState> {
+        self.press_fits.iter().find_map(|&[positive, negative]| match contact {
+            k if k == positive => Some(ContactState::Positive),
+            k if k == negative => Some(ContactState::Negative),
+            _ => None,
         })
     }
 

@@ -355,7 +355,7 @@ fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySumma
         constraints: mobility.constraints,
         independent: mobility.independent,
         degrees_of_freedom: mobility.degrees_of_freedom(),
-        determinate: redundancy.is_none() && mechanism.excess.is_empty(),
+        determinate: redundancy.is_none() && !mechanism.is_redundant(),
         singular_position: redundancy.is_some_and(|redundancy| redundancy.only_here),
         joints_in_excess: redundancy.map_or(vec![], |r| r.joints.iter().map(name).collect()),
         suggestion: redundancy.and_then(|redundancy| redundancy.suggestion.clone()),
@@ -398,7 +398,7 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
                 let (kind, constraints) = match slider.kind {
-                    SliderKind::Block => (JointForm::BlockSlider, slider.contacts.len()),
+                    SliderKind::Block => (JointForm::BlockSlider, mechanism.places_of(slider).count()),
                     SliderKind::Guided => (JointForm::GuidedSlider, 2),
                     SliderKind::Pin => (JointForm::PinInSlot, 1),
                 };
@@ -421,21 +421,21 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
 }
 
 fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: bool) -> Vec<ContactSummary> {
-    let one = |(index, contact): (usize, &crate::mechanism::Contact)| ContactSummary {
-        name: contact.name.to_string(),
+    let summary = |id: ContactId, contact: &crate::mechanism::Contact| ContactSummary {
+        name: contact.place().to_owned(),
         mu: contact.mu,
         mu_depends_on_speed: contact.depends_on_speed(),
         mu_static: contact.mu_static,
-        preload: contact.preload,
-        sliding_velocity: assembled
-            .then(|| configuration.contact(mechanism, ContactId(index)).sliding_velocity),
-        fit: mechanism.excess.shares(ContactId(index)).then_some(ContactFit {
+        // Each face of a press fit has half of it.
+        preload: contact.preload.map(|preload| if contact.face.is_some() { 2.0 * preload } else { preload }),
+        sliding_velocity: assembled.then(|| configuration.contact(mechanism, id).sliding_velocity),
+        fit: mechanism.excess.shares(id).then_some(ContactFit {
             play: contact.play,
             misalignment: contact.misalignment,
             stiffness: contact.stiffness,
         }),
     };
-    mechanism.contacts.iter().enumerate().map(one).collect()
+    mechanism.places().map(|id| summary(id, &mechanism.contacts[id.index()])).collect()
 }
 
 fn drives(mechanism: &Mechanism) -> Vec<DriveSummary> {

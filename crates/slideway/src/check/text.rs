@@ -5,7 +5,7 @@ use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{LoadSharing, Report, Style, count, followed};
+use crate::report::{Report, Style, count, followed};
 use crate::units::Unit;
 use anstyle::AnsiColor;
 
@@ -96,8 +96,8 @@ impl Text<'_> {
             }
         };
         self.line(&determinacy);
-        for line in self.report.sharing.iter().flat_map(LoadSharing::in_words) {
-            self.line(&line);
+        if let Some(sharing) = &self.report.sharing {
+            sharing.in_words(&self.report.units).iter().for_each(|line| self.line(line));
         }
     }
 

@@ -78,6 +78,7 @@ impl Configuration {
         let displacement = |contact: usize| displacements.get(contact).copied().unwrap_or(0.0);
         let contacts: Vec<usize> = (0..mechanism.contacts.len())
             .filter(|contact| mechanism.contacts[*contact].joint == joint)
+            .filter(|contact| !mechanism.contacts[*contact].is_second_face())
             .collect();
         match contacts[..] {
             [front, rear, ..] => {

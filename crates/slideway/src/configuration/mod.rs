@@ -31,7 +31,7 @@ use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, rot90};
-use crate::model::CarriedBy;
+use crate::model::{CarriedBy, SliderKind};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -302,6 +302,9 @@ impl<T: Real> Configuration<T> {
     /// Supported length of a block slider: distance of front from rear contact along the guide (m).
     pub fn overlap(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Option<T> {
         let [front, rear, ..] = slider.contacts[..] else { return None };
+        if slider.kind != SliderKind::Block {
+            return None;
+        }
         let front = self.contact(mechanism, front);
         Some(front.tangent.dot(&(front.point - self.contact(mechanism, rear).point)))
     }

@@ -214,7 +214,8 @@ macro_rules! contact_properties {
             $self.set("stiffness", stiffness.into())
         }
 
-        /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+        /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
+        /// press fit. Default: 0.
         pub fn play($self: $receiver, play: impl Into<Quantity>) -> $receiver {
             $self.set("play", play.into())
         }

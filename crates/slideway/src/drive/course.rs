@@ -4,9 +4,10 @@ use super::efforts::{Efforts, GROWTH};
 use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, Sense};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{ModesFound, Naming, RangeWithoutProblem, Varied, find, guarantee};
+use crate::limits::{ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
+use crate::report::Verdict;
 use crate::solve::{Stages, pattern};
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
@@ -163,11 +164,12 @@ impl Tabulated<'_> {
             let within = mode.from.at < value && value < mode.to.at;
             within || is_end && (is_same(mode.from.at, value) || is_same(mode.to.at, value))
         });
-        let row = |pattern: String, of: Vec<f64>| {
+        let row = |pattern: String, verdict: Verdict, of: Vec<f64>| {
             let (power, efficiency) = efforts.power(&of);
             CourseRow {
                 at: value,
                 pattern: Some(pattern),
+                attainability: Some(verdict),
                 grows: vec![0; of.len()],
                 efforts: Some(of),
                 frictionless: Some(efforts.frictionless.clone()),
@@ -175,12 +177,17 @@ impl Tabulated<'_> {
                 efficiency: Some(efficiency),
             }
         };
-        let pressed =
-            present.filter_map(|mode| Some(row(pattern(&mode.pattern), efforts.of(&mode.pattern)?)));
+        let state = StateAt::new(self.varied, value).ok();
+        let of_mode = |mode: &ModeInterval| {
+            let verdict = state.as_ref().map_or(Verdict::NotComputed, |state| state.verdict(&mode.pattern));
+            Some(row(pattern(&mode.pattern), verdict, efforts.of(&mode.pattern)?))
+        };
+        let pressed = present.filter_map(of_mode);
         let between_faces = self.varied.states_between_faces(value, 1.0, None, self.work);
-        let between_faces = between_faces
-            .into_iter()
-            .map(|state| row(state.pattern, state.drives.iter().map(|drive| drive.effort + 0.0).collect()));
+        let between_faces = between_faces.into_iter().map(|state| {
+            let of_drives = state.drives.iter().map(|drive| drive.effort + 0.0).collect();
+            row(state.pattern, state.attainability.verdict, of_drives)
+        });
         let rows: Vec<CourseRow> = pressed.chain(between_faces).collect();
         // Where modes end and others begin there is one state, which is on the boundary of each.
         let ends_here = |end: &&ModeEnd| {
@@ -189,8 +196,7 @@ impl Tabulated<'_> {
         };
         let boundary = || {
             let ended = |mode: &&ModeInterval| [&mode.from, &mode.to].iter().any(ends_here);
-            let mode = self.found.existence.modes.iter().find(ended)?;
-            Some(row(pattern(&mode.pattern), efforts.of(&mode.pattern)?))
+            of_mode(self.found.existence.modes.iter().find(ended)?)
         };
         if let Some(row) = rows.is_empty().then(boundary).flatten() {
             return vec![row];
@@ -206,6 +212,7 @@ fn nothing(value: f64) -> CourseRow {
     CourseRow {
         at: value,
         pattern: None,
+        attainability: None,
         efforts: None,
         grows: Vec::new(),
         frictionless: None,

@@ -6,7 +6,7 @@ use crate::fault::Faults;
 use crate::ids::DriveId;
 use crate::kinetics::effort_forces;
 use crate::limits::Varied;
-use crate::mechanism::Contact;
+use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
 use crate::modes::existence::{ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::solve::Stages;
@@ -23,8 +23,8 @@ pub(super) const GROWTH: f64 = 30.0;
 pub(crate) struct Efforts {
     line: ModeProblemLine,
     drives: usize,
-    /// The contacts.
-    pub(crate) contacts: Vec<Contact>,
+    /// The mechanism there.
+    pub(crate) mechanism: Mechanism,
     /// Without friction (N or N m).
     pub(super) frictionless: Vec<f64>,
     /// The velocity at which each effort works (m/s or rad/s).
@@ -41,7 +41,7 @@ impl Efforts {
         Ok(Self {
             line: parts.line_to(&parts),
             drives,
-            contacts: stages.mechanism.contacts.clone(),
+            mechanism: stages.mechanism.clone(),
             frictionless: (0..drives)
                 .map(|drive| stages.influence.frictionless[effort(drive)] + 0.0)
                 .collect(),
@@ -73,7 +73,8 @@ impl Efforts {
 
     /// The normal forces in the solution of a pattern; none where its determinant vanishes.
     pub(crate) fn normal_forces(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
-        Some(self.line.normal_force(pattern, 0.0)?.iter().copied().collect())
+        let forces = self.line.normal_force(pattern, 0.0)?;
+        Some(self.mechanism.forces_at_faces(pattern, forces.as_slice().to_vec()))
     }
 
     /// The power of efforts, and their efficiency.

@@ -215,6 +215,9 @@ pub struct CourseRow {
     pub at: f64,
     /// The mode; null where there is no solution or no position.
     pub pattern: Option<String>,
+    /// Whether a mechanism with slightly elastic guides settles on it; null where there is no solution, and where
+    /// efforts grow without bound.
+    pub attainability: Option<Verdict>,
     /// Of each drive (N or N m); null where they grow without bound, or without a solution.
     pub efforts: Option<Vec<f64>>,
     /// 1 or -1 for each drive whose effort grows without bound there, else 0.

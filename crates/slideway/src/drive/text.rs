@@ -63,7 +63,10 @@ fn near(one: f64, other: f64) -> bool {
 }
 
 fn moving(direction: Sense) -> &'static str {
-    if direction == Sense::Model { "Moving as in the model" } else { "Moving in the opposite direction" }
+    match direction {
+        Sense::Model => "Moving as in the model",
+        Sense::Reversed => "Moving in the opposite direction with the same loads",
+    }
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
@@ -146,7 +149,7 @@ impl Page<'_, DriveReport> {
         rows[0].extend([String::new(), String::new()]);
         for solution in &direction.solutions {
             let mut one = self.row(
-                [&spaced(&solution.pattern), verdict(solution.attainability)],
+                [&spaced(&solution.pattern), verdict_in_words(solution.attainability)],
                 &solution.efforts,
                 solution.power,
             );
@@ -209,7 +212,13 @@ impl Page<'_, DriveReport> {
 fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
     let mut cells = vec![shown_in.precise_number(row.at)];
     cells.push(match (&row.pattern, &row.frictionless) {
-        (Some(pattern), _) => spaced(pattern),
+        (Some(pattern), _) => {
+            let verdict = row.attainability.filter(|verdict| *verdict != Verdict::Attainable);
+            verdict.map_or_else(
+                || spaced(pattern),
+                |one| format!("{} ({})", spaced(pattern), verdict_in_words(one)),
+            )
+        }
         (None, Some(_)) => "no solution".to_owned(),
         (None, None) => "no answer".to_owned(),
     });
@@ -237,7 +246,7 @@ fn share(efficiency: Efficiency) -> String {
     }
 }
 
-fn verdict(verdict: Verdict) -> &'static str {
+fn verdict_in_words(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Attainable => "attainable",
         Verdict::Unattainable => "unattainable",

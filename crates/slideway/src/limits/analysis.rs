@@ -8,8 +8,10 @@ use super::report::{LimitsReport, SpeedLimits};
 use super::speeds::speeds;
 use super::varied::Varied;
 use crate::fault::Faults;
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::Work;
+use crate::solve::Stages;
 
 /// Without a range the factor of all coefficients of friction is varied from 0 to this.
 const USUAL_FACTOR: f64 = 10.0;
@@ -28,6 +30,9 @@ pub(super) struct Analysis {
 
 impl Analysis {
     pub(super) fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
+        if options.max_reaction.is_some() {
+            Mechanism::new(model)?.check_no_press_fit("a greatest reaction")?;
+        }
         let vary = &options.vary;
         let varied = vary.of(model)?;
         let range = vary.ends(&varied, || usual_range(model, &varied))?;
@@ -38,6 +43,10 @@ impl Analysis {
             find(varied, range, options.max_reaction, options.effort, work)
         };
         let found = find(&varied, 0)?;
+        if found.counts.is_empty() {
+            // Nowhere an answer: the faults in the middle say why.
+            varied.at(f64::midpoint(range[0], range[1]), Stages::parts)?;
+        }
         let reversed = if options.both_directions {
             let varied = vary.of(&model.reversed())?;
             let found = find(&varied, 1)?;

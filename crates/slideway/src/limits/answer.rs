@@ -8,13 +8,14 @@ use super::report::{
     SCHEMA, SpeedLimits, VariedQuantity,
 };
 use super::varied::Varied;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, unit};
 use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
+use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{JointMode, ModeEndCause, locked};
+use crate::report::{CoordinateState, JointMode, ModeEndCause, locked, no_drive_prescribes};
 use crate::solve::{joint_mode_in_words, pattern, signs};
 
 impl VariedQuantity {
@@ -22,6 +23,18 @@ impl VariedQuantity {
         let (name, shown_in) = (varied.name.clone(), varied.shown_in.clone());
         Self { name, unit: varied.unit(), from, to, value, shown_in }
     }
+}
+
+/// The coordinates of a mechanism in its state, but for what is varied.
+pub(crate) fn held_state(mechanism: &Mechanism, varied: &Varied) -> Vec<CoordinateState> {
+    let held = mechanism.coordinates.iter().filter(|coordinate| *coordinate.name != *varied.name);
+    held.map(|coordinate| CoordinateState {
+        name: coordinate.name.to_string(),
+        unit: unit(&coordinate.kind),
+        value: coordinate.value,
+        rate: coordinate.rate,
+    })
+    .collect()
 }
 
 impl RangeWithoutProblem {
@@ -98,8 +111,9 @@ impl Naming {
             ..speed.clone()
         };
         let signs = signs(&mode.pattern);
+        let [from, to] = [&mode.from, &mode.to].map(|end| self.reactions(&mode.pattern, end));
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
-            let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
+            let ((from, from_grows), (to, to_grows)) = (limit(&from, k), limit(&to, k));
             EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
         };
         ModeLimits {
@@ -116,6 +130,18 @@ impl Naming {
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
             speeds: speeds.iter().map(speed).collect(),
         }
+    }
+
+    /// The normal forces at an end of a mode; none if they are not known.
+    fn reactions(&self, pattern: &[ContactState], end: &ModeEnd) -> Vec<Limit> {
+        let Some(mut forces) = end.normal_force.clone() else { return Vec::new() };
+        self.mechanism.put_at_faces(pattern, &mut forces, Limit::Finite(0.0), |one, other| {
+            match (one, other) {
+                (Limit::Finite(one), Limit::Finite(other)) => Limit::Finite(one + other),
+                (Limit::Finite(_), infinite) | (infinite, _) => infinite,
+            }
+        });
+        forces
     }
 
     /// The contacts or guided sliders at which a mode ends.
@@ -174,7 +200,11 @@ pub(super) fn report(
     let forwards = naming.direction(forwards);
     let reversed = reversed.map(|found| naming.direction(found));
     let locked = locked(varied.model().has_guided_sliders());
-    let conclusion = conclusion((varied, found.method), locked, &forwards, reversed.as_ref());
+    let mut conclusion = conclusion((varied, found.method), locked, &forwards, reversed.as_ref());
+    let speeds = forwards.modes.iter().flat_map(|mode| &mode.speeds);
+    if speeds.filter(|speed| speed.friction_exceeds_loads).count() > 0 {
+        conclusion.push(no_drive_prescribes());
+    }
     let value = varied.present().unwrap_or_default();
     let mut guarantee = guarantee(found, &varied.shown_in);
     if varied.is_coordinate() {
@@ -184,6 +214,8 @@ pub(super) fn report(
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
         vary: VariedQuantity::new(varied, range, value),
+        state: held_state(&naming.mechanism, varied),
+        units: varied.model().units.clone(),
         steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
         method: match found.method {
             Method::ClosedForm => LimitsMethod::ClosedForm,
@@ -200,8 +232,8 @@ pub(super) fn report(
     }
 }
 
-fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {
-    match end.normal_force.as_ref().and_then(|force| force.get(contact)) {
+fn limit(forces: &[Limit], contact: usize) -> (Option<f64>, i8) {
+    match forces.get(contact) {
         // Adding zero turns -0 into 0.
         Some(Limit::Finite(value)) => (finite(value + 0.0), 0),
         Some(Limit::Infinite(sign)) => (None, if *sign > 0.0 { 1 } else { -1 }),

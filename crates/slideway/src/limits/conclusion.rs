@@ -34,8 +34,9 @@ pub(super) fn conclusion(
         };
         direction.between_faces_at.iter().map(sentence).collect()
     };
-    let other =
-        reversed.map_or(Vec::new(), |reversed| single(reversed, ", moving in the opposite direction,"));
+    let other = reversed.map_or(Vec::new(), |reversed| {
+        single(reversed, ", moving in the opposite direction with the same loads,")
+    });
     pieces.chain(single(forwards, "")).chain(other).collect()
 }
 

@@ -223,7 +223,7 @@ fn places(mode: &ModeInterval) -> Vec<f64> {
 }
 
 /// The stages at one value of what is varied.
-struct StateAt {
+pub(crate) struct StateAt {
     stages: Stages,
     equations: KineticEquations,
     parts: Parts,
@@ -232,7 +232,7 @@ struct StateAt {
 impl StateAt {
     /// # Errors
     /// Whatever `solve` refuses there.
-    fn new(varied: &Varied, at: f64) -> Result<Self, Faults> {
+    pub(crate) fn new(varied: &Varied, at: f64) -> Result<Self, Faults> {
         let (model, factor) = varied.model_at(at)?;
         let mechanism = Mechanism::new(&model)?;
         let configuration = Configuration::new(&mechanism)?;
@@ -253,9 +253,10 @@ impl StateAt {
         let friction = friction(mechanism, velocity_signs, pattern, &normal_force, &shares);
         let all = || influence.unknowns(&friction, &normal_force);
         Some(match quantity {
-            Quantity::NormalForce => normal_force.iter().copied().collect(),
+            Quantity::NormalForce => mechanism.forces_at_faces(pattern, normal_force.as_slice().to_vec()),
             Quantity::Friction => {
-                friction.iter().map(|friction: &ContactFriction| friction.total()).collect()
+                let friction = friction.iter().map(|friction: &ContactFriction| friction.total());
+                mechanism.forces_at_faces(pattern, friction.collect())
             }
             Quantity::Acceleration => self.equations.coordinate_accelerations(&all()),
             Quantity::Effort => {
@@ -266,7 +267,8 @@ impl StateAt {
         })
     }
 
-    fn verdict(&self, pattern: &[ContactState]) -> Verdict {
+    /// Whether a mechanism with slightly elastic guides settles on a mode.
+    pub(crate) fn verdict(&self, pattern: &[ContactState]) -> Verdict {
         self.stages.data().problem().map_or(Verdict::NotComputed, |problem| {
             ElasticGuides::new(&self.stages.mechanism, &self.equations, &problem).verdict_on(pattern)
         })

@@ -46,7 +46,8 @@ mod text;
 mod varied;
 mod vary;
 
-pub(crate) use answer::Naming;
+pub(crate) use answer::{Naming, held_state};
+pub(crate) use curves::StateAt;
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
 pub(crate) use find::find;
 pub(crate) use found::{ModesFound, SameEnds};

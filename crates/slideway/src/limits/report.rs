@@ -1,8 +1,9 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::found::left_out;
-use crate::report::{JointMode, ModeEndCause, SpeedChange};
-use crate::units::Unit;
+use crate::report::{CoordinateState, JointMode, ModeEndCause, SpeedChange};
+use crate::standstill::CoordinateValue;
+use crate::units::{Unit, Units};
 use serde::Serialize;
 
 /// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
@@ -18,6 +19,11 @@ pub struct LimitsReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
+    /// The coordinates for which it holds, but for one that is varied.
+    pub state: Vec<CoordinateState>,
+    /// The units in which texts show them.
+    #[serde(skip)]
+    pub units: Units,
     /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
     /// branch; absent where they are those of the drawing, and where a coordinate is varied: then `guarantee`
     /// tells of it.
@@ -135,6 +141,9 @@ pub struct SpeedLimits {
     pub to: f64,
     /// What becomes of the speed.
     pub speed: SpeedChange,
+    /// Whether it is proven somewhere in the interval that the loads push the motion and friction takes more power
+    /// than they give; never with drives.
+    pub friction_exceeds_loads: bool,
 }
 
 /// What a normal force does towards both ends of an interval.
@@ -210,6 +219,11 @@ pub struct RestLimitsReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
+    /// The coordinates for which it holds, but for one that is varied.
+    pub state: Vec<CoordinateValue>,
+    /// The units in which texts show them.
+    #[serde(skip)]
+    pub units: Units,
     /// The load that was named, if one was: with its present magnitude, the effort of a drive with none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,

@@ -3,15 +3,17 @@
 //! [`standstill`](crate::standstill) decides at evenly spaced values, and what changes between two of them is
 //! bisected.
 
+use super::answer::held_state;
 use super::found::SameEnds;
 use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
 use super::scan::{bisect, kind};
 use super::vary::Vary;
 use crate::fault::Faults;
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-use crate::standstill::{HoldOptions, can_rest};
+use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
 
 /// Evenly spaced values that are tried: a heuristic.
 const STEPS: usize = 100;
@@ -82,6 +84,8 @@ fn rest_limits_of(
         schema: REST_SCHEMA,
         title: model.title.clone(),
         vary: VariedQuantity::new(&varied, range, varied.present().unwrap_or_default()),
+        state: held_state(&Mechanism::new(model)?, &varied).into_iter().map(CoordinateValue::from).collect(),
+        units: model.units.clone(),
         load: options.load.clone(),
         guarantee: format!(
             "Decided at values {} apart; where the answer changes between two of them it was bisected; what is closer than {} to an end of the range or to zero is told as there. Narrower stretches may be missed.",

@@ -50,29 +50,34 @@ impl Along<'_> {
             if self.work.is_over() {
                 break;
             }
-            let speed = self.speed(coordinate, f64::midpoint(pair[0], pair[1]));
+            let (speed, friction_exceeds_loads) = self.speed(coordinate, f64::midpoint(pair[0], pair[1]));
             match speeds.last_mut() {
-                Some(last) if last.speed == speed => last.to = pair[1],
+                Some(last) if last.speed == speed => {
+                    last.to = pair[1];
+                    last.friction_exceeds_loads |= friction_exceeds_loads;
+                }
                 _ => speeds.push(SpeedLimits {
                     coordinate: name.to_string(),
                     from: pair[0],
                     to: pair[1],
                     speed,
+                    friction_exceeds_loads,
                 }),
             }
         }
         speeds
     }
 
-    /// What the certified solution at a value says.
-    fn speed(&self, coordinate: usize, at: f64) -> SpeedChange {
+    /// What the certified solution at a value says, and whether friction takes more there than the loads give.
+    fn speed(&self, coordinate: usize, at: f64) -> (SpeedChange, bool) {
         let sought = pattern(&self.mode.pattern);
         let found = self.varied.solved(at, self.work).ok();
         let states =
             found.iter().flat_map(|report| report.solutions.iter().chain(&report.preload_gap_states));
         let mut states = states.filter(|state| state.patterns.contains(&sought) || state.pattern == sought);
-        let speed = states.next().and_then(|state| state.coordinates[coordinate].speed);
-        speed.unwrap_or(SpeedChange::Undecided)
+        let state = states.next();
+        let speed = state.and_then(|state| state.coordinates[coordinate].speed);
+        (speed.unwrap_or(SpeedChange::Undecided), state.is_some_and(|state| state.friction_exceeds_loads))
     }
 
     /// The zeros of the acceleration inside the interval, on the lines between mode problems on which the

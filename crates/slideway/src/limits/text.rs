@@ -8,7 +8,8 @@ use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{ModeEndCause, Report, Style, followed, spaced};
+use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, spaced};
+use crate::standstill::CoordinateValue;
 use crate::units::Unit;
 
 impl Report for LimitsReport {
@@ -19,7 +20,7 @@ impl Report for LimitsReport {
         text.direction("", (&self.modes, &self.counts, &self.without_mode_problem));
         if let Some(reversed) = &self.reversed {
             let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
-            text.direction(", moving in the opposite direction", parts);
+            text.direction(", moving in the opposite direction with the same loads", parts);
         }
         text.text()
     }
@@ -35,7 +36,11 @@ impl Report for RestLimitsReport {
         let vary = &self.vary;
         let unit = &vary.shown_in;
         let (range, value) = (unit.range(&vary.name, [vary.from, vary.to]), unit.precise(vary.value));
-        text.line(&format!("At rest, {range} (in the model {value})"));
+        let at =
+            |one: &CoordinateValue| format!("{} = {}", one.name, self.units.of(one.unit).show(one.value));
+        let at: Vec<String> = self.state.iter().map(at).collect();
+        let at = if at.is_empty() { String::new() } else { format!(" at {}", at.join(", ")) };
+        text.line(&format!("At rest{at}, {range} (in the model {value})"));
         text.line("");
         for SpanOfRest { from, to, holds, reason } in &self.spans {
             let verdict = match (holds, reason) {
@@ -65,6 +70,7 @@ impl Page<'_, LimitsReport> {
         let vary = &report.vary;
         let range = vary.shown_in.range(&vary.name, [vary.from, vary.to]);
         self.line(&format!("{range} (in the model {})", vary.shown_in.precise(vary.value)));
+        report.state.iter().for_each(|one: &CoordinateState| self.line(&one.in_words(&report.units)));
         if let Some(steps) = report.steps_from_drawing {
             self.line(&followed(steps));
         }

@@ -286,7 +286,7 @@ impl Varied {
         if self.is_friction_factor() {
             return Ok((self.model.clone(), value));
         }
-        Ok((self.model.with(&self.set(Settings::default(), value))?, 1.0))
+        Ok((self.model.varied_with(&self.set(Settings::default(), value))?, 1.0))
     }
 
     /// The mode problem at a value.

@@ -207,6 +207,9 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
         Some(FaultKind::TravelExceeded { .. } | FaultKind::OverlapVanished { .. }) => {
             "beyond the travel of a joint"
         }
+        Some(FaultKind::MotionWithoutInertia { .. }) => {
+            "massless: a question for `hold`, or for a model with a drive"
+        }
         Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
         Some(
             FaultKind::OutOfRange { .. }

@@ -75,10 +75,7 @@ impl<'a> Evaluator<'a> {
         };
         let faults = faults.unwrap_or_default();
         let sorted = faults.sorted();
-        let reason = sorted.first().map_or_else(String::new, |fault| {
-            let hint = fault.kind.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
-            format!("{}{hint}", fault.kind)
-        });
+        let reason = sorted.first().map_or_else(String::new, |fault| fault.kind.with_hint());
         Fault::general(FaultKind::NoAnswerOnMap { reason }).into()
     }
 
@@ -212,7 +209,7 @@ fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<(Model,
             settings = axis.varied.set(settings, value);
         }
     }
-    Ok((model.with(&settings)?, friction))
+    Ok((model.varied_with(&settings)?, friction))
 }
 
 /// Refuses a quantity on which nothing depends.

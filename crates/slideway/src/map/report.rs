@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::progress::Work;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Report, SpeedChange, Style, indented, locked, precise, spaced};
+use crate::report::{Report, SpeedChange, Style, indented, locked, no_drive_prescribes, precise, spaced};
 use crate::units::Unit;
 use serde::Serialize;
 
@@ -36,6 +36,9 @@ pub struct MapReport {
     pub points: usize,
     /// What can have been missed, in words.
     pub guarantee: String,
+    /// What its colours do not tell, in words; absent if there is nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remark: Option<String>,
     /// Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels
     /// it has on end.
     pub rows: Vec<Vec<[usize; 2]>>,
@@ -118,6 +121,7 @@ impl Report for MapReport {
             class.modes.iter().for_each(|mode| text.line(&format!("               {mode}")));
         }
         text.line(&self.guarantee);
+        self.remark.iter().for_each(|remark| text.line(remark));
         text.text()
     }
 
@@ -181,9 +185,16 @@ pub(super) fn report(
         y: axis(&axes[1], raster.grid.height),
         classes,
         points: raster.solved,
+        remark: remark(model, options.colour_by),
         guarantee: guarantee(raster, options.colour_by, evaluator.is_bilinear()),
         rows,
     }
+}
+
+/// Locking and margins against it are questions to motions that are prescribed.
+fn remark(model: &Model, colour_by: ColourBy) -> Option<String> {
+    let of_locking = matches!(colour_by, ColourBy::Jam | ColourBy::Margin);
+    (of_locking && model.drives.is_empty()).then(no_drive_prescribes)
 }
 
 fn guarantee(raster: &Raster<ClassKey>, colour_by: ColourBy, is_bilinear: bool) -> String {

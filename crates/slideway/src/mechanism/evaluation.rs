@@ -7,8 +7,8 @@ use super::{
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
 use crate::model::{
-    self, Along, Effort as ModelEffort, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
-    Moment, SliderKind, Stop,
+    self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
+    Moment, PreloadLine, SliderKind, Stop,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -156,7 +156,13 @@ impl<T: Real> Evaluation<'_, T> {
         let offsets: &[f64] = if slider.kind == SliderKind::Block { &[0.5, -0.5] } else { &[0.0] };
         let first = contacts.len();
         for (index, contact) in slider.contacts.iter().enumerate() {
-            let of_length = || T::exactly(offsets.get(index).copied().unwrap_or(0.0)) * length;
+            let face = contact
+                .face
+                .map(|Face { is_positive, other }| Face { is_positive, other: ContactId(first + other) });
+            let place = contact.face.filter(|face| !face.is_positive).map_or(index, |face| face.other);
+            let of_length = || T::exactly(offsets.get(place).copied().unwrap_or(0.0)) * length;
+            // Each face of a press fit has half of it.
+            let part = T::exactly(if face.is_some() { 0.5 } else { 1.0 });
             contacts.push(Contact {
                 name: contact.name.clone(),
                 joint,
@@ -167,8 +173,8 @@ impl<T: Real> Evaluation<'_, T> {
                 mu_static: contact.mu_static.map(|mu| self.value(mu)),
                 preload: contact
                     .preload
-                    .map(|preload| preload.map_or(T::zero(), |preload| self.value(preload))),
-                preload_line: contact.preload_line,
+                    .map(|preload| preload.map_or(T::zero(), |preload| part * self.value(preload))),
+                preload_line: if face.is_some() { PreloadLine::Centre } else { contact.preload_line },
                 stiffness: contact.stiffness.map(|stiffness| self.value(stiffness)),
                 play: contact.play.map_or(T::zero(), |play| self.value(play)),
                 misalignment: contact
@@ -179,6 +185,7 @@ impl<T: Real> Evaluation<'_, T> {
                 pad: contact.pad.map(|pad| {
                     [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
                 }),
+                face,
             });
         }
         Slider {

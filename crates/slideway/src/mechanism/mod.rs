@@ -6,6 +6,7 @@
 mod evaluation;
 mod excess;
 mod pad;
+mod press_fit;
 mod relations;
 
 use crate::expression::{Expression, Values};
@@ -13,7 +14,7 @@ use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{
-    CarriedBy, CrossingDirection, Formula, Model, OutlineCorner, PreloadLine, SliderKind, Stop,
+    CarriedBy, CrossingDirection, Face, Formula, Model, OutlineCorner, PreloadLine, SliderKind, Stop,
 };
 use crate::units::Units;
 use evaluation::Evaluation;
@@ -145,7 +146,8 @@ pub struct Slider<T = f64> {
     pub travel: Option<[T; 2]>,
     /// The stops at the least and at the greatest displacement; without, the motion ends there.
     pub stops: [Option<Stop<T>>; 2],
-    /// Its contacts: front, rear and further supports of a block slider, else the only one.
+    /// Its contacts: front, rear and further supports of a block slider, else the only one; then the negative faces
+    /// of press fits.
     pub contacts: Vec<ContactId>,
 }
 
@@ -195,6 +197,8 @@ pub struct Contact<T = f64> {
     pub misalignment_law: Option<FormulaId>,
     /// Length and width of the area in contact (m), if the model gives it.
     pub pad: Option<[T; 2]>,
+    /// Which face of a press fit it is, with half of its preload.
+    pub face: Option<Face<ContactId>>,
 }
 
 impl Contact {
@@ -415,6 +419,7 @@ impl Mechanism {
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
         mechanism.check_play()?;
+        mechanism.check_signs_of_play()?;
         mechanism.excess = mechanism.found_excess();
         Ok(mechanism)
     }
@@ -425,7 +430,7 @@ impl Mechanism {
         let mut faults = Faults::default();
         for joint in &self.joints {
             let JointKind::Slider(slider) = &joint.kind else { continue };
-            let contacts = || slider.contacts.iter().map(|contact| &self.contacts[contact.index()]);
+            let contacts = || self.places_of(slider).map(|contact| &self.contacts[contact.index()]);
             let ends = contacts()
                 .map(|contact| contact.offset)
                 .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], offset| {
@@ -434,7 +439,7 @@ impl Mechanism {
             let distance = ends[1] - ends[0];
             for contact in contacts().filter(|contact| distance > 0.0 && contact.play.abs() >= distance) {
                 let [play, distance] = [contact.play, distance].map(|length| self.units.of("m").show(length));
-                let kind = FaultKind::PlayBeyondBlock { contact: contact.name.to_string(), play, distance };
+                let kind = FaultKind::PlayBeyondBlock { contact: contact.place().to_owned(), play, distance };
                 faults.push(Fault::new(kind, joint.place.clone()));
             }
         }
@@ -531,7 +536,9 @@ impl Mechanism<Interval> {
     ) -> Result<Self, Faults> {
         let values = model.enclosed_constants(given)?;
         let (size, excess) = (nominal.size, nominal.excess.clone());
-        Ok(Self { size, excess, ..Evaluation { model, values }.mechanism() })
+        let mechanism = Self { size, excess, ..Evaluation { model, values }.mechanism() };
+        mechanism.check_signs_of_play()?;
+        Ok(mechanism)
     }
 }
 

@@ -26,6 +26,7 @@ impl Model {
         self.order_parameters(&mut faults);
         self.check_dimensions(&mut faults);
         let values = self.allowed_values(&[], &mut faults);
+        self.split_press_fits(&values);
         self.check_relations(&values, &mut faults);
         if complete {
             self.check_connections(&values, &mut faults);

@@ -130,7 +130,8 @@ pub(super) struct BlockSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at each contact (N/m).
     pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
+    /// press fit. Default: 0.
     pub(super) play: Option<Quantity>,
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
@@ -167,7 +168,8 @@ pub(super) struct EndTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at this contact (N/m).
     pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
+    /// press fit. Default: 0.
     pub(super) play: Option<Quantity>,
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
@@ -194,7 +196,8 @@ pub(super) struct SupportTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at this contact (N/m).
     pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
+    /// press fit. Default: 0.
     pub(super) play: Option<Quantity>,
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
@@ -231,7 +234,8 @@ pub(super) struct GuidedSliderTable {
     pub(super) preload_line: Option<PreloadLine>,
     /// Stiffness of the guide at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
+    /// press fit. Default: 0.
     pub(super) play: Option<Quantity>,
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
@@ -266,7 +270,8 @@ pub(super) struct PinInSlotTable {
     pub(super) preload: Option<PerSide>,
     /// Stiffness of the slot at the contact (N/m).
     pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load. Default: 0.
+    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
+    /// press fit. Default: 0.
     pub(super) play: Option<Quantity>,
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.

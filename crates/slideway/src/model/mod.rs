@@ -34,7 +34,7 @@
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
 //! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
 //! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `value.rs` is what is
-//! given, `settings.rs` applies changes, `typed.rs` tells in which units a file was typed, `outline.rs`
+//! given, `settings.rs` applies changes, `press_fit.rs` splits contacts with negative play, `typed.rs` tells in which units a file was typed, `outline.rs`
 //! has the arcs of outlines.
 
 mod check;
@@ -42,6 +42,7 @@ mod dependence;
 mod file;
 mod formula;
 pub mod outline;
+mod press_fit;
 mod quantity;
 mod range;
 mod read;
@@ -59,6 +60,8 @@ pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
 pub(crate) use formula::POSITIVE;
 pub use formula::{Allowed, Formula, Origin, Varies};
 pub use outline::OutlineCorner;
+pub use press_fit::Face;
+pub(crate) use press_fit::place_of;
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
 pub use stop::Stop;
@@ -248,7 +251,8 @@ pub struct Slider {
     pub travel: Option<[FormulaId; 2]>,
     /// The stops at the least and at the greatest displacement; without, the motion ends there.
     pub stops: [Option<Stop<FormulaId>>; 2],
-    /// Its contacts: front and rear of a block slider, else the only one.
+    /// Its contacts: front, rear and further supports of a block slider, else the only one; then the negative faces
+    /// of press fits.
     pub contacts: Vec<Contact>,
 }
 
@@ -286,6 +290,8 @@ pub struct Contact {
     pub misalignment: Option<FormulaId>,
     /// Its area, for the bearing pressure.
     pub pad: Option<Pad>,
+    /// Which face of a press fit it is.
+    pub face: Option<Face<usize>>,
 }
 
 /// The area in contact at a contact.

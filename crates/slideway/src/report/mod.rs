@@ -20,7 +20,8 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
-pub use sharing::{Elasticity, LoadSharing, StiffnessRatios};
+pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
+pub(crate) use speed::no_drive_prescribes;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
@@ -376,12 +377,27 @@ pub struct Margins {
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several
     /// already): there a determinant is proven to change its sign. Of redundant guides, for every play, misalignment
     /// and stiffness, too (theory, eq. (R4)). Absent if no determinant changes its sign, or if that was not asked
-    /// because preloads jump with the side of contact.
+    /// because preloads jump with the side of contact, or because of press fits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
+    /// Where there is no solution: to what all friction would have to fall for one; absent where there is one, and
+    /// where none comes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moves_below: Option<Unlocking>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_contact: Option<CriticalContact>,
+}
+
+/// The friction below which a mechanism that is locked would move.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Unlocking {
+    /// As a factor of that of the model, below 1.
+    pub factor: f64,
+    /// The coefficient itself; absent where contacts differ in theirs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
 }
 
 /// The contact whose coefficient of friction matters most.

@@ -1,6 +1,7 @@
-//! How redundant guides share a load.
+//! How redundant guides share a load, and how firmly press fits grip.
 
 use super::text::spaced;
+use crate::units::Units;
 use serde::Serialize;
 
 /// What is taken for the elasticity of contacts that share a load.
@@ -15,20 +16,35 @@ pub enum Elasticity {
     Equal,
 }
 
-/// How redundant guides share a load.
+/// How redundant guides share a load, and the two faces of press fits.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct LoadSharing {
-    /// Degree of redundancy: the number of independent self-stresses.
+    /// Degree of redundancy: the number of independent self-stresses, without those between the two faces of a
+    /// press fit.
     pub self_stresses: usize,
     /// The contacts that share a load, in groups that do not act on one another by self-stresses.
     pub groups: Vec<Vec<String>>,
     /// What is taken for their elasticity.
     pub elasticity: Elasticity,
+    /// The press fits.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub press_fits: Vec<PressFit>,
     /// Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for rigid
     /// faces, and where there are too many patterns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_ratios: Option<StiffnessRatios>,
+}
+
+/// A contact with negative play: both of its faces are pressed unless the load exceeds the grip.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PressFit {
+    /// The contact; its faces have this name and ".plus" or ".minus" behind it.
+    pub contact: String,
+    /// `N_0 = k |play|` (N), with the stiffness `k` of one face: the sum of the forces on both faces as long as both are
+    /// pressed.
+    pub grip: f64,
 }
 
 /// The contact modes for stiffnesses of a tenth to ten times those of the model, contact by contact.
@@ -46,7 +62,20 @@ pub struct StiffnessRatios {
 
 impl LoadSharing {
     /// In words, one sentence or more in each line.
-    pub fn in_words(&self) -> Vec<String> {
+    pub fn in_words(&self, units: &Units) -> Vec<String> {
+        let mut lines = if self.self_stresses > 0 { self.redundancy_in_words() } else { Vec::new() };
+        if !self.press_fits.is_empty() {
+            let grip = |fit: &PressFit| format!("{} {}", fit.contact, units.of("N").show(fit.grip));
+            let fits: Vec<String> = self.press_fits.iter().map(grip).collect();
+            lines.push(format!(
+                "Press fits, with the sum of the forces on both faces while both are pressed: {}.",
+                fits.join(", ")
+            ));
+        }
+        lines
+    }
+
+    fn redundancy_in_words(&self) -> Vec<String> {
         let groups: Vec<String> = self.groups.iter().map(|group| group.join(", ")).collect();
         let how = match self.elasticity {
             Elasticity::Given => "by the stiffness, play and misalignment of each",

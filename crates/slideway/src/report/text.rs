@@ -2,11 +2,11 @@
 
 use super::number::number;
 use super::page::Page;
+use super::speed::friction_takes_more;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, LoadSharing, ModeEndCause,
-    ModeMargin, PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status,
-    UncertainMode,
+    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
+    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, UncertainMode,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
@@ -87,6 +87,56 @@ impl SolveReport {
         coordinate.speed.filter(|change| *change != SpeedChange::Undecided)
     }
 
+    /// What holds for all values of parameters that are known within bounds, in sentences: "1 solution for every value,
+    /// proven with 3 parts."; none without such parameters.
+    pub fn for_all_values(&self) -> Vec<String> {
+        let Some(uncertainty) = &self.uncertainty else { return Vec::new() };
+        let least = uncertainty.least_solutions;
+        let solutions = match uncertainty.most_solutions {
+            Some(most) if most == least => {
+                format!("{} for every value", count(least, "solution", "solutions"))
+            }
+            Some(most) => format!("{least} to {} for every value", count(most, "solution", "solutions")),
+            None => format!("at least {} for every value", count(least, "solution", "solutions")),
+        };
+        let proven = format!("{solutions}, proven with {}.", count(uncertainty.parts, "part", "parts"));
+        let open =
+            uncertainty.open.iter().map(|reason| format!("Not all values could be decided: {reason}."));
+        std::iter::once(proven).chain(open).collect()
+    }
+
+    /// That friction takes more than the loads give, and how to ask whether it jams; none where no solution slows
+    /// down although the loads push it.
+    pub fn remark(&self) -> Option<String> {
+        self.solutions.iter().any(slows_though_pushed).then(friction_takes_more)
+    }
+
+    /// What becomes of the speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down,
+    /// and would stop after 0.1 s and 0.2 m if nothing changed."
+    pub fn speeds_in_words(&self, solution: &Solution) -> Vec<String> {
+        let is_only = self.state.len() == 1;
+        let mut sentences = Vec::new();
+        for (state, coordinate) in self.state.iter().zip(&solution.coordinates) {
+            let Some(change) = coordinate.speed else { continue };
+            let who = if is_only { "It" } else { &coordinate.name };
+            let mut line = format!("{who} {}", change.in_words());
+            if let Some(stop) = &coordinate.stop {
+                let units = &self.model.units;
+                let (time, distance) =
+                    (units.of("s").show(stop.time), units.of(state.unit).show(stop.distance));
+                let _ = write!(line, ", and would stop after {time} and {distance} if nothing changed");
+            }
+            if self.rates_not_given.contains(&coordinate.name) {
+                line.push_str(" (the model gives no rate: it is taken as zero)");
+            }
+            sentences.push(line + ".");
+        }
+        let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
+        let from_rest = self.from_rest.filter(|_| slows);
+        sentences.extend(from_rest.map(|from_rest| format!("Once it is at rest, {}.", from_rest.in_words())));
+        sentences
+    }
+
     /// How far all friction may grow before the answer changes, in words; empty where there is nothing to tell.
     pub fn margins_in_words(&self) -> String {
         let mut text = Page::new(self, Style::Plain);
@@ -121,8 +171,8 @@ impl Text<'_> {
         if let Some(steps) = self.report.steps_from_drawing {
             self.line(&followed(steps));
         }
-        for line in self.report.sharing.iter().flat_map(LoadSharing::in_words) {
-            self.line(&line);
+        if let Some(sharing) = &self.report.sharing {
+            sharing.in_words(&model.units).iter().for_each(|line| self.line(line));
         }
         self.line("");
     }
@@ -131,7 +181,9 @@ impl Text<'_> {
         let report = self.report;
         self.status(report.status, &report.verdict_in_words());
         let search = match &report.patterns {
-            Some(patterns) => tried(patterns, self.report.sharing.is_some()),
+            Some(patterns) => {
+                tried(patterns, self.report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
+            }
             None => {
                 format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
             }
@@ -144,10 +196,8 @@ impl Text<'_> {
         for group in &report.jammed_groups {
             self.line(&format!("Contacts without a solution on their own: {}.", group.join(", ")));
         }
-        if report.solutions.iter().any(slows_though_pushed) {
-            self.line(
-                "Friction takes more than the loads give. To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.",
-            );
+        if let Some(remark) = report.remark() {
+            self.line(&remark);
         }
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
@@ -185,7 +235,7 @@ impl Text<'_> {
             self.line("  Found within tolerances, not proven.");
         }
         self.modes(&solution.joints);
-        self.speeds(solution);
+        self.report.speeds_in_words(solution).iter().for_each(|line| self.line(&format!("  {line}")));
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
         let contacts = contact_table(&solution.contacts, &self.report.model.units);
@@ -206,32 +256,6 @@ impl Text<'_> {
             "  {determinant}, equilibrium of every body to within {}",
             power_of_ten_above(solution.residual)
         ));
-    }
-
-    /// What becomes of the speeds: "It slows down, and would stop after 0.1 s and 0.2 m if nothing changed".
-    fn speeds(&mut self, solution: &Solution) {
-        let report = self.report;
-        let is_only = report.state.len() == 1;
-        for (state, coordinate) in report.state.iter().zip(&solution.coordinates) {
-            let Some(change) = coordinate.speed else { continue };
-            let who = if is_only { "It" } else { &coordinate.name };
-            let mut line = format!("  {who} {}", change.in_words());
-            if let Some(stop) = &coordinate.stop {
-                let units = &report.model.units;
-                let (time, distance) =
-                    (units.of("s").show(stop.time), units.of(state.unit).show(stop.distance));
-                let _ = write!(line, ", and would stop after {time} and {distance}");
-                line.push_str(" if nothing changed");
-            }
-            if report.rates_not_given.contains(&coordinate.name) {
-                line.push_str(" (the model gives no rate: it is taken as zero)");
-            }
-            self.line(&format!("{line}."));
-        }
-        let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
-        if let Some(from_rest) = report.from_rest.filter(|_| slows) {
-            self.line(&format!("  Once it is at rest, {}.", from_rest.in_words()));
-        }
     }
 
     fn modes(&mut self, joints: &[JointMode]) {
@@ -280,6 +304,13 @@ impl Text<'_> {
             let (contact, factor) = (&critical.contact, number(critical.factor));
             parts.push(format!("{contact} is the most critical single contact, with a factor of {factor}"));
         }
+        if let Some(below) = margins.moves_below {
+            let mu = below.mu.map_or_else(String::new, |mu| format!(" (mu below {})", number(mu)));
+            self.line(&format!(
+                "It jams: it would move with less than {} times the friction{mu}.",
+                number(below.factor)
+            ));
+        }
         let guides = self.report.sharing.is_some();
         if let Some(factor) = margins.uniqueness {
             let [one, several] = if guides {
@@ -311,18 +342,7 @@ impl Text<'_> {
             .map(|range| range.shown_in.range(&range.name, [range.from, range.to]))
             .collect();
         self.headline(&format!("For {}", ranges.join(", ")));
-        let least = uncertainty.least_solutions;
-        let solutions = match uncertainty.most_solutions {
-            Some(most) if most == least => {
-                format!("{} for every value", count(least, "solution", "solutions"))
-            }
-            Some(most) => format!("{least} to {} for every value", count(most, "solution", "solutions")),
-            None => format!("at least {} for every value", count(least, "solution", "solutions")),
-        };
-        self.line(&format!("  {solutions}, proven with {}.", count(uncertainty.parts, "part", "parts")));
-        for reason in &uncertainty.open {
-            self.line(&format!("  Not all values could be decided: {reason}."));
-        }
+        self.report.for_all_values().iter().for_each(|line| self.line(&format!("  {line}")));
         let rows: Vec<Vec<String>> =
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
         let forces = self.report.model.units.of("N").title("normal forces");

@@ -52,7 +52,7 @@ pub(super) fn level(
 /// The place of the drive or contact that is named among all; none if all of them count.
 fn picked(varied: &Varied, against: &Against, at: &Efforts) -> Result<Option<usize>, Faults> {
     let names = |counts: &dyn Fn(&Contact) -> bool| -> Vec<Option<&str>> {
-        at.contacts.iter().map(|contact| counts(contact).then_some(&*contact.name)).collect()
+        at.mechanism.contacts.iter().map(|contact| counts(contact).then_some(&*contact.name)).collect()
     };
     let (name, what, names) = match against {
         Against::Effort { drive } => {
@@ -84,7 +84,7 @@ fn of_forces(against: &Against, picked: Option<usize>, at: &Efforts, forces: &Fo
         Against::NormalForce { .. } => Ok(greatest(&forces.normal_forces)),
         Against::Pressure { .. } => {
             // Where there is no pad there is none.
-            let contacts = at.contacts.iter().zip(&forces.normal_forces);
+            let contacts = at.mechanism.contacts.iter().zip(&forces.normal_forces);
             let pressures = contacts.map(|(contact, force)| contact.pressure(*force).unwrap_or_default());
             let pressure = greatest(&pressures.collect::<Vec<_>>());
             let overflow = || FaultKind::Overflow { quantity: "the bearing pressure".to_owned() };

@@ -6,13 +6,11 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::progress::Work;
-use crate::solve::GROWING;
+use crate::solve::{FALLING, GROWING};
 use crate::standstill::self_locking_factor;
 
 /// The most patterns for which a margin is computed.
 const PATTERNS: u64 = 1 << 12;
-/// From no friction to that of the model.
-const FALLING: [f64; 2] = [0.0, 1.0];
 /// Factors between those two at which states between faces are sought: a heuristic.
 const TRIED: u32 = 8;
 /// Gaps between modes that are narrower than this, relative to where they are, come from rounding.

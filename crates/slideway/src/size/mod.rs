@@ -36,7 +36,8 @@ pub use report::{
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Vary, range_around};
+use crate::limits::{Vary, held_state, range_around};
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -205,7 +206,13 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
     let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
-    finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
+    if found.places.iter().all(|place| place.margin.is_none()) {
+        // Nowhere an answer: the faults in the middle say why.
+        question.margin(f64::midpoint(range[0], range[1]), work)?;
+    }
+    let state = held_state(&Mechanism::new(model)?, &varied);
+    let sought = report::Sought { question, range, steps, value, present, found };
+    finite(report::report(model, state, options, &sought))
 }
 
 /// # Errors

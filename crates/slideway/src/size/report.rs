@@ -6,7 +6,8 @@ use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::{SameEnds, VariedQuantity};
 use crate::model::{Effort, Model};
-use crate::units::Unit;
+use crate::report::CoordinateState;
+use crate::units::{Unit, Units};
 use serde::Serialize;
 
 /// Version of the layout of a [`SizeReport`]; changes whenever a field is renamed or removed.
@@ -69,6 +70,11 @@ pub struct SizeReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
+    /// The coordinates for which it holds, but for one that is varied; at rest their rates are taken as zero.
+    pub state: Vec<CoordinateState>,
+    /// The units in which texts show them.
+    #[serde(skip)]
+    pub units: Units,
     /// Which margin is meant.
     pub against: MarginKind,
     /// The load, drive or contact that it concerns; absent against locking, and where it concerns all.
@@ -186,7 +192,12 @@ pub(super) struct Sought<'q> {
     pub(super) found: SizesFound,
 }
 
-pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) -> SizeReport {
+pub(super) fn report(
+    model: &Model,
+    state: Vec<CoordinateState>,
+    options: &SizeOptions,
+    sought: &Sought<'_>,
+) -> SizeReport {
     let Sought { question, range, steps, value, present, found } = sought;
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
@@ -205,6 +216,8 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         schema: SCHEMA,
         title: model.title.clone(),
         vary,
+        state,
+        units: model.units.clone(),
         against,
         load,
         margin: options.margin,

@@ -1,11 +1,11 @@
 //! A design as text for people.
 
-use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
+use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::{level, subject};
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Report, Style};
+use crate::report::{CoordinateState, Report, Style};
 
 impl Report for SizeReport {
     /// What it comes to, where the margin is met, and a table of margins.
@@ -26,6 +26,13 @@ impl Page<'_, SizeReport> {
         }
         let vary = &report.vary;
         self.line(&vary.shown_in.range(&vary.name, [vary.from, vary.to]));
+        let at = |one: &CoordinateState| match report.against {
+            MarginKind::SelfLocking | MarginKind::Hold => {
+                format!("At rest at {} = {}", one.name, report.units.of(one.unit).show(one.value))
+            }
+            _ => one.in_words(&report.units),
+        };
+        report.state.iter().for_each(|one| self.line(&at(one)));
         self.line("");
         for sentence in &report.conclusion {
             self.headline(sentence);

@@ -3,6 +3,7 @@
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
 use crate::limits::no_answer;
+use crate::report::no_drive_prescribes;
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::units::Unit;
@@ -17,9 +18,6 @@ pub(super) struct Words<'r> {
     /// Whether a drive prescribes the motion.
     pub(super) driven: bool,
 }
-
-/// What a margin against locking does not count.
-const ONLY_SLOWS: &str = "No drive prescribes the motion: where friction takes more than the loads give, it slows the motion down to a stop, which is no locking. To ask whether it jams under a push, prescribe the motion (a drive) or see `slideway hold`.";
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
     let (wanted, level) =
@@ -38,7 +36,7 @@ impl Words<'_> {
         sentences.push(self.present());
         sentences.extend(self.constant());
         if !self.driven && self.report.against == MarginKind::Locking {
-            sentences.push(ONLY_SLOWS.to_owned());
+            sentences.push(no_drive_prescribes());
         }
         let report = self.report;
         for gap in &report.without_position {

@@ -136,16 +136,22 @@ impl<'a> Answer<'a> {
 
     /// By how much a contact is displaced against its guide (m): -(delta + f N) where it is pressed towards +n,
     /// delta - f N towards -n, between -delta and delta where it is open; none where it shares no load, or only
-    /// ratios of stiffnesses are known, and where the block floats.
-    fn deflection(&self, state: &State<'_>, contact: usize) -> Option<f64> {
+    /// ratios of stiffnesses are known, and where the block floats. The open face of a press fit moves with the other
+    /// one.
+    fn deflection(&self, state: &State<'_>, normal_forces: &[f64], contact: usize) -> Option<f64> {
         let shared = self.shared.as_ref().filter(|_| {
             self.mechanism.excess.shares(ContactId(contact)) && self.elasticity != Some(Elasticity::Equal)
         })?;
         if self.floating(&state.signs).contains(&contact) {
             return None;
         }
-        let (clearance, compliance) = (shared.clearance[contact], shared.compliance[contact]);
-        let yielding = compliance * state.normal_force[contact];
+        let face = self.mechanism.contacts[contact].face;
+        let contact = match face {
+            Some(face) if normal_forces[contact] == 0.0 => face.other.index(),
+            _ => contact,
+        };
+        let clearance = self.mechanism.contacts[contact].play / 2.0;
+        let yielding = shared.compliance[contact] * normal_forces[contact];
         Some(match state.pattern[contact] {
             ContactState::Positive => -clearance - yielding,
             ContactState::Negative => clearance - yielding,
@@ -212,7 +218,7 @@ impl<'a> Answer<'a> {
             title: self.mechanism.title.clone(),
             degrees_of_freedom: self.mechanism.coordinates.len(),
             bodies: self.mechanism.bodies.len(),
-            contacts: self.mechanism.contacts.len(),
+            contacts: self.mechanism.places().count(),
             drives: self.mechanism.drives.len(),
             units: self.mechanism.units.clone(),
         }
@@ -343,23 +349,38 @@ impl<'a> Answer<'a> {
         unknowns: &DVector<f64>,
         friction: &[ContactFriction],
     ) -> Vec<report::Contact> {
+        let at_faces = |forces: Vec<f64>| self.mechanism.forces_at_faces(state.pattern, forces);
+        let normal_forces = at_faces(state.normal_force.iter().copied().collect());
+        let friction = at_faces(friction.iter().map(|friction| friction.total()).collect());
+        let bounds = self.bounds(state);
         let one = |k: usize| {
             let contact = &self.mechanism.contacts[k];
             report::Contact {
                 name: contact.name.to_string(),
                 side: state.signs[k],
                 // Adding zero turns -0 into 0.
-                normal_force: state.normal_force[k] + 0.0,
-                normal_force_bounds: bounds(state, k),
-                friction_force: friction[k].total() + 0.0,
+                normal_force: normal_forces[k] + 0.0,
+                normal_force_bounds: bounds.as_ref().map(|bounds| bounds[k]),
+                friction_force: friction[k] + 0.0,
                 sliding_velocity: self.equations.contacts[k].sliding_velocity,
                 couple: self.couple(contact.joint, unknowns),
-                pressure: contact.pressure(state.normal_force[k]),
+                pressure: contact.pressure(normal_forces[k]),
                 preload_share: state.shares[k].filter(|_| self.mechanism.preload_jumps(ContactId(k))),
-                deflection: self.deflection(state, k),
+                deflection: self.deflection(state, &normal_forces, k),
             }
         };
         (0..state.pattern.len()).map(one).collect()
+    }
+
+    /// Proven bounds of the normal forces.
+    fn bounds(&self, state: &State<'_>) -> Option<Vec<[f64; 2]>> {
+        let signed = |(state, absolute): (&ContactState, &Interval)| match state {
+            ContactState::Positive => *absolute,
+            ContactState::Negative => -*absolute,
+            ContactState::Gap => Interval::ZERO,
+        };
+        let forces = state.pattern.iter().zip(state.certificate.unknowns()?).map(signed);
+        Some(self.mechanism.bounds_at_faces(state.pattern, forces.collect()))
     }
 
     pub(super) fn joint_modes(&self, signs: &[i8]) -> Vec<report::JointMode> {
@@ -468,9 +489,10 @@ impl<'a> Answer<'a> {
     }
 
     fn continuum(&self, mode: &SingularMode) -> Option<report::Continuum> {
-        let list = |vectors: Vec<&DVector<f64>>| {
-            vectors.into_iter().map(|vector| vector.iter().copied().collect()).collect()
+        let forces = |vector: &DVector<f64>| {
+            self.mechanism.forces_at_faces(&mode.pattern, vector.iter().copied().collect())
         };
+        let list = |vectors: Vec<&DVector<f64>>| vectors.into_iter().map(forces).collect();
         mode.set.is_continuum().then(|| report::Continuum {
             pattern: pattern(&mode.pattern),
             vertices: list(mode.set.vertices()),
@@ -517,16 +539,6 @@ fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> St
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,
         _ => Status::Several,
-    }
-}
-
-/// Proven bounds of a normal force.
-fn bounds(state: &State<'_>, contact: usize) -> Option<[f64; 2]> {
-    let absolute = state.certificate.unknowns()?[contact];
-    match state.pattern[contact] {
-        ContactState::Positive => Some([absolute.lower(), absolute.upper()]),
-        ContactState::Negative => Some([-absolute.upper(), -absolute.lower()]),
-        ContactState::Gap => Some([0.0, 0.0]),
     }
 }
 

@@ -15,13 +15,15 @@ use crate::modes::existence::{
     nothing_is_left,
 };
 use crate::modes::{BySide, ContactState, SharedLoad};
-use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport};
+use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Unlocking};
 use nalgebra::DMatrix;
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
 /// From the present friction without end, as a factor.
 pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
+/// From no friction to that of the model, as a factor.
+pub(crate) const FALLING: [f64; 2] = [0.0, 1.0];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.
 pub(crate) const AT_ONCE: f64 = 1e-9;
 
@@ -64,6 +66,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, enclosed)),
+        moves_below: all.counts.first().filter(|count| is_jammed(count)).and_then(|_| moves_below(data)),
         critical_contact: critical_contact(data),
     });
 }
@@ -71,11 +74,11 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
 /// The factor up to which every load has exactly one solution, where a determinant is proven to change its sign;
 /// none if there is no such factor, or with jumps of preloads. Of redundant guides, whatever their play,
 /// misalignment and stiffness: these decide which determinate part of the mechanism carries alone, and the
-/// determinants of all of these parts count.
+/// determinants of all of these parts count. Not asked of press fits, whose faces are pressed both.
 fn uniqueness(data: ProblemData<'_>, enclosed: &EnclosedModeProblem) -> Option<f64> {
     let ProblemData { mechanism, influence, velocity_signs } = data;
     let determinate = determinate_problem(mechanism, influence, velocity_signs).ok()?;
-    if determinate.jumps_of_contacts().contains(&true) {
+    if determinate.jumps_of_contacts().contains(&true) || !mechanism.press_fits().is_empty() {
         return None;
     }
     let shared = enclosed.shared.as_ref().map(|shared| SharedLoad {
@@ -105,13 +108,28 @@ struct Growth {
     counts: Vec<CountInterval>,
 }
 
+/// To what all friction would have to fall for a solution; none if there is none down to no friction at all, or
+/// one comes at once.
+fn moves_below(data: ProblemData<'_>) -> Option<Unlocking> {
+    let falling = Growth::over(FALLING, data, &|_| true)?;
+    let last = falling.counts.iter().rfind(|count| !is_jammed(count))?;
+    let factor = last.to;
+    let mut coefficients =
+        data.mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
+    let first = coefficients.next()?;
+    let mu = coefficients.all(|mu| mu == first).then_some(factor * first);
+    (factor < 1.0 - AT_ONCE).then_some(Unlocking { factor, mu })
+}
+
 /// The contact whose friction alone changes the number of solutions at the smallest factor.
 fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
     let contacts = data.mechanism.contacts.iter().enumerate();
-    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2]);
+    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2] && !contact.is_second_face());
     let factor = |(k, contact): (usize, &crate::mechanism::Contact)| {
-        let factor = Growth::along(data, &|other| other == k)?.another_count()?;
-        Some(CriticalContact { contact: contact.name.to_string(), factor })
+        let other_face = contact.face.map(|face| face.other.index());
+        let factor =
+            Growth::along(data, &|other| other == k || Some(other) == other_face)?.another_count()?;
+        Some(CriticalContact { contact: contact.place().to_owned(), factor })
     };
     rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
 }
@@ -125,10 +143,15 @@ fn line(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Result<ModeProb
 impl Growth {
     /// The modes while the friction of some contacts grows; none past the limit of work.
     fn along(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
+        Self::over(GROWING, data, grows)
+    }
+
+    /// The modes over a range of factors of the friction of some contacts; none past the limit of work.
+    fn over(range: [f64; 2], data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
         let line = line(data, grows).ok()?;
-        let options = ExistenceOptions { range: GROWING, greatest_normal_force: None, patterns: PATTERNS };
+        let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
         let existence = line.existence(&options).ok()?;
-        let counts = counts(&line, &existence, GROWING);
+        let counts = counts(&line, &existence, range);
         Some(Self { line, existence, counts })
     }
 

@@ -4,6 +4,7 @@ use super::mode_problem::{determinate_problem, self_stresses};
 use super::stages::Stages;
 use crate::attainability::ratios;
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
@@ -17,7 +18,8 @@ use std::collections::BTreeSet;
 /// tried if `ratios` are asked for.
 pub(super) fn add(report: &mut SolveReport, stages: &Stages, ratios: bool) -> Result<(), Faults> {
     let Some(mut sharing) = load_sharing(&stages.mechanism, &stages.influence)? else { return Ok(()) };
-    if let (Some(shared), true) = (stages.shared_load()?, ratios && sharing.elasticity != Elasticity::Rigid) {
+    let ratios = ratios && sharing.self_stresses > 0 && sharing.elasticity != Elasticity::Rigid;
+    if let (Some(shared), true) = (stages.shared_load()?, ratios) {
         sharing.stiffness_ratios = stiffness_ratios(stages, &shared)?;
     }
     report.sharing = Some(sharing);
@@ -84,12 +86,14 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
     let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
     let mut patterns = Patterns::new(&problem, &stages.mechanism.excess.open);
     let Some(as_given) = patterns.of(shared) else { return Ok(None) };
-    let sharing: Vec<usize> = (0..shared.compliance.len()).filter(|&k| shared.shares(k)).collect();
+    let places = stages.mechanism.places().map(ContactId::index);
+    let sharing: Vec<usize> = places.filter(|&k| shared.shares(k)).collect();
     let mut others = BTreeSet::new();
     let (mut tried, mut same) = (0, true);
     for factors in ratios(sharing.len()) {
         let mut compliance: DVector<f64> = shared.compliance.clone();
         sharing.iter().zip(&factors).for_each(|(&k, factor)| compliance[k] /= *factor);
+        shared.press_fits.iter().for_each(|&[face, other]| compliance[other] = compliance[face]);
         let Some(found) = patterns.of(&SharedLoad { compliance, ..shared.clone() }) else {
             return Ok(None);
         };

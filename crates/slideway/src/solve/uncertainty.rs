@@ -8,7 +8,7 @@ use super::SolveOptions;
 use super::answer::Answer;
 use super::state::{pattern, pressed, signs};
 use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosure};
-use crate::interval::Interval;
+use crate::interval::{Interval, Real};
 use crate::model::{Model, ParameterRange};
 use crate::modes::{Certificate, Completeness, ContactState, SearchResult, StateLists, search};
 use crate::progress::Callback;
@@ -126,7 +126,10 @@ impl Answer<'_> {
         let mut records: BTreeMap<&[ContactState], Record> = BTreeMap::new();
         for modes in searched.iter().flatten() {
             for (mode, presence) in modes {
-                let found = presence.unknowns.as_deref().map(|unknowns| forces(mode, unknowns));
+                let found = presence
+                    .unknowns
+                    .as_deref()
+                    .map(|unknowns| self.mechanism.bounds_at_faces(mode, forces(mode, unknowns)));
                 let record =
                     records.entry(mode).or_insert_with(|| Record { certain: 0, bounds: found.clone() });
                 record.certain += usize::from(presence.certain);
@@ -246,11 +249,11 @@ pub(crate) fn certain_counts(
 }
 
 /// Bounds of the signed normal forces; a `y_k` is not negative.
-fn forces(mode: &[ContactState], unknowns: &[Interval]) -> Vec<[f64; 2]> {
+fn forces(mode: &[ContactState], unknowns: &[Interval]) -> Vec<Interval> {
     let one = |(state, y): (&ContactState, &Interval)| match state {
-        ContactState::Positive => [y.lower().max(0.0), y.upper().max(0.0)],
-        ContactState::Negative => [-y.upper().max(0.0), -y.lower().max(0.0)],
-        ContactState::Gap => [0.0, 0.0],
+        ContactState::Positive => Real::max(*y, Interval::ZERO),
+        ContactState::Negative => -Real::max(*y, Interval::ZERO),
+        ContactState::Gap => Interval::ZERO,
     };
     mode.iter().zip(unknowns).map(one).collect()
 }

@@ -4,7 +4,8 @@
 //! to the horizontal, left and right for one that is nearer to the vertical.
 
 use crate::configuration::Configuration;
-use crate::mechanism::{Mechanism, Slider};
+use crate::ids::ContactId;
+use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::SliderKind;
 use crate::report::number::against;
 use nalgebra::Vector2;
@@ -31,7 +32,7 @@ pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> St
 }
 
 /// The contact mode of a sliding joint, as [`mode_in_words`] has it; of one that shares its load with others,
-/// what each of its contacts does, "open" where its normal force is 0.
+/// what each of its contacts does, "open" where its normal force is 0. Press fits are on one face or on both.
 pub(crate) fn joint_mode_in_words(
     mechanism: &Mechanism,
     slider: &Slider,
@@ -41,19 +42,35 @@ pub(crate) fn joint_mode_in_words(
     if !slider.contacts.iter().any(|contact| mechanism.excess.shares(*contact)) {
         return mode_in_words(slider, tangent, signs);
     }
-    let names = slider.contacts.iter().map(|contact| &*mechanism.contacts[contact.index()].name);
-    let contacts: Vec<(&str, i8)> = names.zip(signs.iter().copied()).collect();
+    let first = slider.contacts.first().map_or(0, |contact| contact.index());
+    let of_place = |contact: ContactId| {
+        let Contact { face, .. } = &mechanism.contacts[contact.index()];
+        let sign = |contact: ContactId| signs.get(contact.index() - first).copied().unwrap_or_default();
+        match face.map(|face| [sign(contact), sign(face.other)]) {
+            Some([1, -1]) => None,
+            Some([-1, 1]) => Some(0),
+            // Where the force of a face vanishes the other one tells.
+            Some([0, sign] | [sign, _]) => Some(sign),
+            None => Some(sign(contact)),
+        }
+    };
+    let contacts: Vec<(&str, Option<i8>)> = mechanism
+        .places_of(slider)
+        .map(|contact| (mechanism.contacts[contact.index()].place(), of_place(contact)))
+        .collect();
     let guide = GuideInWords { tangent, around: slider.around };
-    let place = |sign: i8| match (slider.kind, sign) {
-        (_, 0) => "open".to_owned(),
-        (SliderKind::Pin, _) => format!("on the {} side of the slot", guide.face(sign)),
-        _ => format!("on the {} face", guide.face(sign)),
+    let place = |sign: Option<i8>| match (slider.kind, sign) {
+        (_, Some(0)) => "open".to_owned(),
+        (SliderKind::Pin, Some(sign)) => format!("on the {} side of the slot", guide.face(sign)),
+        (SliderKind::Pin, None) => "on both sides of the slot".to_owned(),
+        (_, Some(sign)) => format!("on the {} face", guide.face(sign)),
+        (_, None) => "on both faces".to_owned(),
     };
     match contacts.as_slice() {
         [(_, sign)] => place(*sign),
         [(_, first), others @ ..] if others.iter().all(|(_, sign)| sign == first) => match first {
-            0 => "open".to_owned(),
-            sign => guide.flat(*sign),
+            Some(sign) if *sign != 0 => guide.flat(*sign),
+            _ => place(*first),
         },
         _ => {
             let name = |name: &str| name.rsplit_once('.').map_or(name, |(_, end)| end).to_owned();

@@ -164,6 +164,7 @@ pub(crate) fn hold_within(
         HoldVerdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
+    original.check_no_press_fit("whether it holds at rest")?;
     let undecided =
         [load.as_ref().map(|load| load.undecided), wedging.as_ref().map(|wedging| wedging.undecided)];
     let mut report = HoldReport {
@@ -235,12 +236,20 @@ fn with_load(model: &Model, options: &HoldOptions) -> Result<HoldOptions, Faults
     if options.vary.is_none() || options.load.is_some() {
         return Ok(options.clone());
     }
+    Ok(options.clone().load(&only_load(model)?))
+}
+
+/// The name of the only load of a model, weights together being one.
+///
+/// # Errors
+/// Several loads, or none, of which one would have to be named; values that the model must not have.
+pub fn only_load(model: &Model) -> Result<String, Faults> {
     let mechanism = Mechanism::new(model)?;
     let weights = (mechanism.gravity.norm() > 0.0).then(|| setup::GRAVITY.to_owned());
     let loads = mechanism.loads.iter().map(|load| load.name.to_string());
     let known: Vec<String> = loads.chain(weights).collect();
     match known.as_slice() {
-        [only] => Ok(options.clone().load(only)),
+        [only] => Ok(only.clone()),
         _ => Err(Fault::general(FaultKind::HeldLoadNeeded { known }).into()),
     }
 }

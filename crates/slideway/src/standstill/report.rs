@@ -1,6 +1,6 @@
 //! What the analysis of standstill tells, as plain data.
 
-use crate::report::LoadSharing;
+use crate::report::{CoordinateState, LoadSharing};
 use crate::units::Units;
 use serde::Serialize;
 
@@ -122,6 +122,12 @@ pub struct CoordinateValue {
     pub value: f64,
 }
 
+impl From<CoordinateState> for CoordinateValue {
+    fn from(state: CoordinateState) -> Self {
+        Self { name: state.name, unit: state.unit, value: state.value }
+    }
+}
+
 /// What is known of a load that is multiplied by a factor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -184,6 +190,13 @@ pub struct AtRest {
     pub patterns: Vec<String>,
     /// Reactions, over all these patterns.
     pub reactions: Reactions,
+    /// The contacts whose normal forces have no bound: pressed against each other they are in equilibrium without
+    /// any load, so that it can be wedged.
+    pub wedging: Vec<String>,
+    /// Whether it could stay at rest without the preloads of its contacts; absent if there are none, or where that
+    /// was not decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_preloads: Option<bool>,
 }
 
 /// Ranges of reactions.
@@ -299,6 +312,14 @@ impl Range {
 }
 
 impl Reactions {
+    /// The contacts whose normal forces have no bound.
+    pub(super) fn unbounded(&self) -> Vec<String> {
+        let is_unbounded = |contact: &&ContactRange| {
+            contact.normal_force.least.is_none() || contact.normal_force.greatest.is_none()
+        };
+        self.contacts.iter().filter(is_unbounded).map(|contact| contact.name.clone()).collect()
+    }
+
     /// The least ranges that hold both.
     pub(super) fn hull(mut self, other: &Self) -> Self {
         for (one, other) in self.contacts.iter_mut().zip(&other.contacts) {

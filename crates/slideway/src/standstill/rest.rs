@@ -56,8 +56,8 @@ pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Ite
 
 /// All states of rest with a factor of the varied load.
 pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option<AtRest>> {
-    let mut over = Over { found: None, undecided: 0 };
-    for sides in until_over(sides(setup), work) {
+    let mut over = Over { found: None::<AtRest>, undecided: 0 };
+    for sides in until_over(sides(setup), work.part(0, 2)) {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
@@ -67,9 +67,12 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
         match found {
             Ok(None) => {}
             Ok(Some(reactions)) => {
-                let rest = over
-                    .found
-                    .get_or_insert_with(|| AtRest { patterns: Vec::new(), reactions: reactions.clone() });
+                let rest = over.found.get_or_insert_with(|| AtRest {
+                    patterns: Vec::new(),
+                    reactions: reactions.clone(),
+                    wedging: Vec::new(),
+                    without_preloads: None,
+                });
                 let symbols = symbols(setup, &pattern, &reactions);
                 if !rest.patterns.contains(&symbols) {
                     rest.patterns.push(symbols);
@@ -79,7 +82,23 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
             Err(Unsolved) => over.undecided += 1,
         }
     }
+    if let Some(rest) = &mut over.found {
+        rest.wedging = rest.reactions.unbounded();
+        rest.without_preloads = without_preloads(setup, factor, work.part(1, 2));
+    }
     over
+}
+
+/// Whether some state of rest is possible without the preloads; none if there are none, or where that is not
+/// decided.
+fn without_preloads(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
+    let mut slack = setup.clone();
+    let mut is_preloaded = false;
+    for contact in &mut slack.mechanism.contacts {
+        is_preloaded |= contact.preload != [0.0; 2];
+        contact.preload = [0.0; 2];
+    }
+    if is_preloaded { is_possible(&slack, factor, work) } else { None }
 }
 
 /// Whether some state of rest is possible with a factor of the varied load; none where a linear program that

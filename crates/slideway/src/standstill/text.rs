@@ -6,8 +6,8 @@ use super::report::{
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{LoadSharing, Report, Style, count, followed, spaced};
-use crate::units::{Unit, Units};
+use crate::report::{Report, Style, count, followed, spaced};
+use crate::units::Unit;
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
@@ -79,7 +79,7 @@ impl Text<'_> {
             self.line(&followed(steps));
         }
         self.drives();
-        for line in report.sharing.iter().flat_map(LoadSharing::in_words) {
+        for line in report.sharing.iter().flat_map(|sharing| sharing.in_words(&report.units)) {
             self.line(&line);
         }
         self.line("");
@@ -102,8 +102,10 @@ impl Text<'_> {
             HoldVerdict::Moves | HoldVerdict::Neither | HoldVerdict::DoesNotHold => AnsiColor::Red,
         };
         self.painted(colour.on_default().bold(), &self.report.answer(), "");
+        self.what_holds();
         if !self.report.motions_without_inertia.is_empty() {
-            self.line("How it begins to move is not determined, since these motions have no inertia:");
+            let what = if self.report.holds { "Whether it could also begin" } else { "How it begins" };
+            self.line(&format!("{what} to move is not determined, since these motions have no inertia:"));
             for motion in &self.report.motions_without_inertia {
                 self.line(&format!("  {motion}"));
             }
@@ -118,11 +120,26 @@ impl Text<'_> {
         }
     }
 
+    /// What holds it, if that is not the friction which its loads cause.
+    fn what_holds(&mut self) {
+        let Some(rest) = &self.report.at_rest else { return };
+        if rest.without_preloads == Some(false) {
+            self.line("Its preloads hold it: without them it would not stay at rest.");
+        }
+        // Of redundant guides it is said from which friction on.
+        if !rest.wedging.is_empty() && self.report.wedging.is_none() {
+            self.line(&format!(
+                "It can be wedged: {} can press against each other without any load, however hard.",
+                rest.wedging.join(", ")
+            ));
+        }
+    }
+
     fn load(&mut self) {
         let Some(load) = &self.report.load else { return };
         self.line("");
         self.headline(&load_title(load));
-        for line in held_in_words(load, &self.report.units) {
+        for line in held_in_words(self.report, load) {
             self.line(&format!("  {line}"));
         }
         for line in threshold_in_words(load) {
@@ -246,9 +263,9 @@ fn at_factor(load: &LoadReport) -> String {
     if load.unit.is_empty() { String::new() } else { format!(" without {}", load.name) }
 }
 
-fn held_in_words(load: &LoadReport, units: &Units) -> Vec<String> {
+fn held_in_words(report: &HoldReport, load: &LoadReport) -> Vec<String> {
     let what = if load.unit.is_empty() { "factor" } else { "effort" };
-    let unit = units.of(load.unit);
+    let unit = report.units.of(load.unit);
     let one = |range: &Range| match (range.least, range.greatest) {
         (None, None) => format!("every {what}"),
         (Some(least), None) => format!("every {what} from {} on", unit.show(least)),
@@ -266,10 +283,16 @@ fn held_in_words(load: &LoadReport, units: &Units) -> Vec<String> {
             vec![format!("It holds with {}.", held.iter().map(one).collect::<Vec<_>>().join(", and with "))]
         }
     };
-    lines.push(if load.self_locking {
-        "Self-locking: no load is too great.".to_owned()
-    } else {
-        "Not self-locking: a sufficiently large load moves it.".to_owned()
+    // Where no sliding is possible the load itself sees to it that it is held.
+    let is_sure =
+        load.factor == 1.0 && matches!(report.verdict, HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed);
+    let is_wedged = report.at_rest.as_ref().is_some_and(|rest| !rest.wedging.is_empty());
+    lines.push(match (load.self_locking, is_wedged && !is_sure) {
+        (true, false) => "Self-locking: no load is too great.".to_owned(),
+        (true, true) => {
+            "No load is too great while it stays wedged, which need not be the load's doing.".to_owned()
+        }
+        (false, _) => "Not self-locking: a sufficiently large load moves it.".to_owned(),
     });
     lines
 }

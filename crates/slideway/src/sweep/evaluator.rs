@@ -311,7 +311,7 @@ impl<'p> Evaluator<'p> {
             }
         }
         let (settings, friction) = self.plan.settings(point.values);
-        let model = self.plan.model.with(&settings)?;
+        let model = self.plan.model.varied_with(&settings)?;
         let options = SolveOptions { margins: false, ..SolveOptions::default() };
         let report = if self.plan.varied.contains(&Kind::Friction) {
             let stages = solve::Stages::new(&model)?;

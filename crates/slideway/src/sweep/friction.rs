@@ -48,7 +48,7 @@ struct ContactFormulas {
 
 impl FrictionFormulas {
     /// The formulas of friction that the varied parameters change; none if they change something else, too,
-    /// or if friction depends on sliding speeds.
+    /// or if friction depends on sliding speeds, or is divided among the faces of press fits.
     ///
     /// # Errors
     /// Values of the model that are not allowed.
@@ -64,7 +64,11 @@ impl FrictionFormulas {
         let mut contacts = Vec::new();
         let depends_on_speed = model.contacts().flat_map(|contact| contact.mu);
         let depends_on_speed = depends_on_speed.into_iter().any(|mu| model.formula(mu).depends_on_speed());
-        if depends_on_speed || given.iter().any(|(index, _)| !model.changes_friction_alone(*index)) {
+        let has_press_fits = model.contacts().any(|contact| contact.face.is_some());
+        if depends_on_speed
+            || has_press_fits
+            || given.iter().any(|(index, _)| !model.changes_friction_alone(*index))
+        {
             return Ok(None);
         }
         for (number, contact) in model.contacts().enumerate() {

@@ -102,6 +102,9 @@ impl Writer<'_> {
             let force = forces[contact.index()];
             outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
         }
+        for forces in forces.chunks_mut(contacts.max(1)) {
+            self.mechanism.put_at_faces(pattern, forces, 0.0, |one, other| one + other);
+        }
         if !forces.iter().chain(&*outputs).all(|number| number.is_finite()) {
             return None;
         }

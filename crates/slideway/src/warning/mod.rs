@@ -128,7 +128,9 @@ fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
     if mechanism.drives.is_empty() || !contacts.iter().any(is_rough) || contacts.iter().any(rubs) {
         return None;
     }
-    let is_displaced = |contact: &Contact| contact.misalignment != 0.0 || contact.misalignment_law.is_some();
+    let is_displaced = |contact: &Contact| {
+        contact.misalignment != 0.0 || contact.misalignment_law.is_some() || contact.face.is_some()
+    };
     if !mechanism.excess.is_empty() && contacts.iter().any(is_displaced) {
         return None;
     }

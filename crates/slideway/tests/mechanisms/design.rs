@@ -5,7 +5,7 @@ use slideway::drive::{Approach, DriveOptions, DriveReport, EfficiencyKind, drive
 use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
-use slideway::report::Verdict;
+use slideway::report::{Report, Style, Verdict};
 use slideway::size::{Against, MarginKind, MetEnd, SampleKind, SizeOptions, SizeReport, size};
 use slideway::standstill::{HoldOptions, LoadReport, hold};
 
@@ -536,4 +536,22 @@ fn an_angle_is_sized_in_its_quarter_turn() {
     // A length keeps the factor.
     let report = against_locking(&model("cam-follower"), "d", 2.0);
     assert!((report.vary.to / report.vary.from - 25.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_design_says_for_which_position_it_holds() {
+    let text = |report: &SizeReport| report.text(Style::Plain);
+    let moved = model("drawer").with(&Settings::default().position("x", "50 mm")).expect("within its guide");
+    let report = against_locking(&moved, "a=0.1 m..0.5 m", 1.0);
+    assert_eq!((report.state.len(), &*report.state[0].name), (1, "x"));
+    assert!((report.state[0].value - 0.05).abs() < 1e-15);
+    assert!(text(&report).contains("\nx = 0.05 m, rate "), "{}", text(&report));
+    // Not of the coordinate that is varied.
+    let report = against_locking(&model("drawer"), "x=0 m..0.1 m", 1.0);
+    assert!(report.state.is_empty());
+    let held = sized(&model("bracket-on-pole"), "x=0.1 m..0.5 m", 1.0, to_hold("W"));
+    assert!(text(&held).contains("\nAt rest at z = 0 mm\n"), "{}", text(&held));
+    let options = LimitsOptions::new("mu=0..1".parse().expect("a range"));
+    let limits = limits(&moved, &options).expect("sound").text(Style::Plain);
+    assert!(limits.contains("\nx = 0.05 m, rate "), "{limits}");
 }

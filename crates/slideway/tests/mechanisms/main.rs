@@ -30,6 +30,7 @@ mod margins;
 mod no_sliding;
 mod positions;
 mod preload_gap;
+mod press_fits;
 mod properties;
 mod redundant;
 mod redundant_closed_forms;

@@ -107,3 +107,15 @@ fn the_critical_contact_is_the_one_whose_friction_matters_most() {
     };
     assert_ne!(solutions(1.0 - 1e-6), solutions(1.0 + 1e-6));
 }
+
+/// The drawer locks at mu = 2/3: at 0.9 it would have to fall to 2/2.7 of that.
+#[test]
+fn a_jammed_mechanism_is_told_what_would_free_it() {
+    let report = report("drawer", &[("mu", "0.9")]);
+    let below = margins(&report).moves_below.expect("it locks");
+    assert!((below.factor - 2.0 / 2.7).abs() < 1e-12);
+    assert!((below.mu.expect("the same everywhere") - 2.0 / 3.0).abs() < 1e-12);
+    let told = "It jams: it would move with less than 0.74074 times the friction (mu below 0.66667).";
+    assert!(report.text(Style::Plain).contains(told), "{}", report.text(Style::Plain));
+    assert_eq!(margins(&crate::answers::report("drawer", &[])).moves_below, None);
+}

@@ -117,3 +117,52 @@ fn without_any_answer_the_reason_is_told() {
     let faults = rest_limits(&model("bracket-on-pole"), &vary, &HoldOptions::default()).unwrap_err();
     assert!(!faults.sorted().is_empty());
 }
+
+/// A load on the axis of the pole does not press the bracket against it. Above mu_static = B/d = 0.508 the two ends can
+/// press against each other, N B = F d with F = mu_static N: then it is held, but not by its load.
+#[test]
+fn what_is_wedged_is_not_called_self_locking() {
+    let bracket = model("bracket-on-pole");
+    let told = |mu_static: &str, x: &str| {
+        let settings = Settings::default().parameter("d", "0.3 m").parameter("x", x);
+        let bracket = bracket.with(&settings.parameter("mu_static", mu_static)).unwrap();
+        let report = hold(&bracket, &HoldOptions::default().load("W")).unwrap();
+        let wedging = report.at_rest.as_ref().map(|rest| rest.wedging.join(" "));
+        (report.holds, wedging, report.text(Style::Plain))
+    };
+    assert!(!told("0.5", "0 m").0);
+    let (holds, wedging, text) = told("0.52", "0 m");
+    assert_eq!((holds, wedging.as_deref()), (true, Some("sleeve.front sleeve.rear")));
+    for sentence in [
+        "It can be wedged: sleeve.front, sleeve.rear can press against each other without any load, however hard.",
+        "No load is too great while it stays wedged, which need not be the load's doing.",
+        "Whether it could also begin to move is not determined",
+    ] {
+        assert!(text.contains(sentence), "{sentence}\n{text}");
+    }
+    assert!(!text.contains("Self-locking: ") && !text.contains("How it begins to move"), "{text}");
+    // Far out the load itself presses: x = 0.4 m > B/(2 mu_static) at mu_static = 0.25.
+    let (holds, wedging, text) = told("0.25", "0.4 m");
+    assert_eq!((holds, wedging.as_deref()), (true, Some("")));
+    assert!(text.contains("Self-locking: no load is too great.") && !text.contains("wedged"), "{text}");
+}
+
+/// 20 N hang on a slide that a preload of 30 N brakes: without the preload it falls.
+#[test]
+fn what_its_preloads_hold_says_so() {
+    let slide = SLAB.replace("mu_static = \"mu_s\"", "mu_static = \"mu_s\"\npreload = \"15 N\"");
+    let steep = Settings::default().parameter("beta", "90 deg");
+    let held = hold(&Model::parse(&slide).unwrap().with(&steep).unwrap(), &HoldOptions::default()).unwrap();
+    assert_eq!(held.at_rest.as_ref().and_then(|rest| rest.without_preloads), Some(false));
+    assert!(held.verdict_in_words().contains("Its preloads hold it"), "{}", held.verdict_in_words());
+    // On a slope of 20 deg friction would do: tan(20 deg) = 0.36 < 0.5.
+    let held = hold(&Model::parse(&slide).unwrap(), &HoldOptions::default()).unwrap();
+    assert_eq!(held.at_rest.as_ref().and_then(|rest| rest.without_preloads), Some(true));
+    assert!(!held.verdict_in_words().contains("Its preloads hold it"));
+}
+
+#[test]
+fn the_position_at_rest_is_told() {
+    let text = over(&model("bracket-on-pole"), "x=0.1 m..0.5 m").text(Style::Plain);
+    assert!(text.contains("At rest at z = 0 mm, x from 0.1 to 0.5 m"), "{text}");
+}

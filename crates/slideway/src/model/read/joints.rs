@@ -432,6 +432,7 @@ impl Reader<'_> {
             play: friction.play,
             misalignment: friction.misalignment,
             pad: friction.pad,
+            face: None,
         }
     }
 

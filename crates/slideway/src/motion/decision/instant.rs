@@ -67,6 +67,7 @@ impl<'m> Instant<'m> {
         mechanism: &'m Mechanism,
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
+        mechanism.check_no_press_fit("what follows in time")?;
         mechanism.check_determinate("what follows in time")?;
         let equations = KineticEquations::new(mechanism, configuration)?;
         Self::of(mechanism, (configuration, equations), Least::Now(scale))

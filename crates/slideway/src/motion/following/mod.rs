@@ -44,6 +44,7 @@ pub fn simulate_with(
     progress: &mut Callback<'_>,
 ) -> Result<History, Faults> {
     check(options)?;
+    mechanism.check_no_press_fit("a motion in time")?;
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
