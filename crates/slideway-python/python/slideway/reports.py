@@ -1112,6 +1112,9 @@ class CourseRow(Record):
     """The value."""
     pattern: str | None
     """The mode; null where there is no solution or no position."""
+    attainability: Verdict | None
+    """Whether a mechanism with slightly elastic guides settles on it; null where there is no solution, and where
+    efforts grow without bound."""
     efforts: NDArray[np.float64] | None
     """Of each drive (N or N m); null where they grow without bound, or without a solution."""
     grows: tuple[int, ...]
@@ -1851,8 +1854,9 @@ class Margins(Record):
     """From this greater factor on there are solutions again; absent if there are none."""
     uniqueness: float | None = None
     """Up to this factor every load has exactly one solution (below 1: some other load has none or several
-    already): there a determinant is proven to change its sign. Absent if none is, or if that was not asked
-    because preloads jump with the side of contact."""
+    already): there a determinant is proven to change its sign. Of redundant guides, for every play,
+    misalignment and stiffness, too (theory, eq. (R4)). Absent if no determinant changes its sign, or if that
+    was not asked because preloads jump with the side of contact, or because of press fits."""
     moves_below: Unlocking | None = None
     """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
     and where none comes."""
@@ -2440,7 +2444,8 @@ class Solution(_mixins.Solution, Record):
     determinant: float
     """Determinant D of the mode's equations, eq. (6)."""
     oriented_determinant: float
-    """D times the product of the signs; positive without friction (theory, section 5)."""
+    """D times the product of the signs; positive without friction (theory, section 5). Of redundant guides the
+    mean of those of their determinate parts, 1 without friction (theory, eq. (R4))."""
     attainability: Attainability
     """Whether a mechanism with slightly elastic guides settles on it."""
     contacts: tuple[Contact, ...]
