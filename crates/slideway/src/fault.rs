@@ -543,7 +543,7 @@ impl FaultKind {
                     .to_owned(),
             ),
             Self::PressFit { .. } => Some(
-                "give a play of zero or more; press fits that slide under a given load are for `slideway solve`, `limits`, `drive`, `size`, `sweep` and `map`"
+                "give a play of zero or more; press fits that slide under a given load are for `slideway solve`, `limits`, `drive`, `size`, `sweep` and `map`, those at rest for `hold`"
                     .to_owned(),
             ),
             Self::PressFitWithoutStiffness { .. } => Some(

@@ -65,6 +65,12 @@ impl ContactPhase {
         if between_faces { &Self::ALL } else { &Self::ALL[..2] }
     }
 
+    /// What a face of a press fit may do: it is pressed, or open.
+    pub(crate) fn options_of_face(is_positive: bool) -> &'static [Self] {
+        if is_positive { &Self::POSITIVE_FACE } else { &Self::ALL[1..] }
+    }
+
+    const POSITIVE_FACE: [Self; 2] = [Self::Pressed(Side::Positive), Self::PreloadGap];
     const ALL: [Self; 3] = [Self::Pressed(Side::Positive), Self::Pressed(Side::Negative), Self::PreloadGap];
 }
 

@@ -164,7 +164,6 @@ pub(crate) fn hold_within(
         HoldVerdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
-    original.check_no_press_fit("whether it holds at rest")?;
     let undecided =
         [load.as_ref().map(|load| load.undecided), wedging.as_ref().map(|wedging| wedging.undecided)];
     let mut report = HoldReport {

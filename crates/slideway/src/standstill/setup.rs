@@ -78,7 +78,6 @@ impl Setup {
     pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
-        original.check_no_press_fit("whether it holds at rest")?;
         let configuration = Configuration::new(&original)?;
         let mut mechanism = original.clone();
         configuration.put_misalignments(&mut mechanism)?;

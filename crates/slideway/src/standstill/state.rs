@@ -36,7 +36,8 @@ pub(super) struct State<'s> {
     pattern: &'s Phase,
     question: StateQuestion,
     friction: Vec<Friction>,
-    /// The share of the way from the negative to the positive face at which an open contact is, an unknown.
+    /// Where an open contact is, an unknown: its share of the way from the negative to the positive face, or the distance
+    /// of the open face of a press fit.
     between: Vec<Option<usize>>,
     columns: usize,
     solutions: AffineSet,
@@ -82,11 +83,13 @@ impl<'s> State<'s> {
         })
     }
 
-    /// Where an open contact is: where the friction of its preload is shared out, that share.
+    /// Where an open contact is: where the friction of its preload is shared out, that share. The open face of a press
+    /// fit may be at any distance.
     fn new_place(&mut self, k: usize) -> Option<usize> {
         let is_open = self.pattern.contacts[k] == ContactPhase::PreloadGap && self.setup.shares(k);
+        let share = self.friction[k].share.filter(|_| self.setup.mechanism.contacts[k].face.is_none());
         is_open.then(|| {
-            self.friction[k].share.unwrap_or_else(|| {
+            share.unwrap_or_else(|| {
                 self.columns += 1;
                 self.columns - 1
             })
@@ -153,17 +156,22 @@ impl<'s> State<'s> {
     }
 
     /// Deflection `d_k` of a contact that shares a load (m): `-sigma delta - f N` where it is pressed, and anything from
-    /// `-delta` to `delta` where it is open.
+    /// `-delta` to `delta` where it is open. A face of a press fit that is open is at any distance.
     fn deflection(&self, shared: &SharedLoad, k: usize) -> AffineExpression {
         let clearance = shared.clearance[k];
-        match self.pattern.contacts[k] {
-            ContactPhase::Pressed(side) => {
-                let yields = shared.compliance[k] * self.setup.units.force;
+        let yields = shared.compliance[k] * self.setup.units.force;
+        match (self.pattern.contacts[k], self.between[k]) {
+            (ContactPhase::Pressed(side), _) => {
                 self.normal_force(k).times(-yields).shifted(-side.sign() * clearance)
             }
-            ContactPhase::PreloadGap => {
-                let place = self.between[k].expect("open contacts have a place");
-                AffineExpression::unknown(place, -2.0 * clearance).shifted(clearance)
+            (ContactPhase::PreloadGap, place) => {
+                let place = place.expect("open contacts have a place");
+                match self.setup.mechanism.contacts[k].face {
+                    Some(face) => {
+                        AffineExpression::unknown(place, if face.is_positive { yields } else { -yields })
+                    }
+                    None => AffineExpression::unknown(place, -2.0 * clearance).shifted(clearance),
+                }
             }
         }
     }
@@ -356,9 +364,10 @@ impl State<'_> {
         for (friction, mu_static) in self.friction.iter().zip(mu_static) {
             slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
         }
-        for (friction, place) in self.friction.iter().zip(&self.between) {
-            if let Some(place) = place.filter(|_| friction.share.is_none()) {
-                slacks.push(AffineExpression::unknown(place, 1.0));
+        for (k, place) in self.between.iter().enumerate() {
+            let Some(place) = place.filter(|place| self.friction[k].share != Some(*place)) else { continue };
+            slacks.push(AffineExpression::unknown(place, 1.0));
+            if self.setup.mechanism.contacts[k].face.is_none() {
                 slacks.push(AffineExpression::unknown(place, -1.0).shifted(1.0));
             }
         }
@@ -401,6 +410,9 @@ pub(super) fn side_options(setup: &Setup) -> Vec<&'static [ContactPhase]> {
     let may_be_open = |k: usize| setup.shared.as_ref().is_some_and(|shared| shared.may_be_open(k));
     let contacts = 0..setup.mechanism.contacts.len();
     contacts
-        .map(|k| ContactPhase::options(setup.mechanism.preload_jumps(ContactId(k)) || may_be_open(k)))
+        .map(|k| match setup.mechanism.contacts[k].face {
+            Some(face) => ContactPhase::options_of_face(face.is_positive),
+            None => ContactPhase::options(setup.mechanism.preload_jumps(ContactId(k)) || may_be_open(k)),
+        })
         .collect()
 }

@@ -29,7 +29,6 @@ use slideway::model::{Model, Settings};
 use slideway::motion::{SimulateOptions, simulate};
 use slideway::report::{Fate, Proof, Solution, SolveReport, Verdict};
 use slideway::size::{Against, SizeOptions, size};
-use slideway::standstill::{HoldOptions, hold};
 use slideway::sweep::{Rows, Sweep, SweepOptions};
 use std::ops::ControlFlow;
 
@@ -523,11 +522,10 @@ fn press_fits_without_a_law_are_refused() {
 }
 
 #[test]
-fn questions_about_rest_and_motions_are_refused() {
+fn questions_about_motions_and_bounds_are_refused() {
     let model = slide(&[]);
     let refusals = [
         simulate(&model, &SimulateOptions::new(1.0)).unwrap_err(),
-        hold(&model, &HoldOptions::default()).unwrap_err(),
         limits(&model, &LimitsOptions::new("mu=0..1".parse().unwrap()).max_reaction(10.0)).unwrap_err(),
     ];
     for faults in &refusals {

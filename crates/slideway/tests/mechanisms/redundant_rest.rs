@@ -13,7 +13,7 @@
 
 use crate::answers::{assert_close, model, parameters};
 use crate::random_mechanisms::cases;
-use crate::redundant::{Carriage, carriages};
+use crate::redundant::{Carriage, Pad, carriages};
 use proptest::prelude::*;
 use rstest::rstest;
 use slideway::fault::FaultKind;
@@ -214,6 +214,12 @@ fn a_rail_that_yields_is_as_if_it_were_not_there() {
 /// `constant + tilt theta + force p >= 0`.
 type HalfPlane = [f64; 3];
 
+/// The faces that are pressed in a state: one, or in the third state both of a press fit and none of another fit.
+fn pressed(pad: &Pad, state: f64) -> impl Iterator<Item = f64> {
+    let both = state == 0.0 && pad.clearance < 0.0;
+    [1.0, -1.0].into_iter().filter(move |side| both || *side == state)
+}
+
 /// The friction along x that one state of every contact can hold, as a polygon in the tilt and in that friction.
 ///
 /// With the tilt theta, equilibrium across the rails yields the displacement, hence all normal forces. Friction `F_j` of
@@ -222,17 +228,20 @@ type HalfPlane = [f64; 3];
 /// `|p| <= sum_j c_j`.
 fn polygon(carriage: &Carriage, states: &[f64]) -> Option<Vec<HalfPlane>> {
     let pads = carriage.contacts.iter().zip(states);
-    let closed: f64 = pads.clone().map(|(pad, state)| state.abs() / pad.compliance).sum();
+    let closed: f64 =
+        pads.clone().map(|(pad, state)| pressed(pad, *state).count() as f64 / pad.compliance).sum();
     if closed == 0.0 {
         return None;
     }
     // sum N = -load: the displacement as a function [constant, slope] of the tilt.
     let plane = |value: [f64; 2]| [value[0], value[1], 0.0];
-    let sum = |part: &dyn Fn(&crate::redundant::Pad, f64) -> f64| -> f64 {
-        pads.clone().map(|(pad, state)| state.abs() * part(pad, *state) / pad.compliance).sum()
+    let sum = |part: &dyn Fn(&Pad, f64) -> f64| -> f64 {
+        pads.clone()
+            .flat_map(|(pad, state)| pressed(pad, *state).map(|side| part(pad, side) / pad.compliance))
+            .sum()
     };
     let displacement = [
-        (carriage.load[1] + sum(&|pad, state| pad.misalignment - state * pad.clearance)) / closed,
+        (carriage.load[1] + sum(&|pad, side| pad.misalignment - side * pad.clearance)) / closed,
         -sum(&|pad, _| pad.x) / closed,
     ];
     let mut sides: Vec<HalfPlane> = Vec::new();
@@ -243,16 +252,18 @@ fn polygon(carriage: &Carriage, states: &[f64]) -> Option<Vec<HalfPlane>> {
         let (height, half) = carriage.rails[k / carriage.per_rail()];
         let deflection = [displacement[0] - pad.misalignment, displacement[1] + pad.x];
         friction.push((height, [pad.preload, 0.0]));
-        if *state == 0.0 {
-            sides.push(plane([pad.clearance - deflection[0], -deflection[1]]));
-            sides.push(plane([pad.clearance + deflection[0], deflection[1]]));
-            continue;
+        for side in [1.0, -1.0] {
+            // What presses a face, negative where it is apart.
+            let pressure = [-(side * deflection[0] + pad.clearance), -side * deflection[1]]
+                .map(|part| part / pad.compliance);
+            if !pressed(pad, *state).any(|other| other == side) {
+                sides.push(plane(pressure.map(|part| -part)));
+                continue;
+            }
+            sides.push(plane(pressure));
+            friction.push((height - side * half, pressure.map(|part| pad.mu * part)));
+            (0..2).for_each(|part| moment[part] += pad.x * side * pressure[part]);
         }
-        let pressure = [-(state * deflection[0] + pad.clearance), -state * deflection[1]]
-            .map(|part| part / pad.compliance);
-        sides.push(plane(pressure));
-        friction.push((height - state * half, pressure.map(|part| pad.mu * part)));
-        (0..2).for_each(|part| moment[part] += pad.x * state * pressure[part]);
     }
     let reach = |weight: &dyn Fn(f64) -> f64| {
         friction.iter().fold([0.0; 2], |[constant, slope], (height, limit)| {
@@ -349,7 +360,7 @@ fn wedging_factor(carriage: &Carriage) -> f64 {
         carriage.contacts.iter().zip(weights.clone()).map(|(pad, weight)| weight * pad.x).sum::<f64>()
             / weights.sum::<f64>();
     let tilted = |tilt: f64| {
-        let normal = |pad: &crate::redundant::Pad| -tilt * (pad.x - middle) / pad.compliance;
+        let normal = |pad: &Pad| -tilt * (pad.x - middle) / pad.compliance;
         let moment: f64 = carriage.contacts.iter().map(|pad| pad.x * normal(pad)).sum();
         let faces = carriage.contacts.iter().enumerate().map(|(k, pad)| {
             let (height, half) = carriage.rails[k / carriage.per_rail()];
@@ -365,10 +376,11 @@ fn wedging_factor(carriage: &Carriage) -> f64 {
 proptest! {
     #![proptest_config(cases(20))]
 
-    /// Two rails or one with three pads, with a force along them that is varied.
+    /// Two rails or one with three pads, with a force along them that is varied. Some have press fits.
     #[test]
-    fn random_carriages_hold_what_their_states_hold(carriage in carriages()) {
+    fn random_carriages_hold_what_their_states_hold(mut carriage in carriages(), fits in 0..7_usize) {
         prop_assume!(carriage.load[1].abs() > 0.1);
+        carriage.contacts.iter_mut().skip(fits).step_by(2).for_each(|pad| pad.clearance *= -0.3);
         let push = "[loads.push]\ntype = \"force\"\nat = \"body.load\"\ncomponents = [1, 0]\n";
         let model = Model::parse(&format!("{}{push}", carriage.text())).unwrap();
         let report = resting(&model, &HoldOptions::default().load("push"));
@@ -386,6 +398,24 @@ proptest! {
         let (found, expected) = (wedging(&report).threshold.value.unwrap(), wedging_factor(&carriage));
         prop_assert!((found - expected).abs() <= 1e-9 * expected, "{} {}", found, expected);
     }
+}
+
+/// The slide of the book grips at both ends with 1 MN/m times 0.02 mm at either face, so that friction at each end is
+/// `mu max(|N|, 20 N)`, whatever part of W it carries: nothing tilts a slide whose faces lie in one line.
+#[rstest]
+#[case("0 N", 4.0)]
+#[case("30 N", 4.0)]
+#[case("-50 N", 5.0)]
+fn a_press_fit_holds_with_its_grip(#[case] across: &str, #[case] friction: f64) {
+    let text = include_str!("../../../../docs/src/examples/press-fitted-slide.toml");
+    let model = Model::parse(text).unwrap().with(&parameters(&[("W", across), ("a", "0 mm")])).unwrap();
+    let report = resting(&model, &HoldOptions::default().load("pull"));
+    let [Range { least: Some(from), greatest: Some(to) }] = report.load.as_ref().unwrap().held[..] else {
+        panic!("{:?}", report.load)
+    };
+    assert_close(from, 50.0 - friction, 50.0, 1e-9);
+    assert_close(to, 50.0 + friction, 50.0, 1e-9);
+    assert_eq!(report.undecided, 0);
 }
 
 /// What `hold` says of redundant guides, it says in every form.
