@@ -475,6 +475,7 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let end = match margin.ends_with {
         ModeEndCause::Locking => "locking".to_owned(),
         ModeEndCause::WithoutBound => "its forces grow without bound".to_owned(),
+        ModeEndCause::SideChange if margin.contacts.len() > 1 => format!("{contacts} change side"),
         ModeEndCause::SideChange => format!("{contacts} changes side"),
         ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
         _ => "a guided slider tips".to_owned(),
