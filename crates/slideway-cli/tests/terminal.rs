@@ -293,5 +293,5 @@ fn a_new_model_is_asked_for() {
     // With a value on the command line nothing is asked.
     let (told, code) = on_terminal(&mut folder.command(&["new", "peg", "--mu", "0.1"]));
     assert_eq!(code, 0, "{told}");
-    assert!(told.starts_with("Wrote peg.toml, as in the template: l = 15 mm,"), "{told}");
+    assert!(told.starts_with("Wrote peg.toml, as in the template: h = 60 mm, l = 15 mm,"), "{told}");
 }

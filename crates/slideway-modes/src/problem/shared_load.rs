@@ -121,6 +121,63 @@ impl<T: Real> SharedLoad<T> {
     }
 }
 
+/// The most circuits that are tried one by one.
+const MOST_CIRCUITS: f64 = 20_000.0;
+
+impl SharedLoad {
+    /// Contacts that rigid faces cannot be put together with: those of a self-stress `z` with
+    /// `|z^T e| > sum delta |z|`, so that no deflections within the play are compatible. None if there are such
+    /// deflections, or too many self-stresses to try.
+    ///
+    /// By Farkas' lemma it is the same for all self-stresses, and each of these is a sum, without cancellation, of
+    /// circuits: self-stresses of which no contact can be left out (Rockafellar, The elementary vectors of a subspace
+    /// of R^N, 1969). A circuit vanishes in as many independent rows as there are self-stresses but one.
+    pub fn out_of_line(&self) -> Option<Vec<usize>> {
+        let sharing: Vec<usize> = (0..self.clearance.len()).filter(|&k| self.shares(k)).collect();
+        let without = self.cut.len().checked_sub(1)?;
+        let count: f64 = (0..without).map(|k| (sharing.len() - k) as f64 / (k + 1) as f64).product();
+        if count > MOST_CIRCUITS {
+            return None;
+        }
+        let rounding = sharing.len() as f64 * f64::EPSILON;
+        choices(&sharing, without).into_iter().find_map(|zero| {
+            let weights = self.circuit(&zero);
+            let (forces, terms) = (&self.self_stress * &weights, self.self_stress.abs() * weights.abs());
+            let others = || sharing.iter().copied().filter(|k| !zero.contains(k));
+            let offset: f64 = others().map(|k| forces[k] * self.misalignment[k]).sum();
+            let room: f64 = others().map(|k| forces[k].abs() * self.clearance[k]).sum();
+            let size = |k: usize| terms[k] * (self.misalignment[k].abs() + self.clearance[k]);
+            let is_out = offset.abs() - room > rounding * sharing.iter().map(|&k| size(k)).sum::<f64>();
+            let least = OpenContacts::ROUNDING * forces.amax();
+            is_out.then(|| others().filter(|&k| forces[k].abs() > least).collect())
+        })
+    }
+
+    /// The weights of the self-stresses in one that vanishes in these contacts, one fewer than there are self-stresses;
+    /// zero if that leaves several.
+    fn circuit(&self, zero: &[usize]) -> DVector<f64> {
+        let rows = self.self_stress.select_rows(zero);
+        DVector::from_fn(self.cut.len(), |stress, _| {
+            let sign = if stress % 2 == 0 { 1.0 } else { -1.0 };
+            sign * rows.clone().remove_column(stress).determinant()
+        })
+    }
+}
+
+/// All choices of so many of these.
+fn choices(of: &[usize], count: usize) -> Vec<Vec<usize>> {
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    (0..of.len())
+        .flat_map(|first| {
+            choices(&of[first + 1..], count - 1)
+                .into_iter()
+                .map(move |rest| [&[of[first]], rest.as_slice()].concat())
+        })
+        .collect()
+}
+
 /// Which contacts may be open, and together: those of a shared load.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OpenContacts {
@@ -272,5 +329,60 @@ impl IntervalModeProblem {
             &BySide { positive: jumps(Side::Positive)?, negative: jumps(Side::Negative)? },
             &load,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
+    fn random_numbers() -> impl FnMut() -> f64 {
+        let mut state: u64 = 11;
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        }
+    }
+
+    fn rigid(self_stress: DMatrix<f64>, clearance: DVector<f64>, misalignment: DVector<f64>) -> SharedLoad {
+        let (contacts, stresses) = self_stress.shape();
+        SharedLoad {
+            cut: (contacts - stresses..contacts).collect(),
+            compliance: DVector::zeros(contacts),
+            clearance,
+            misalignment,
+            self_stress,
+            press_fits: Vec::new(),
+        }
+    }
+
+    /// A self-stress `z` with `e_k = t delta_k sign(z_k)` has `z^T e = t sum delta |z|`; deflections `d` within the play
+    /// with `e = -d` are compatible, also with the play used up in every contact of a circuit.
+    #[test]
+    fn what_fits_is_told_from_what_does_not() {
+        let mut random = random_numbers();
+        for round in 0..400 {
+            let stresses = 1 + round % 4;
+            let contacts = stresses + 2 + round % 3;
+            let free = DMatrix::from_fn(contacts - stresses, stresses, |_, _| random());
+            let self_stress = DMatrix::from_fn(contacts, stresses, |row, stress| {
+                match row.checked_sub(contacts - stresses) {
+                    None => free[(row, stress)],
+                    Some(cut) => f64::from(u8::from(cut == stress)),
+                }
+            });
+            let clearance = DVector::from_fn(contacts, |_, _| 1e-3 * (0.1 + random().abs()));
+            let within = clearance.map(|clearance| clearance * random());
+            assert_eq!(rigid(self_stress.clone(), clearance.clone(), -within).out_of_line(), None, "{round}");
+            let force = &self_stress * DVector::from_fn(stresses, |_, _| random());
+            let beyond = |factor: f64| {
+                clearance.zip_map(&force, |clearance, force| factor * clearance * force.signum())
+            };
+            let exact = rigid(self_stress.clone(), clearance.clone(), beyond(1.0)).out_of_line();
+            assert_eq!(exact, None, "{round}");
+            let out = rigid(self_stress, clearance.clone(), beyond(1.0 + 1e-9)).out_of_line();
+            assert!(out.is_some_and(|out| !out.is_empty()), "{round}");
+        }
     }
 }

@@ -66,7 +66,7 @@ pub fn mode_problem(
     let problem = determinate_problem(mechanism, influence, velocity_signs)?;
     match shared_load(mechanism, self_stresses(influence))? {
         Some(shared) => {
-            check_assembly(mechanism, influence, &shared)?;
+            check_assembly(mechanism, &shared)?;
             problem.with_shared_load(&shared).map_err(|_| overflow())
         }
         None => Ok(problem),

@@ -8,10 +8,10 @@ use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
-use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, SolutionSet, enumerate};
+use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, enumerate};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
 use crate::sharing;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use std::collections::BTreeSet;
 
 /// Adds what is said of redundant guides to a report; nothing for determinate mechanisms. Other stiffnesses are
@@ -41,43 +41,14 @@ pub(crate) fn load_sharing(
 ///
 /// # Errors
 /// A fault that names the contacts that share a load.
-pub(super) fn check_assembly(
-    mechanism: &Mechanism,
-    influence: &Influence,
-    shared: &SharedLoad,
-) -> Result<(), Faults> {
+pub(super) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Result<(), Faults> {
     let is_rigid = shared.compliance.iter().all(|compliance| *compliance == 0.0);
-    if !is_rigid || !cannot_be_assembled(influence, shared) {
-        return Ok(());
-    }
-    let sharing = mechanism.contacts.iter().enumerate().filter(|(k, _)| shared.shares(*k));
+    let Some(out) = is_rigid.then(|| shared.out_of_line()).flatten() else { return Ok(()) };
+    let contacts = || out.iter().map(|&k| &mechanism.contacts[k]);
     let kind =
-        FaultKind::OutOfLine { contacts: sharing.map(|(_, contact)| contact.name.to_string()).collect() };
+        FaultKind::OutOfLine { contacts: contacts().map(|contact| contact.name.to_string()).collect() };
     let joint = mechanism.contacts[shared.cut[0]].joint;
     Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into())
-}
-
-/// Whether rigid faces leave no room for the guides: then, and only then, the minimum of
-/// `sum delta |N| - e^T N` over all normal forces in equilibrium without friction is not bounded, and there is no
-/// frictionless state either.
-fn cannot_be_assembled(influence: &Influence, shared: &SharedLoad) -> bool {
-    let frictionless = influence.normal_forces();
-    let (one, none) = (
-        DMatrix::identity(frictionless.len(), frictionless.len()),
-        DMatrix::zeros(frictionless.len(), frictionless.len()),
-    );
-    let problem = ModeProblem::new(one.clone(), -one, none.clone(), none, frictionless);
-    let found = problem
-        .and_then(|problem| problem.with_shared_load(shared))
-        .ok()
-        .and_then(|problem| enumerate(&problem, &Limits::default()).ok());
-    found.is_some_and(|found| {
-        found.is_complete()
-            && found.solutions.is_empty()
-            && found.gaps.is_empty()
-            && found.undecided.is_empty()
-            && found.singular.iter().all(|mode| matches!(mode.set, SolutionSet::Empty))
-    })
 }
 
 /// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if there are too

@@ -79,7 +79,7 @@ impl Stages {
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
         let stages = Self { mechanism, configuration, influence, velocity_signs, accuracy };
         if let Some(shared) = stages.shared_load()? {
-            check_assembly(&stages.mechanism, &stages.influence, &shared)?;
+            check_assembly(&stages.mechanism, &shared)?;
         }
         Ok(stages)
     }
