@@ -3,6 +3,7 @@
 
 use crate::answers::{assert_close, parameters};
 use slideway::drive::{DriveOptions, drive};
+use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, LimitsReport, Vary, limits};
 use slideway::map::{ClassMeaning, MapOptions, map};
 use slideway::model::Model;
