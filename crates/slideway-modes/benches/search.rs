@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use divan::Bencher;
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::certificate::IntervalModeProblem;
-use slideway_modes::{ModeProblem, SearchOptions, SearchResult, SharedLoad, search};
+use slideway_modes::{Completeness, ModeProblem, SearchOptions, SearchResult, SharedLoad, search};
 
 fn main() {
     divan::main();
@@ -152,6 +152,7 @@ fn complementarity_40(bencher: Bencher<'_, '_>, seed: u64) {
 #[divan::bench(sample_count = 5, sample_size = 1)]
 fn redundant_16_with_10_self_stresses(bencher: Bencher<'_, '_>) {
     let problem = redundant(16, 10);
+    assert_eq!(solve(&problem).completeness, Completeness::Proven);
     bencher.bench_local(|| solve(&problem));
 }
 
