@@ -29,6 +29,8 @@ COMMANDS = [
     ["sweep", "models/klepp-2002.toml", "--vary", "mu_1=0..0.8:81", "--attainability", "--all-columns"],
     # Points without a solution; two varied quantities; a word in the metadata that is quoted.
     ["sweep", "models/drawer.toml", "--vary", "mu=0..1:41", "--vary", "a=0..0.5:11", "--set", "L=0.4 m"],
+    # Friction locks beyond a value, which is inserted.
+    ["sweep", "models/drawer.toml", "--vary", "mu=0..1:41"],
     # Samples have no branches.
     ["sweep", "models/drawer.toml", "--vary", "mu=normal(0.6, 0.05)", "--samples", "2000"],
     # Positions that cannot be assembled.
@@ -195,7 +197,7 @@ def main():
     assert {"one", "several", "none", "no_position"} <= seen["status"], seen["status"]
     assert {"solution", "preload_gap", None} <= seen["kind"], seen["kind"]
     assert {"attainable", None} <= seen["attainability"], seen["attainability"]
-    assert {"locking", "side_change", None} <= seen["breakpoint"], seen["breakpoint"]
+    assert {"locking", "without_bound", "side_change", None} <= seen["breakpoint"], seen["breakpoint"]
     assert None in seen["branch"]
     assert any(None in words for name, words in seen.items() if name.endswith(".friction_force"))
 
