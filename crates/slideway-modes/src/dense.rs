@@ -196,14 +196,11 @@ impl Lu {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random_numbers::random_numbers;
 
-    /// Numbers of a linear congruential generator (Knuth's MMIX), from -1 to 1.
     fn random_matrix(rows: usize, columns: usize) -> DMatrix<f64> {
-        let mut state = 1_u64;
-        DMatrix::from_fn(rows, columns, |_, _| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / 2_f64.powi(52) - 1.0
-        })
+        let mut random = random_numbers(1);
+        DMatrix::from_fn(rows, columns, |_, _| random())
     }
 
     #[test]

@@ -69,7 +69,7 @@
 //! # Files
 //! From the lowest floor up; a module imports only those before it.
 //!
-//! - `error_free.rs` (exact rounding errors), `dense.rs` (factorizations and products that can be
+//! - `combinations.rs` (choices of indices), `error_free.rs` (exact rounding errors), `dense.rs` (factorizations and products that can be
 //!   interrupted), `interval/`, `interval_matrix.rs`: numbers.
 //! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances
 //!   are pure numbers.
@@ -90,6 +90,7 @@
 
 pub mod batch;
 pub mod certificate;
+mod combinations;
 mod dense;
 mod enumeration;
 mod error_free;
@@ -102,6 +103,8 @@ pub mod names;
 pub mod printable;
 mod problem;
 pub mod progress;
+#[cfg(test)]
+mod random_numbers;
 pub mod raw_problem;
 pub mod screen;
 mod search;

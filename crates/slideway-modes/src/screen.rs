@@ -388,17 +388,9 @@ impl SmallState {
 mod tests {
     use super::*;
     use crate::enumeration::enumerate;
+    use crate::random_numbers::random_numbers;
     use crate::solutions::Limits;
     use nalgebra::{DMatrix, DVector};
-
-    /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
-    fn random_numbers() -> impl FnMut() -> f64 {
-        let mut state: u64 = 7;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-    }
 
     fn small(problem: &ModeProblem) -> SmallProblem {
         let mut small = SmallProblem::new(problem.contacts());
@@ -409,7 +401,7 @@ mod tests {
     /// The oracle is the enumeration, which solves every pattern by a separate factorization.
     #[test]
     fn it_finds_what_the_enumeration_finds() {
-        let mut random = random_numbers();
+        let mut random = random_numbers(7);
         let (mut decided, mut found, mut gaps) = (0, 0, 0);
         for round in 0..3000 {
             let contacts = 1 + round % 5;

@@ -34,7 +34,8 @@ const IMPORTS: &[(&str, &[&str])] = &[
 
 /// Modules of `slideway-modes`, floor by floor: a module knows only those of lower floors.
 const FLOORS_OF_MODES: &[&[&str]] = &[
-    &["dense", "error_free", "names", "printable", "progress", "status"],
+    &["combinations", "error_free", "names", "printable", "progress", "random_numbers", "status"],
+    &["dense"],
     &["interval"],
     &["interval_matrix"],
     &["problem"],

@@ -6,6 +6,7 @@ use dashu_ratio::RBig;
 use nalgebra::DVector;
 
 use super::elimination::Echelon;
+use crate::combinations::{binomial, combinations};
 use crate::interval::Interval;
 use crate::problem::{ContactState, SolutionSet};
 
@@ -212,24 +213,4 @@ fn nearest(value: &RBig) -> f64 {
 fn distinct(points: impl Iterator<Item = Vec<RBig>>) -> Vec<Vec<RBig>> {
     let mut known = HashSet::new();
     points.filter(|point| known.insert(point.clone())).collect()
-}
-
-/// All increasing lists of `chosen` indices below `count`.
-fn combinations(count: usize, chosen: usize) -> impl Iterator<Item = Vec<usize>> {
-    let first: Option<Vec<usize>> = (chosen <= count).then(|| (0..chosen).collect());
-    std::iter::successors(first, move |last| {
-        let at = (0..chosen).rev().find(|&at| last[at] < count - chosen + at)?;
-        let mut next = last.clone();
-        for (offset, index) in next[at..].iter_mut().enumerate() {
-            *index = last[at] + 1 + offset;
-        }
-        Some(next)
-    })
-}
-
-fn binomial(count: usize, chosen: usize) -> u64 {
-    if chosen > count {
-        return 0;
-    }
-    (0..chosen as u64).fold(1_u64, |product, at| product.saturating_mul(count as u64 - at) / (at + 1))
 }

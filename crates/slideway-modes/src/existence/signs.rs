@@ -151,20 +151,12 @@ fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64)
 mod tests {
     use super::super::line::{Condition, Line, TOLERANCE};
     use super::*;
-
-    /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
-    fn random_numbers() -> impl FnMut() -> f64 {
-        let mut state: u64 = 11;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-    }
+    use crate::random_numbers::random_numbers;
 
     /// The oracle consists of determinants and solutions computed by elimination at many places.
     #[test]
     fn certain_signs_are_those_of_determinants_and_solutions() {
-        let mut random = random_numbers();
+        let mut random = random_numbers(11);
         let (mut certain, mut excluded, mut open) = (0, 0, 0);
         for round in 0..2000 {
             let (size, varying) = (1 + round % 5, 1 + round % 4);

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::combinations::{binomial, combinations};
 use crate::dense::Pace;
 use crate::findings::admitted::Admitted;
 use crate::problem::{ContactState, ScaledProblem, SolutionSet};
@@ -202,14 +203,13 @@ fn basic_feasible_points(
     let unknowns = equations.ncols() - 1;
     let right_hand_side = equations.column(unknowns).into_owned();
     let mut points = Vec::new();
-    if rank > unknowns {
-        return Some(points);
-    }
     if rank == 0 {
         return Some(vec![DVector::zeros(unknowns)]);
     }
-    let mut basis: Vec<usize> = (0..rank).collect();
-    while proceed() {
+    for basis in combinations(unknowns, rank) {
+        if !proceed() {
+            return None;
+        }
         let factors = equations.select_columns(&basis).lu();
         let regular = factors.lu_internal().diagonal().iter().all(|pivot| pivot.abs() > CONSISTENT);
         if let Some(values) = factors.solve(&right_hand_side).filter(|_| regular) {
@@ -222,31 +222,8 @@ fn basic_feasible_points(
                 points.push(point);
             }
         }
-        if !next_combination(&mut basis, unknowns) {
-            return Some(points);
-        }
     }
-    None
-}
-
-/// Advances an increasing list of indices below `count` to the next one in lexicographic order.
-fn next_combination(indices: &mut [usize], count: usize) -> bool {
-    let length = indices.len();
-    let Some(at) = (0..length).rev().find(|&at| indices[at] < count - length + at) else {
-        return false;
-    };
-    indices[at] += 1;
-    for later in at + 1..length {
-        indices[later] = indices[later - 1] + 1;
-    }
-    true
-}
-
-fn binomial(count: usize, chosen: usize) -> u64 {
-    if chosen > count {
-        return 0;
-    }
-    (0..chosen as u64).fold(1_u64, |product, at| product.saturating_mul(count as u64 - at) / (at + 1))
+    Some(points)
 }
 
 fn distinct(points: impl Iterator<Item = DVector<f64>>) -> Vec<DVector<f64>> {

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::combinations::{binomial, combinations};
 use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::bounds::{Column, IntervalModeProblem, IntervalModeProblemError, ProblemView};
@@ -122,7 +123,7 @@ impl<T: Real> SharedLoad<T> {
 }
 
 /// The most circuits that are tried one by one.
-const MOST_CIRCUITS: f64 = 20_000.0;
+const MOST_CIRCUITS: u64 = 20_000;
 
 impl SharedLoad {
     /// Contacts that rigid faces cannot be put together with: those of a self-stress `z` with
@@ -135,12 +136,12 @@ impl SharedLoad {
     pub fn out_of_line(&self) -> Option<Vec<usize>> {
         let sharing: Vec<usize> = (0..self.clearance.len()).filter(|&k| self.shares(k)).collect();
         let without = self.cut.len().checked_sub(1)?;
-        let count: f64 = (0..without).map(|k| (sharing.len() - k) as f64 / (k + 1) as f64).product();
-        if count > MOST_CIRCUITS {
+        if binomial(sharing.len(), without) > MOST_CIRCUITS {
             return None;
         }
         let rounding = sharing.len() as f64 * f64::EPSILON;
-        choices(&sharing, without).into_iter().find_map(|zero| {
+        combinations(sharing.len(), without).find_map(|zero| {
+            let zero: Vec<usize> = zero.into_iter().map(|at| sharing[at]).collect();
             let weights = self.circuit(&zero);
             let (forces, terms) = (&self.self_stress * &weights, self.self_stress.abs() * weights.abs());
             let others = || sharing.iter().copied().filter(|k| !zero.contains(k));
@@ -162,20 +163,6 @@ impl SharedLoad {
             sign * rows.clone().remove_column(stress).determinant()
         })
     }
-}
-
-/// All choices of so many of these.
-fn choices(of: &[usize], count: usize) -> Vec<Vec<usize>> {
-    if count == 0 {
-        return vec![Vec::new()];
-    }
-    (0..of.len())
-        .flat_map(|first| {
-            choices(&of[first + 1..], count - 1)
-                .into_iter()
-                .map(move |rest| [&[of[first]], rest.as_slice()].concat())
-        })
-        .collect()
 }
 
 /// Which contacts may be open, and together: those of a shared load.
@@ -335,15 +322,7 @@ impl IntervalModeProblem {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
-    fn random_numbers() -> impl FnMut() -> f64 {
-        let mut state: u64 = 11;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-    }
+    use crate::random_numbers::random_numbers;
 
     fn rigid(self_stress: DMatrix<f64>, clearance: DVector<f64>, misalignment: DVector<f64>) -> SharedLoad {
         let (contacts, stresses) = self_stress.shape();
@@ -361,7 +340,7 @@ mod tests {
     /// with `e = -d` are compatible, also with the play used up in every contact of a circuit.
     #[test]
     fn what_fits_is_told_from_what_does_not() {
-        let mut random = random_numbers();
+        let mut random = random_numbers(11);
         for round in 0..400 {
             let stresses = 1 + round % 4;
             let contacts = stresses + 2 + round % 3;
