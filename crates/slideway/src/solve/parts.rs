@@ -244,17 +244,9 @@ impl Parts {
         if contacts > MOST_CONTACTS {
             return false;
         }
-        let square = |matrix: &DMatrix<f64>| {
-            let mut square = [[0.0; MOST_CONTACTS]; MOST_CONTACTS];
-            for (k, column) in square.iter_mut().enumerate().take(contacts) {
-                (0..contacts).for_each(|row| column[row] = matrix[(row, k)]);
-            }
-            square
-        };
+        let Ok(exact) = self.problem() else { return false };
         let mut problem = SmallProblem::new(contacts);
-        problem.columns = [square(&self.columns.positive), square(&self.columns.negative)];
-        problem.jumps = [square(&self.jumps.positive), square(&self.jumps.negative)];
-        (0..contacts).for_each(|row| problem.right_hand_side[row] = self.right_hand_side[row]);
+        problem.copy(&exact);
         problem.load = accuracy.of_load;
         Screen::new(contacts).with_open(self.open.clone()).states(&problem, accuracy.part).is_ok()
     }
