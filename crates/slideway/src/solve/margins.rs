@@ -65,7 +65,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
-        uniqueness: enclosed.and_then(|enclosed| uniqueness(data, enclosed)),
+        uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
         moves_below: all.counts.first().filter(|count| is_jammed(count)).and_then(|_| moves_below(data)),
         critical_contact: critical_contact(data),
     });
@@ -75,27 +75,38 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
 /// none if there is no such factor, or with jumps of preloads. Of redundant guides, whatever their play,
 /// misalignment and stiffness: these decide which determinate part of the mechanism carries alone, and the
 /// determinants of all of these parts count, each with one face of a press fit at most.
-fn uniqueness(data: ProblemData<'_>, enclosed: &EnclosedModeProblem) -> Option<f64> {
+fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProblem) -> Option<f64> {
+    let Some(shared) = &enclosed.shared else {
+        let jumps = all.line.has_jump.contains(&true);
+        return (!jumps).then(|| first_locking(&all.line, enclosed, None)).flatten();
+    };
     let ProblemData { mechanism, influence, velocity_signs } = data;
     let determinate = determinate_problem(mechanism, influence, velocity_signs).ok()?;
     if determinate.jumps_of_contacts().contains(&true) {
         return None;
     }
-    let shared = enclosed.shared.as_ref().map(|shared| SharedLoad {
-        clearance: shared.clearance.map(|_| Interval::point(1.0)),
-        press_fits: Vec::new(),
-        ..shared.clone()
-    });
     let mut loose = mechanism.clone();
-    for contact in loose.contacts.iter_mut().filter(|_| shared.is_some()) {
+    for contact in &mut loose.contacts {
         (contact.play, contact.misalignment, contact.stiffness) = (2.0, 0.0, Some(1.0));
         contact.face = None;
     }
-    let line = line(ProblemData { mechanism: &loose, ..data }, &|_| true).ok()?;
+    let shared = SharedLoad {
+        clearance: shared.clearance.map(|_| Interval::point(1.0)),
+        press_fits: Vec::new(),
+        ..shared.clone()
+    };
+    first_locking(&line(ProblemData { mechanism: &loose, ..data }, &|_| true).ok()?, enclosed, Some(&shared))
+}
+
+/// The factor at which a determinant along a line is proven to change its sign, with bounds of the same numbers.
+fn first_locking(
+    line: &ModeProblemLine,
+    enclosed: &EnclosedModeProblem,
+    shared: Option<&SharedLoad<Interval>>,
+) -> Option<f64> {
     let sign_at = |factor: f64, pattern: &[ContactState]| {
-        let rougher = rougher(&enclosed.influence, factor)?;
-        let problem = IntervalModeProblem::from_influence(&rougher).ok()?;
-        match &shared {
+        let problem = IntervalModeProblem::from_influence(&rougher(&enclosed.influence, factor)?).ok()?;
+        match shared {
             Some(shared) => proven_determinant_sign(&problem.with_shared_load(shared).ok()?, pattern),
             None => proven_determinant_sign(&problem, pattern),
         }

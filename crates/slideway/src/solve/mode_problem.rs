@@ -57,18 +57,30 @@ pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration
 ///
 /// # Errors
 /// A fault if a number is beyond the range of floating point, or if nothing says how redundant guides share
-/// their load.
+/// their load, or if rigid ones cannot be assembled.
 pub fn mode_problem(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    velocity_signs: &DVector<f64>,
+) -> Result<ModeProblem, Faults> {
+    if let Some(shared) = shared_load(mechanism, self_stresses(influence))? {
+        check_assembly(mechanism, &shared)?;
+    }
+    assembled_problem(mechanism, influence, velocity_signs)
+}
+
+/// [`mode_problem`] of guides that are known to be assembled, as those of [`super::Stages`] are.
+///
+/// # Errors
+/// As [`mode_problem`].
+pub(super) fn assembled_problem(
     mechanism: &Mechanism,
     influence: &Influence,
     velocity_signs: &DVector<f64>,
 ) -> Result<ModeProblem, Faults> {
     let problem = determinate_problem(mechanism, influence, velocity_signs)?;
     match shared_load(mechanism, self_stresses(influence))? {
-        Some(shared) => {
-            check_assembly(mechanism, &shared)?;
-            problem.with_shared_load(&shared).map_err(|_| overflow())
-        }
+        Some(shared) => problem.with_shared_load(&shared).map_err(|_| overflow()),
         None => Ok(problem),
     }
 }

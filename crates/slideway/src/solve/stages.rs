@@ -1,6 +1,6 @@
 //! The stages of a model up to the numbers of its mode problem.
 
-use super::mode_problem::{mode_problem, self_stresses, velocity_signs};
+use super::mode_problem::{assembled_problem, self_stresses, velocity_signs};
 use super::parts::Parts;
 use super::sharing::check_assembly;
 use super::trail::Trail;
@@ -173,7 +173,7 @@ impl ProblemData<'_> {
     /// # Errors
     /// A fault if a number is beyond the range of floating point.
     pub(crate) fn problem(self) -> Result<ModeProblem, Faults> {
-        mode_problem(self.mechanism, self.influence, self.velocity_signs)
+        assembled_problem(self.mechanism, self.influence, self.velocity_signs)
     }
 
     /// Its numbers with the couples and then these functions of the unknowns as outputs.
