@@ -124,6 +124,7 @@ fn exclusions_carry_proofs_that_others_can_verify() -> Outcome {
         propagation: false,
         uniqueness: false,
         low_rank: false,
+        faces: false,
         every_pattern: false,
     };
     let options = SearchOptions { arguments, keep_exclusions: true, ..SearchOptions::default() };

@@ -166,7 +166,7 @@ fn dyadic_row(view: ProblemView<'_>, pattern: &[ContactState], row: usize) -> Ve
 }
 
 /// The row multiplied by the power of two that makes all its numbers integers without a common factor 2.
-fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
+pub(super) fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
     let parts: Vec<Vec<(i64, i32)>> =
         entries.iter().map(|terms| terms.iter().map(|&term| mantissa_and_exponent(term)).collect()).collect();
     let exponents =

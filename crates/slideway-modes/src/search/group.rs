@@ -103,7 +103,7 @@ fn search_large_group(
             return unexplored();
         }
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
-        let tree = Tree::new(scaled, propagation, &load_radius, options).run(leaves, monitor);
+        let tree = Tree::new((loaded, scaled), propagation, &load_radius, options).run(leaves, monitor);
         (Method::BranchAndBound, tree)
     })
 }

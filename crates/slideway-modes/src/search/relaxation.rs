@@ -12,6 +12,7 @@
 use nalgebra::DVector;
 
 use super::UNDERFLOW;
+use super::faces::Positive;
 use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
@@ -52,6 +53,19 @@ pub(super) struct RelaxedContact {
     /// If both sides press: a lower bound on how much the least cost grows without the positive or the
     /// negative side; infinite if that side is indispensable.
     pub(super) cost_without: [f64; 2],
+}
+
+impl RelaxedContact {
+    /// How far the contact is from being in one of the given states.
+    pub(super) fn violation(&self, set: StateSet) -> f64 {
+        let Self { positive, negative, share, .. } = *self;
+        let violation = positive.min(negative);
+        if set.len() > 2 || set.contains(ContactState::Gap) {
+            violation.max(positive.min(1.0 - share)).max(negative.min(share))
+        } else {
+            violation
+        }
+    }
 }
 
 /// The outcome of the relaxation for a node.
@@ -150,6 +164,27 @@ impl Relaxation {
             }
         }
         bounds
+    }
+
+    /// The unknowns of each contact that are positive inside the face of all solutions of a node that was
+    /// solved with this basis; `None` if that was not found.
+    pub(super) fn inside(
+        &self,
+        states: &[StateSet],
+        basis: &Basis,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<Positive>> {
+        let bounds = self.bounds(states);
+        let inside = basis.inside(&self.program, &bounds, proceed)?;
+        let positive = |(contact, &at): (usize, &usize)| {
+            let shares = match (self.has_jump[contact], states[contact].share()) {
+                (false, _) => [false; 2],
+                (true, (least, most)) if least == most => [least > 0.0, most < 1.0],
+                (true, _) => inside[at + 2],
+            };
+            Positive { sides: [inside[at][0], inside[at + 1][0]], shares }
+        };
+        Some(self.first.iter().enumerate().map(positive).collect())
     }
 
     fn contacts(&self, values: &[f64], basis: &Basis) -> Vec<RelaxedContact> {

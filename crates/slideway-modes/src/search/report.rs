@@ -55,7 +55,7 @@ impl SearchOptions {
 /// The arguments that a search may use besides the linear relaxation.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(clippy::struct_excessive_bools, reason = "five independent switches")]
+#[expect(clippy::struct_excessive_bools, reason = "six independent switches")]
 pub struct Arguments {
     /// Splitting into groups of contacts.
     pub groups: bool,
@@ -65,13 +65,22 @@ pub struct Arguments {
     pub uniqueness: bool,
     /// Cells of a hyperplane arrangement where the coupling is of low rank.
     pub low_rank: bool,
+    /// Settling whole faces of the relaxation.
+    pub faces: bool,
     /// Trying every pattern of groups of few contacts.
     pub every_pattern: bool,
 }
 
 impl Default for Arguments {
     fn default() -> Self {
-        Self { groups: true, propagation: true, uniqueness: true, low_rank: true, every_pattern: true }
+        Self {
+            groups: true,
+            propagation: true,
+            uniqueness: true,
+            low_rank: true,
+            faces: true,
+            every_pattern: true,
+        }
     }
 }
 
@@ -138,6 +147,9 @@ pub struct PatternShares {
     pub propagation: f64,
     /// Excluded by the linear relaxation.
     pub relaxation: f64,
+    /// Not solved one by one, because all their solutions are those of another pattern: a face of the linear
+    /// relaxation.
+    pub faces: f64,
     /// Solved one by one.
     pub examined: f64,
     /// Not settled, because the search ended early.
@@ -147,7 +159,7 @@ pub struct PatternShares {
 impl PatternShares {
     /// The fraction of settled patterns.
     pub fn done(&self) -> f64 {
-        self.uniqueness + self.cells + self.propagation + self.relaxation + self.examined
+        self.uniqueness + self.cells + self.propagation + self.relaxation + self.faces + self.examined
     }
 
     fn mean(&self, other: &Self, weight: f64) -> Self {
@@ -157,6 +169,7 @@ impl PatternShares {
             cells: mean(self.cells, other.cells),
             propagation: mean(self.propagation, other.propagation),
             relaxation: mean(self.relaxation, other.relaxation),
+            faces: mean(self.faces, other.faces),
             examined: mean(self.examined, other.examined),
             unexplored: mean(self.unexplored, other.unexplored),
         }

@@ -4,7 +4,9 @@ use std::rc::Rc;
 
 use nalgebra::DVector;
 
+use super::faces::{Faces, Positive, Settled};
 use super::leaf::Leaves;
+use super::load::LoadedProblem;
 use super::monitor::Monitor;
 use super::propagation::SolvedForm;
 use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
@@ -13,6 +15,9 @@ use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
 use crate::problem::{ContactState, ScaledProblem};
 
+/// Relaxed solutions that violate complementarity by at most this fraction of the largest unknown (or of 1)
+/// are examined as solutions.
+const COMPLEMENTARY: f64 = 1e-9;
 /// Costs of forbidding a side are limited to this range for comparison.
 const LEAST_COST: f64 = 1e-6;
 const MOST_COST: f64 = 1e9;
@@ -36,17 +41,20 @@ pub(super) struct Tree<'a> {
     problem: &'a ScaledProblem,
     propagation: Option<&'a SolvedForm>,
     relaxation: Relaxation,
+    /// Only if the numbers are exact: within bounds, no unknown vanishes for all values.
+    faces: Option<Faces>,
     keep_exclusions: bool,
     report: TreeReport,
 }
 
 impl<'a> Tree<'a> {
     pub(super) fn new(
-        problem: &'a ScaledProblem,
+        (loaded, problem): (&LoadedProblem<'_>, &'a ScaledProblem),
         propagation: Option<&'a SolvedForm>,
         load_radius: &DVector<f64>,
         options: &SearchOptions,
     ) -> Self {
+        let is_exact = options.certify && options.arguments.faces && loaded.view().exact;
         let unbounded = || vec![f64::INFINITY; problem.contacts()];
         let largest = propagation.map_or_else(unbounded, |propagation| propagation.largest.clone());
         Self {
@@ -54,6 +62,7 @@ impl<'a> Tree<'a> {
             // Without bounds, there is nothing to propagate.
             propagation: propagation.filter(|propagation| propagation.is_contraction()),
             relaxation: Relaxation::new(problem, load_radius, largest),
+            faces: is_exact.then(|| Faces::new(loaded.view())),
             keep_exclusions: options.keep_exclusions,
             report: TreeReport::default(),
         }
@@ -102,11 +111,28 @@ impl<'a> Tree<'a> {
             Relaxed::Feasible(relaxed) => Some(relaxed),
             Relaxed::Undecided => None,
         };
-        let pattern: Vec<ContactState> = node.states.iter().filter_map(|states| states.decided()).collect();
-        if pattern.len() == node.states.len() {
+        if let Some(pattern) = decided(&node.states) {
             return self.examine(&pattern, leaves, monitor);
         }
-        let (contact, preferred) = branching(&node.states, relaxed.as_deref());
+        let inside = match &relaxed {
+            None if self.excludes_exactly(&node.states, monitor) => return Ok(()),
+            Some(relaxed) if self.faces.is_some() && is_complementary(&node.states, relaxed) => {
+                self.relaxation.inside(&node.states, &basis, &mut || monitor.goes_on())
+            }
+            _ => None,
+        };
+        if let Some(inside) = &inside
+            && contradictions(&node.states, inside).next().is_none()
+            && let Some(settled) = self.settle(&node.states, inside, monitor)
+        {
+            return match settled {
+                Settled::Known => Ok(()),
+                Settled::Pattern(pattern) => leaves.examine(&pattern, monitor),
+            };
+        }
+        let contradicting: Option<Vec<usize>> =
+            inside.map(|inside| contradictions(&node.states, &inside).collect());
+        let (contact, preferred) = branching(&node.states, relaxed.as_deref(), contradicting.as_deref());
         let basis = if relaxed.is_some() { Rc::new(basis) } else { node.basis };
         let mut children: Vec<ContactState> = node.states[contact].iter().collect();
         // The last one is visited first.
@@ -117,6 +143,29 @@ impl<'a> Tree<'a> {
             open.push(Node { states, basis: Rc::clone(&basis) });
         }
         Ok(())
+    }
+
+    /// Whether a node that the relaxation left undecided has no solution, proven in integers.
+    fn excludes_exactly(&mut self, states: &[StateSet], monitor: &mut Monitor<'_>) -> bool {
+        let Some(faces) = &self.faces else { return false };
+        let excluded = faces.excludes(states, &mut || monitor.goes_on());
+        if excluded {
+            self.report.shares.relaxation += fraction_of_patterns(self.problem, states);
+        }
+        excluded
+    }
+
+    /// Settles a node whose solutions are those of one pattern.
+    fn settle(
+        &mut self,
+        states: &[StateSet],
+        inside: &[Positive],
+        monitor: &mut Monitor<'_>,
+    ) -> Option<Settled> {
+        let faces = self.faces.as_mut()?;
+        let settled = faces.settle(self.problem, states, inside, &mut || monitor.goes_on())?;
+        self.report.shares.faces += fraction_of_patterns(self.problem, states);
+        Some(settled)
     }
 
     /// `false` if propagation excludes the node.
@@ -159,28 +208,51 @@ impl<'a> Tree<'a> {
     }
 }
 
+/// The pattern of a node, if every contact is decided.
+fn decided(states: &[StateSet]) -> Option<Vec<ContactState>> {
+    states.iter().map(|states| states.decided()).collect()
+}
+
+/// Whether a relaxed solution is one of the problem, within tolerances.
+fn is_complementary(states: &[StateSet], relaxed: &[RelaxedContact]) -> bool {
+    let size =
+        relaxed.iter().fold(1.0, |most: f64, contact| most.max(contact.positive).max(contact.negative));
+    let violation = |(set, contact): (&StateSet, &RelaxedContact)| contact.violation(*set);
+    states.iter().zip(relaxed).map(violation).all(|violation| violation <= COMPLEMENTARY * size)
+}
+
+/// The contacts with positive unknowns that belong to no single state.
+fn contradictions<'s>(states: &'s [StateSet], inside: &'s [Positive]) -> impl Iterator<Item = usize> + 's {
+    (0..states.len())
+        .filter(|&contact| !states[contact].iter().any(|state| inside[contact].agrees_with(state)))
+}
+
 /// The contact to branch on and the state to examine first. Among the contacts that press on both sides, it
 /// is the one for which forbidding either side costs most, as a product; if there are none, the one that
-/// presses most, because its other states are furthest from the present solution.
-fn branching(states: &[StateSet], relaxed: Option<&[RelaxedContact]>) -> (usize, ContactState) {
+/// presses most, because its other states are furthest from the present solution: among those that contradict
+/// inside the face of all relaxed solutions, if they are known.
+fn branching(
+    states: &[StateSet],
+    relaxed: Option<&[RelaxedContact]>,
+    contradicting: Option<&[usize]>,
+) -> (usize, ContactState) {
     let undecided = (0..states.len()).filter(|&contact| states[contact].decided().is_none());
     let Some(relaxed) = relaxed else {
         return (undecided.min().unwrap_or(0), ContactState::Positive);
     };
-    let mut best = (0, (f64::NEG_INFINITY, f64::NEG_INFINITY));
-    for contact in undecided {
-        let RelaxedContact { positive, negative, share, cost_without } = relaxed[contact];
-        let mut violation = positive.min(negative);
-        if states[contact].len() > 2 || states[contact].contains(ContactState::Gap) {
-            violation = violation.max(positive.min(1.0 - share)).max(negative.min(share));
-        }
+    let wanted = |contact: &usize| contradicting.is_none_or(|all| all.is_empty() || all.contains(contact));
+    let mut best: Option<(usize, (f64, f64))> = None;
+    for contact in undecided.filter(wanted) {
+        let RelaxedContact { positive, negative, cost_without, .. } = relaxed[contact];
         let cost: f64 = cost_without.iter().map(|cost| cost.clamp(LEAST_COST, MOST_COST)).product();
+        let violation = relaxed[contact].violation(states[contact]);
         let score = (if violation > 0.0 { cost } else { 0.0 }, positive.max(negative));
-        if score > best.1 {
-            best = (contact, score);
+        if best.is_none_or(|(_, most)| score > most) {
+            best = Some((contact, score));
         }
     }
-    let at = relaxed[best.0];
+    let contact = best.map_or(0, |(contact, _)| contact);
+    let at = relaxed[contact];
     let preferred = if at.positive >= at.negative { ContactState::Positive } else { ContactState::Negative };
-    (best.0, preferred)
+    (contact, preferred)
 }

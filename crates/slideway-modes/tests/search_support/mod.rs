@@ -86,6 +86,7 @@ pub(crate) fn switches() -> [SearchOptions; 6] {
         propagation: false,
         uniqueness: false,
         low_rank: false,
+        faces: false,
         every_pattern: false,
     };
     [

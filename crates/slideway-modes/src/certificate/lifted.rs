@@ -1,0 +1,165 @@
+//! The lifted equations, in integers: every contact with the unknowns of all its states at once.
+//!
+//! ```text
+//! sum_k c_k^+ y_k^+ + c_k^- y_k^- - d_k^+ lambda_k - d_k^- lambda'_k = N(0) + sum_k d_k    (d_k: without a jump)
+//! lambda_k + lambda'_k = 1                                                                (with a jump)
+//! y^+, y^-, lambda, lambda' >= 0
+//! ```
+//!
+//! The solutions of the mode problem are the faces of this polyhedron in which no two of the unknowns of
+//! different states of a contact are positive (theory, section 4 (b)).
+
+use dashu_int::IBig;
+use dashu_int::ops::Gcd;
+
+use super::elimination::integer_row;
+use crate::problem::{ContactState, ProblemView, Side};
+
+/// The columns and the right-hand side of the lifted equations of an exact problem; every row is multiplied
+/// by a power of two.
+///
+/// The column of `y_k^+` is `k`, that of `y_k^-` is `n + k`; those of `lambda` and `lambda'` of the contacts
+/// with a jump follow in pairs.
+pub(crate) struct LiftedSystem {
+    contacts: usize,
+    rows: usize,
+    columns: Vec<Vec<IBig>>,
+    right: Vec<IBig>,
+    /// The column of `lambda_k` of the contacts with a jump.
+    share: Vec<Option<usize>>,
+}
+
+impl LiftedSystem {
+    /// Of a problem with exact numbers.
+    pub(crate) fn new(problem: ProblemView<'_>) -> Self {
+        let contacts = problem.contacts();
+        let jumping: Vec<usize> = (0..contacts).filter(|&contact| problem.has_jump(contact)).collect();
+        let mut share = vec![None; contacts];
+        for (at, &contact) in jumping.iter().enumerate() {
+            share[contact] = Some(2 * (contacts + at));
+        }
+        let width = 2 * (contacts + jumping.len());
+        let mut columns = vec![Vec::with_capacity(contacts + jumping.len()); width];
+        let mut right = Vec::with_capacity(contacts + jumping.len());
+        for row in 0..contacts {
+            let mut entries = integer_row(&lifted_row(problem, &jumping, row));
+            right.extend(entries.pop());
+            columns.iter_mut().zip(entries).for_each(|(column, entry)| column.push(entry));
+        }
+        for &contact in &jumping {
+            for (at, column) in columns.iter_mut().enumerate() {
+                let share = share[contact].unwrap_or(width);
+                column.push(IBig::from(u8::from(at == share || at == share + 1)));
+            }
+            right.push(IBig::ONE);
+        }
+        Self { contacts, rows: right.len(), columns, right, share }
+    }
+
+    /// The number of columns.
+    pub(crate) fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The number of equations.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// `C_j`.
+    pub(crate) fn column(&self, column: usize) -> &[IBig] {
+        &self.columns[column]
+    }
+
+    /// `b`.
+    pub(crate) fn right(&self) -> &[IBig] {
+        &self.right
+    }
+
+    /// The columns of a contact in a state.
+    pub(crate) fn columns_of(&self, contact: usize, state: ContactState) -> impl Iterator<Item = usize> {
+        let share = self.share[contact];
+        let rest = share.map(|share| share + 1);
+        let pair = match state {
+            ContactState::Positive => [Some(contact), share],
+            ContactState::Negative => [Some(self.contacts + contact), rest],
+            ContactState::Gap => [share, rest],
+        };
+        pair.into_iter().flatten()
+    }
+
+    /// A basis of all `v` with `v . C_j = 0` for some columns, in integers without common factor; `None` once
+    /// `proceed` is `false`.
+    pub(crate) fn left_null_space(
+        &self,
+        columns: &[usize],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<Vec<IBig>>> {
+        let row = |row: usize| {
+            let unit = (0..self.rows).map(|at| IBig::from(u8::from(at == row)));
+            columns.iter().map(|&column| self.columns[column][row].clone()).chain(unit).collect()
+        };
+        let mut rows: Vec<Vec<IBig>> = (0..self.rows).map(row).collect();
+        let mut rank = 0;
+        for column in 0..columns.len() {
+            let pivot = (rank..self.rows).filter(|&row| !rows[row][column].is_zero());
+            let Some(pivot) = pivot.min_by_key(|&row| size_of(&rows[row])) else { continue };
+            rows.swap(pivot, rank);
+            let (above, below) = rows.split_at_mut(rank + 1);
+            for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
+                if !proceed() {
+                    return None;
+                }
+                eliminate(row, &above[rank], column);
+            }
+            rank += 1;
+        }
+        Some(rows.into_iter().skip(rank).map(|mut row| row.split_off(columns.len())).collect())
+    }
+}
+
+/// The numbers of a row whose sums are its entries, with the right-hand side last.
+fn lifted_row(problem: ProblemView<'_>, jumping: &[usize], row: usize) -> Vec<Vec<f64>> {
+    let side = |side: Side| {
+        (0..problem.contacts())
+            .map(move |contact| problem.column(contact, side).terms().map(|term| term.centre[row]).collect())
+    };
+    let jump = |contact: usize, side: Side| problem.jump(contact, side).centre[row];
+    let shares = jumping.iter().flat_map(|&contact| Side::BOTH.map(|side| vec![-jump(contact, side)]));
+    let constant = (0..problem.contacts()).filter(|contact| !jumping.contains(contact));
+    let right = std::iter::once(problem.load().centre[row]).chain(constant.map(|k| jump(k, Side::Negative)));
+    side(Side::Positive).chain(side(Side::Negative)).chain(shares).chain([right.collect()]).collect()
+}
+
+/// Removes the entry of a column by a multiple of the pivot row, and divides by the common factor.
+fn eliminate(row: &mut [IBig], pivot_row: &[IBig], column: usize) {
+    let common = (&row[column]).gcd(&pivot_row[column]);
+    let (factor, pivot) =
+        (&row[column] / IBig::from(common.clone()), &pivot_row[column] / IBig::from(common));
+    for (entry, eliminated) in row.iter_mut().zip(pivot_row) {
+        if !entry.is_zero() || !eliminated.is_zero() {
+            *entry = &*entry * &pivot - &factor * eliminated;
+        }
+    }
+    make_primitive(row);
+}
+
+/// Divides by the greatest common divisor.
+pub(crate) fn make_primitive(row: &mut [IBig]) {
+    let nonzero = row.iter().filter(|entry| !entry.is_zero());
+    let mut common = IBig::ZERO;
+    for entry in nonzero {
+        common = if common.is_zero() { entry.clone() } else { IBig::from((&common).gcd(entry)) };
+        if common.is_one() {
+            return;
+        }
+    }
+    if !common.is_zero() {
+        row.iter_mut().filter(|entry| !entry.is_zero()).for_each(|entry| *entry = &*entry / &common);
+    }
+}
+
+fn size_of(row: &[IBig]) -> usize {
+    use dashu_int::ops::BitTest;
+    row.iter().map(BitTest::bit_len).sum()
+}
