@@ -1,0 +1,100 @@
+//! Problems of known difficulty, for times, for numbers of nodes and for tests.
+#![allow(dead_code, reason = "each program uses a part of it")]
+
+use nalgebra::{DMatrix, DVector};
+use slideway_modes::{ModeProblem, SharedLoad};
+
+mod structured;
+
+pub(crate) use structured::*;
+
+/// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
+fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(7919).wrapping_add(12_345);
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// `x - B |x| = c` with a solution planted in each block of the given size,
+/// `B = strength sqrt(3 / block) U(-1, 1)`.
+pub(crate) fn planted_blocks(contacts: usize, block: usize, strength: f64, seed: u64) -> ModeProblem {
+    let mut random = random_numbers(seed);
+    let factor = strength * (3.0 / block as f64).sqrt();
+    let b = DMatrix::from_fn(contacts, contacts, |row, column| {
+        if row / block == column / block { factor * random() } else { 0.0 }
+    });
+    let x = DVector::from_fn(contacts, |_, _| random());
+    let load = &x - &b * x.abs();
+    let identity = DMatrix::identity(contacts, contacts);
+    ModeProblem::from_absolute_value_equation(&identity, &-b, load).expect("shapes fit")
+}
+
+/// Blocks of ten contacts, each acting on the first contact of the next; two column versions.
+pub(crate) fn chained_blocks(contacts: usize, strength: f64) -> ModeProblem {
+    let mut random = random_numbers(1);
+    let factor = strength * 0.3_f64.sqrt();
+    let mut columns = |sign: f64| {
+        DMatrix::from_fn(contacts, contacts, |row, column| match row / 10 {
+            block if block == column / 10 => factor * random() + if row == column { sign } else { 0.0 },
+            block if block == column / 10 + 1 && row % 10 == 0 => 0.3 * random(),
+            _ => 0.0,
+        })
+    };
+    let (positive, negative) = (columns(1.0), columns(-1.0));
+    let load = DVector::from_fn(contacts, |_, _| random());
+    let none = DMatrix::zeros(contacts, contacts);
+    ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
+}
+
+/// Entries uniform in [-1, 1] with a planted solution.
+pub(crate) fn planted_complementarity(contacts: usize, seed: u64) -> ModeProblem {
+    let mut random = random_numbers(seed);
+    let m = DMatrix::from_fn(contacts, contacts, |_, _| random());
+    let x = DVector::from_fn(contacts, |_, _| random());
+    let q = x.map(|x| (-x).max(0.0)) - &m * x.map(|x| x.max(0.0));
+    ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit")
+}
+
+/// A diagonal and a coupling of low rank; two column versions.
+pub(crate) fn low_rank(contacts: usize, rank: usize) -> ModeProblem {
+    let mut random = random_numbers(2);
+    let left = DMatrix::from_fn(contacts, rank, |_, _| random());
+    let mut columns = |sign: f64| {
+        let diagonal = DVector::from_fn(contacts, |_, _| sign + 0.3 * random());
+        let right = DMatrix::from_fn(rank, contacts, |_, _| 2.0 * random() / (contacts as f64).sqrt());
+        DMatrix::from_diagonal(&diagonal) + &left * right
+    };
+    let (positive, negative) = (columns(1.0), columns(-1.0));
+    let load = DVector::from_fn(contacts, |_, _| random());
+    let none = DMatrix::zeros(contacts, contacts);
+    ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
+}
+
+/// Contacts that share a load: as many self-stresses as cut contacts, which are the last ones, and friction that is
+/// small enough for one solution.
+pub(crate) fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
+    let mut random = random_numbers(3);
+    let kept = contacts - self_stresses;
+    let mut matrix = |width: usize, factor: f64| DMatrix::from_fn(contacts, width, |_, _| factor * random());
+    let (eta, stress) = (matrix(contacts, 0.3 / contacts as f64), matrix(self_stresses, 1.0));
+    let identity = DMatrix::identity(contacts, contacts);
+    let eta = DMatrix::from_fn(contacts, contacts, |row, k| if row < kept { eta[(row, k)] } else { 0.0 });
+    let load = DVector::from_fn(contacts, |row, _| if row < kept { 10.0 * random() } else { 0.0 });
+    let none = DMatrix::zeros(contacts, contacts);
+    let determinate =
+        ModeProblem::new(&identity - &eta, -identity - &eta, none.clone(), none, load).expect("shapes fit");
+    let shared = SharedLoad {
+        cut: (kept..contacts).collect(),
+        self_stress: DMatrix::from_fn(contacts, self_stresses, |row, column| match row.checked_sub(kept) {
+            None => stress[(row, column)],
+            Some(cut) => f64::from(u8::from(cut == column)),
+        }),
+        compliance: DVector::from_fn(contacts, |_, _| 1e-5 * (1.0 + 0.5 * random())),
+        clearance: DVector::from_fn(contacts, |_, _| 1e-4 * (1.0 + 0.5 * random())),
+        misalignment: DVector::from_fn(contacts, |_, _| 1e-4 * random()),
+        press_fits: Vec::new(),
+    };
+    determinate.with_shared_load(&shared).expect("shapes fit")
+}

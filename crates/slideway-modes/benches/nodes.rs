@@ -1,0 +1,84 @@
+//! Nodes, cells and times of the search on problems with continua, monotone problems, chained groups and random
+//! ones. One thread, at most 20 s for each.
+//!
+//! ```text
+//! cargo bench -p slideway-modes --bench nodes             all
+//! cargo bench -p slideway-modes --bench nodes -- pile     those whose name contains a word
+//! ```
+#![allow(clippy::print_stdout, reason = "a program that prints a table")]
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use slideway_modes::{ModeProblem, SearchOptions, search};
+
+mod instances;
+
+const TIME_LIMIT: Duration = Duration::from_secs(20);
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    // `cargo test` starts benchmarks, too, without `--bench`.
+    let few = !std::env::args().any(|argument| argument == "--bench");
+    println!("| instance | solutions | sets | maximal | nodes | time (ms) | |");
+    println!("|---|---:|---:|---:|---:|---:|---|");
+    for (name, make) in table().into_iter().take(if few { 1 } else { usize::MAX }) {
+        if words.is_empty() || words.iter().any(|word| name.contains(word.as_str())) {
+            println!("{}", line(name, &make()));
+        }
+    }
+}
+
+type Make = fn() -> ModeProblem;
+
+/// The instances by name.
+fn table() -> Vec<(&'static str, Make)> {
+    use instances::*;
+    vec![
+        ("ones 12, q = 0", || ones(12, 0.0)),
+        ("ones 40, q = 0", || ones(40, 0.0)),
+        ("ones 12, q = -1", || ones(12, -1.0)),
+        ("ones 20, q = -1", || ones(20, -1.0)),
+        ("pile 1", || pile(1)),
+        ("pile 2", || pile(2)),
+        ("pile 3", || pile(3)),
+        ("rank 9 of 18", || one_cell_of_low_rank(18, 9, 1)),
+        ("clamped 12 of 6", || clamped_without_friction(12, 6, 1)),
+        ("pushed 40 of 20", || pushed_without_friction(40, 20, 1)),
+        ("market 20", || market(20, 1)),
+        ("market 40", || market(40, 1)),
+        ("market 60", || market(60, 1)),
+        ("game 6 x 6", || game_with_two_costs(6, 1)),
+        ("subset 14", || subset(14)),
+        ("subset 18", || subset(18)),
+        ("subset 20", || subset(20)),
+        ("chained 60", || chained_blocks(60, 0.5)),
+        ("planted 24", || planted_complementarity(24, 1)),
+        ("planted 36", || planted_complementarity(36, 1)),
+        ("ave 1 28", || planted_blocks(28, 28, 1.0, 1)),
+        ("ave 1 36", || planted_blocks(36, 36, 1.0, 1)),
+        ("ave 1 56", || planted_blocks(56, 56, 1.0, 1)),
+    ]
+}
+
+/// `subset_sum` with weights up to 10^5.
+fn subset(items: usize) -> ModeProblem {
+    let (weights, target) = instances::weights_with_subset(items, 100_000, 1);
+    instances::subset_sum(&weights, target)
+}
+
+/// One line of the table.
+fn line(name: &str, problem: &ModeProblem) -> String {
+    let start = Instant::now();
+    let result = search(problem, &SearchOptions::default(), &mut |_| {
+        if start.elapsed() < TIME_LIMIT { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let milliseconds = 1e3 * start.elapsed().as_secs_f64();
+    let counts = result.counts();
+    let maximal = result.product.states().filter(|state| state.is_maximal()).take(10_000).count();
+    let (solutions, sets, nodes) = (counts.solutions, counts.singular, result.nodes());
+    format!(
+        "| {name} | {solutions} | {sets} | {maximal} | {nodes} | {milliseconds:.1} | {} |",
+        result.completeness
+    )
+}
