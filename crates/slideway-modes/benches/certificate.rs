@@ -1,11 +1,12 @@
 //! What proofs about patterns cost, on dense random problems: `cargo bench --bench certificate`.
 
+use dashu_int::IBig;
 use divan::Bencher;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use slideway_modes::certificate::{decide, propagate, proves_at_most_one, proves_empty, solve_exactly};
+use slideway_modes::certificate::{Cell, decide, propagate, proves_at_most_one, proves_empty, solve_exactly};
 use slideway_modes::{ContactState, ModeProblem};
 
 const SIZES: [usize; 5] = [8, 12, 16, 24, 40];
@@ -92,5 +93,32 @@ fn tight_weights(bencher: Bencher<'_, '_>, contacts: usize) {
     let mut next = tight.iter().cycle();
     bencher.bench_local(|| {
         next.next().map(|(partial, weights)| proves_empty(&problem, partial, weights.as_slice()))
+    });
+}
+
+/// All corners of the doubly stochastic matrices, which no split makes easier: 24 and 120 vertices, dimension 9
+/// and 16.
+#[divan::bench(args = [4, 5])]
+fn corners_of_doubly_stochastic_matrices(bencher: Bencher<'_, '_>, size: usize) {
+    let entry = |at: usize| -> Vec<IBig> {
+        (0..2 * size).map(|row| i32::from(row == at / size || row == size + at % size).into()).collect()
+    };
+    let columns: Vec<Vec<IBig>> = (0..size * size).map(entry).collect();
+    let right = vec![IBig::ONE; 2 * size];
+    bencher.bench_local(|| Cell::of_columns(&columns, &right, 1000, &mut || true));
+}
+
+/// A cube of which no equation shows the axes: `y_k + y_{d+k} = 1` and multiples of the equations before.
+#[divan::bench(args = [6, 9, 12])]
+fn corners_of_cubes(bencher: Bencher<'_, '_>, dimension: usize) {
+    let entry = |at: usize| -> Vec<IBig> {
+        let factor =
+            |row: usize| if row >= at % dimension { (row - at % dimension + 1).into() } else { IBig::ZERO };
+        (0..dimension).map(factor).collect()
+    };
+    let columns: Vec<Vec<IBig>> = (0..2 * dimension).map(entry).collect();
+    let right: Vec<IBig> = (0..dimension).map(|row| ((row + 1) * (row + 2) / 2).into()).collect();
+    bencher.bench_local(|| {
+        Cell::of_columns(&columns, &right, 1000, &mut || true).map(|cell| cell.set(1 << dimension))
     });
 }

@@ -10,8 +10,8 @@ use super::system::{BoundedVector, PatternSystem};
 use crate::interval::{Interval, Sign};
 use crate::problem::{ContactState, ProblemView};
 
-/// Maximum number of vertices and directions tried to describe what a singular pattern admits.
-const BASES: u64 = 20_000;
+/// Maximum number of vertices and extreme directions that describe what a singular pattern admits.
+const CORNERS: usize = 4096;
 
 /// What one pattern admits. `unknowns` has one entry per contact: `y_k`, or the share `lambda_k` for a
 /// contact in its gap.
@@ -278,8 +278,9 @@ fn decide_exactly(
     let contacts = pattern.len();
     let echelon = IntegerSystem::new(problem.centre, pattern).eliminate_while(proceed)?;
     if !echelon.is_regular() {
-        let set = ExactSet::of_echelon(&echelon, pattern, BASES, proceed);
-        return proceed().then_some(Decision::Singular { set });
+        let system = IntegerSystem::new(problem.centre, pattern);
+        let set = ExactSet::of_system(&system, pattern, CORNERS, proceed)?;
+        return Some(Decision::Singular { set });
     }
     let solution = ExactSolution::new(&echelon, contacts);
     let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;

@@ -27,6 +27,13 @@ impl IntegerSystem {
         Self { rows }
     }
 
+    /// The columns of `A`, and `b`.
+    pub(super) fn columns(&self) -> (Vec<Vec<IBig>>, Vec<IBig>) {
+        let column = |at: usize| self.rows.iter().map(|row| row[at].clone()).collect();
+        let unknowns = self.rows.len();
+        ((0..unknowns).map(column).collect(), column(unknowns))
+    }
+
     /// [`eliminate_while`](Self::eliminate_while) without interruption.
     pub(super) fn eliminate(self) -> Echelon {
         let Some(echelon) = self.eliminate_while(&mut || true) else { unreachable!("nothing stops it") };
@@ -79,17 +86,8 @@ fn eliminate_row(row: &mut [IBig], pivot_row: &[IBig], column: usize, previous: 
 }
 
 impl Echelon {
-    pub(super) fn pivots(&self) -> &[usize] {
-        &self.pivots
-    }
-
     pub(super) fn is_regular(&self) -> bool {
         self.pivots.len() == self.rows.len()
-    }
-
-    /// Whether the equations without unknowns hold.
-    pub(super) fn is_consistent(&self) -> bool {
-        self.rows[self.pivots.len()..].iter().all(|row| row[self.rows.len()].is_zero())
     }
 
     /// The sign of the determinant.

@@ -27,9 +27,9 @@ pub enum ExactOutcome {
 /// Solves the equations of one pattern in rational arithmetic, for the numbers as given.
 ///
 /// `unknowns` are in the order of the contacts. If the pattern is singular, its set of admissible solutions
-/// (`y >= 0`, `0 <= lambda <= 1`) is described with at most `bases` trials of a vertex or direction; if more
-/// would be needed, it is [`ExactSet::NotComputed`]. Numbers grow to about `53 r` bits, and the work grows
-/// about like `r^4` to `r^5`.
+/// (`y >= 0`, `0 <= lambda <= 1`) is described by up to `most` vertices and extreme directions; if it has
+/// more, or more have to be held in between, it is [`ExactSet::NotComputed`]. Numbers grow to about `53 r`
+/// bits, and the work for a regular pattern grows about like `r^4` to `r^5`.
 ///
 /// # Panics
 /// If the pattern does not have one state per contact.
@@ -44,14 +44,18 @@ pub enum ExactOutcome {
 /// assert!(matches!(outcome, ExactOutcome::Singular(ExactSet::Ray { .. })));
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
-pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64) -> ExactOutcome {
+pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], most: usize) -> ExactOutcome {
     assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
     let echelon = IntegerSystem::new(problem, pattern).eliminate();
     if echelon.is_regular() {
         let unknowns = echelon.solve_reduced(pattern.len());
         return ExactOutcome::Regular { determinant: echelon.determinant_sign(), unknowns };
     }
-    ExactOutcome::Singular(ExactSet::of_echelon(&echelon, pattern, bases, &mut || true))
+    let system = IntegerSystem::new(problem, pattern);
+    let Some(set) = ExactSet::of_system(&system, pattern, most, &mut || true) else {
+        unreachable!("nothing stops it")
+    };
+    ExactOutcome::Singular(set)
 }
 
 /// Solves the equations of one pattern for some contacts, together only with those of the contacts that act

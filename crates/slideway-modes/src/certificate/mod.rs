@@ -18,6 +18,7 @@
 //! Contacts in their gap have the column `-(d_k^+ - d_k^-)`, and their unknown is the share `lambda_k`,
 //! `0 <= lambda_k <= 1`. Any difference between `d_k^+` and `d_k^-`, however small, is a jump.
 
+mod cell;
 mod decision;
 mod elimination;
 mod enclosure;
@@ -33,6 +34,7 @@ mod system;
 pub use crate::interval::{Interval, Sign};
 pub use crate::interval_matrix::IntervalMatrix;
 pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModeProblemError, ProblemView};
+pub use cell::{Cell, CellPart};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution, proven_determinant_sign};

@@ -72,7 +72,8 @@ pub enum SolutionSet<P = DVector<f64>> {
         /// Extreme directions, each with a largest component of size 1.
         directions: Vec<P>,
     },
-    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases) or the caller allows.
+    /// It has more corners than are described, or it is known within tolerances only and takes more work than
+    /// [`Limits::bases`](crate::Limits::bases).
     NotComputed,
 }
 

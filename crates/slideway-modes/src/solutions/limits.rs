@@ -13,7 +13,8 @@ pub struct Limits {
     pub listed: usize,
     /// Largest number of (nearly) singular patterns that are examined; further ones are only counted.
     pub singular: usize,
-    /// Largest number of bases tried, over all singular patterns, to describe what they admit.
+    /// Largest number of bases tried, over all singular patterns, to describe what they admit within
+    /// tolerances. Exact sets have a limit of their own: 4096 corners.
     pub bases: u64,
 }
 

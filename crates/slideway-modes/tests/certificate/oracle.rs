@@ -70,21 +70,30 @@ pub(crate) fn unknowns(problem: &ModeProblem, pattern: &[ContactState]) -> Optio
     solve(&square, &(0..contacts).collect::<Vec<_>>())
 }
 
-/// All vertices of what a pattern admits, found by trying every set of columns. A pattern admits
-/// something exactly if there is a vertex.
+/// All vertices of what a pattern admits. A pattern admits something exactly if there is a vertex.
 pub(crate) fn vertices(problem: &ModeProblem, pattern: &[ContactState]) -> Vec<Vec<RBig>> {
-    let rows = equations(problem, pattern);
-    let width = rows.len();
+    let mut found: Vec<Vec<RBig>> = Vec::new();
+    for mut point in basic_solutions(&equations(problem, pattern)) {
+        point.truncate(pattern.len());
+        if !found.contains(&point) {
+            found.push(point);
+        }
+    }
+    found
+}
+
+/// All vertices of `{y >= 0, A y = b}`, found by trying every set of columns of `[A | b]`.
+pub(crate) fn basic_solutions(rows: &[Vec<RBig>]) -> Vec<Vec<RBig>> {
+    let width = rows.first().map_or(0, |row| row.len() - 1);
     let mut found: Vec<Vec<RBig>> = Vec::new();
     for set in 0..1_u32 << width {
         let columns: Vec<usize> = (0..width).filter(|&at| set >> at & 1 == 1).collect();
-        let Some(values) = solve(&rows, &columns) else { continue };
+        let Some(values) = solve(rows, &columns) else { continue };
         if values.iter().any(|value| *value < RBig::ZERO) {
             continue;
         }
         let mut point = vec![RBig::ZERO; width];
         columns.iter().zip(values).for_each(|(&at, value)| point[at] = value);
-        point.truncate(pattern.len());
         if !found.contains(&point) {
             found.push(point);
         }
