@@ -164,7 +164,13 @@ fn dyadic_row(view: ProblemView<'_>, pattern: &[ContactState], row: usize) -> Ve
 }
 
 /// The row multiplied by the power of two that makes all its numbers integers without a common factor 2.
-pub(super) fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
+fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
+    integers_of_row(entries).0
+}
+
+/// The row multiplied by the power of two that makes all its numbers integers without a common factor 2, and
+/// the exponent of that power.
+pub(super) fn integers_of_row(entries: &[Vec<f64>]) -> (Vec<IBig>, i32) {
     let parts: Vec<Vec<(i64, i32)>> =
         entries.iter().map(|terms| terms.iter().map(|&term| mantissa_and_exponent(term)).collect()).collect();
     let exponents =
@@ -175,7 +181,7 @@ pub(super) fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
         let shift = usize::try_from(exponent - smallest).unwrap_or(0);
         IBig::from(mantissa) << shift
     };
-    parts.iter().map(|terms| terms.iter().map(integer).sum()).collect()
+    (parts.iter().map(|terms| terms.iter().map(integer).sum()).collect(), -smallest)
 }
 
 /// `value = mantissa 2^exponent` with an odd mantissa; both 0 for zero.

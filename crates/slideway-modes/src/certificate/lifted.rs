@@ -12,7 +12,7 @@
 use dashu_int::IBig;
 use dashu_int::ops::Gcd;
 
-use super::elimination::integer_row;
+use super::elimination::integers_of_row;
 use crate::problem::{ContactState, ProblemView, Side};
 
 /// The columns and the right-hand side of the lifted equations of an exact problem; every row is multiplied
@@ -25,6 +25,8 @@ pub(crate) struct LiftedSystem {
     rows: usize,
     columns: Vec<Vec<IBig>>,
     right: Vec<IBig>,
+    /// Each row is that of the problem times 2 to this power.
+    exponents: Vec<i32>,
     /// The column of `lambda_k` of the contacts with a jump.
     share: Vec<Option<usize>>,
 }
@@ -41,8 +43,10 @@ impl LiftedSystem {
         let width = 2 * (contacts + jumping.len());
         let mut columns = vec![Vec::with_capacity(contacts + jumping.len()); width];
         let mut right = Vec::with_capacity(contacts + jumping.len());
+        let mut exponents = Vec::with_capacity(contacts + jumping.len());
         for row in 0..contacts {
-            let mut entries = integer_row(&lifted_row(problem, &jumping, row));
+            let (mut entries, exponent) = integers_of_row(&lifted_row(problem, &jumping, row));
+            exponents.push(exponent);
             right.extend(entries.pop());
             columns.iter_mut().zip(entries).for_each(|(column, entry)| column.push(entry));
         }
@@ -52,8 +56,9 @@ impl LiftedSystem {
                 column.push(IBig::from(u8::from(at == share || at == share + 1)));
             }
             right.push(IBig::ONE);
+            exponents.push(0);
         }
-        Self { contacts, rows: right.len(), columns, right, share }
+        Self { contacts, rows: right.len(), columns, right, exponents, share }
     }
 
     /// The number of columns.
@@ -74,6 +79,11 @@ impl LiftedSystem {
     /// `b`.
     pub(crate) fn right(&self) -> &[IBig] {
         &self.right
+    }
+
+    /// The powers of two by which the rows of the problem are multiplied.
+    pub(crate) fn exponents(&self) -> &[i32] {
+        &self.exponents
     }
 
     /// The columns of a contact in a state.

@@ -183,12 +183,28 @@ impl ScaledProblem {
         multipliers.iter().zip(&self.row_scale).map(|(multiplier, scale)| multiplier * scale).collect()
     }
 
+    /// The exponents of the powers of two that multiply the rows.
+    pub(crate) fn row_exponents(&self) -> Vec<i32> {
+        self.row_scale.iter().map(|&scale| exponent_of(scale)).collect()
+    }
+
+    /// The exponent of the power of two that divides loads.
+    pub(crate) fn load_exponent(&self) -> i32 {
+        exponent_of(self.load_unit)
+    }
+
     /// The factor by which a column in the given state, and the row of the same number, enlarge the
     /// determinant of the unscaled matrix.
     pub(crate) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {
         let column_unit = if state == ContactState::Gap { self.load_unit } else { 1.0 };
         column_unit / self.row_scale[contact]
     }
+}
+
+/// The exponent of a power of two.
+fn exponent_of(power: f64) -> i32 {
+    // The exponent field of a normal number.
+    i32::try_from(power.to_bits() >> 52).map_or(0, |biased| biased - 1023)
 }
 
 /// The maximum error of `load scale / unit` with powers of two: zero, apart from underflow and overflow.

@@ -5,6 +5,7 @@
 //! one pattern. That all other unknowns vanish is proven by vectors in integers ([`separate`]), so the node is
 //! settled with this pattern, however many others the node has.
 
+use dashu_int::IBig;
 use nalgebra::DVector;
 
 use super::separation::{Separated, separate};
@@ -16,8 +17,8 @@ use crate::solutions::ContactSet;
 /// Faces of the relaxation of an exact problem.
 pub(super) struct Faces {
     system: LiftedSystem,
-    /// The columns of the patterns that are examined.
-    known: Vec<ContactSet>,
+    /// The patterns that are examined, with their columns.
+    known: Vec<(ContactSet, Vec<ContactState>)>,
 }
 
 /// The unknowns of one contact that are positive inside a face: `y^+`, `y^-`, `lambda`, `1 - lambda`.
@@ -41,11 +42,13 @@ impl Positive {
 }
 
 /// How a node is settled by a face.
-pub(super) enum Settled {
-    /// All its solutions are those of a pattern that is examined already.
-    Known,
+pub(super) struct Settled {
     /// All its solutions are those of this pattern.
-    Pattern(Vec<ContactState>),
+    pub(super) pattern: Vec<ContactState>,
+    /// Whether the pattern is examined already.
+    pub(super) is_known: bool,
+    /// Proves that the unknowns of other states vanish; `None` if there are no others.
+    pub(super) vector: Option<Vec<IBig>>,
 }
 
 impl Faces {
@@ -53,11 +56,19 @@ impl Faces {
         Self { system: LiftedSystem::new(problem), known: Vec::new() }
     }
 
-    /// Whether a node has no solution, proven in integers.
-    pub(super) fn excludes(&self, states: &[StateSet], proceed: &mut dyn FnMut() -> bool) -> bool {
-        let allowed = self.allowed(states);
-        let columns: Vec<usize> = allowed.iter().collect();
-        separate(&self.system, (&columns, &[]), Separated::Infeasible, proceed).is_some()
+    /// A vector in integers that proves that a node has no solution, if one is found.
+    pub(super) fn excluding(
+        &self,
+        states: &[StateSet],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<IBig>> {
+        let columns: Vec<usize> = self.allowed(states).iter().collect();
+        separate(&self.system, (&columns, &[]), Separated::Infeasible, proceed)
+    }
+
+    /// The lifted equations.
+    pub(super) fn system(&self) -> &LiftedSystem {
+        &self.system
     }
 
     /// The pattern that has all solutions of a node, given the unknowns that are positive inside the face of
@@ -71,37 +82,35 @@ impl Faces {
     ) -> Option<Settled> {
         let support = self.support(positive);
         let allowed = self.allowed(states);
-        if let Some(known) = self.known.iter().position(|known| support.is_within(known)) {
-            let rest = without(&allowed, &self.known[known]);
-            if self.vanish(&allowed, &support, &rest, proceed) {
-                return Some(Settled::Known);
-            }
+        let known = self.known.iter().find(|(columns, _)| support.is_within(columns));
+        if let Some((columns, pattern)) = known
+            && let Some(vector) = self.vanish(&allowed, &support, columns, proceed)
+        {
+            return Some(Settled { pattern: pattern.clone(), is_known: true, vector });
         }
         let pattern = independent_pattern(problem, states, positive)?;
         let own: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
         let own = self.allowed(&own);
-        let rest = without(&allowed, &own);
-        if !self.vanish(&allowed, &support, &rest, proceed) {
-            return None;
-        }
-        self.known.push(own);
-        Some(Settled::Pattern(pattern))
+        let vector = self.vanish(&allowed, &support, &own, proceed)?;
+        self.known.push((own, pattern.clone()));
+        Some(Settled { pattern, is_known: false, vector })
     }
 
-    /// Whether the unknowns of some columns vanish in all solutions with the allowed columns.
+    /// A vector which proves that, in all solutions with the allowed columns, the unknowns of all others than
+    /// the given ones vanish; `Some(None)` if there are no others, `None` if none was found.
     fn vanish(
         &self,
         allowed: &ContactSet,
         support: &ContactSet,
-        rest: &[usize],
+        columns: &ContactSet,
         proceed: &mut dyn FnMut() -> bool,
-    ) -> bool {
+    ) -> Option<Option<Vec<IBig>>> {
+        let rest: Vec<usize> = allowed.iter().filter(|&column| !columns.contains(column)).collect();
         if rest.is_empty() {
-            return true;
+            return Some(None);
         }
-        let (allowed, support): (Vec<usize>, Vec<usize>) =
-            (allowed.iter().collect(), support.iter().collect());
-        separate(&self.system, (&allowed, &support), Separated::Vanishing(rest), proceed).is_some()
+        let (allowed, support): (Vec<usize>, Vec<usize>) = (allowed.iter().collect(), support.iter().collect());
+        separate(&self.system, (&allowed, &support), Separated::Vanishing(&rest), proceed).map(Some)
     }
 
     /// The columns of all states that a node allows.
@@ -128,10 +137,6 @@ impl Faces {
         }
         support
     }
-}
-
-fn without(one: &ContactSet, other: &ContactSet) -> Vec<usize> {
-    one.iter().filter(|&column| !other.contains(column)).collect()
 }
 
 /// A pattern of a node that agrees with the positive unknowns, and whose columns are independent if that is

@@ -27,6 +27,11 @@ impl<'a> Leaves<'a> {
         Self { problem, findings, certify, unproven: 0, decided_jointly: false }
     }
 
+    /// The problem whose patterns are decided.
+    pub(super) fn problem(&self) -> &LoadedProblem<'a> {
+        self.problem
+    }
+
     /// Records what a pattern admits.
     pub(super) fn examine(
         &mut self,

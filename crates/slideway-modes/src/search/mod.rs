@@ -61,11 +61,14 @@ mod load;
 mod low_rank;
 mod monitor;
 mod product;
+mod proof;
+mod proof_log;
 mod propagation;
 mod relaxation;
 mod report;
 mod result;
 mod separation;
+mod short_vector;
 mod sieve;
 mod simplex;
 mod states;
@@ -76,6 +79,7 @@ mod uniqueness;
 
 pub use count::BigCount;
 pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
+pub use proof::{NoProof, ProofFile, prove};
 pub use report::{
     Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternOutcomes,
     PatternShares, SearchOptions, StopReason,

@@ -29,7 +29,7 @@ const SHIFTS: usize = 2;
 const IGNORED_JUMP: f64 = 1e-12;
 
 pub(super) struct Relaxation {
-    program: LinearProgram,
+    pub(super) program: LinearProgram,
     /// The variable `y_k^+` of each contact; `y_k^-` follows, and `lambda_k` where there is a jump.
     first: Vec<usize>,
     has_jump: Vec<bool>,
@@ -128,7 +128,7 @@ impl Relaxation {
         let relaxed = match self.program.solve(&mut basis, &bounds, iterations, proceed) {
             LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values, &basis)),
             LinearOutcome::Infeasible(farkas) => {
-                self.verified(farkas, &bounds, &basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
+                self.verified(farkas, &bounds, Some(&basis)).map_or(Relaxed::Undecided, Relaxed::Excluded)
             }
             LinearOutcome::Undecided => Relaxed::Undecided,
         };
@@ -146,7 +146,7 @@ impl Relaxation {
         }
     }
 
-    fn bounds(&self, states: &[StateSet]) -> Bounds {
+    pub(super) fn bounds(&self, states: &[StateSet]) -> Bounds {
         let mut bounds =
             Bounds { lower: vec![0.0; self.program.columns()], upper: vec![0.0; self.program.columns()] };
         for (contact, &set) in states.iter().enumerate() {
@@ -202,9 +202,14 @@ impl Relaxation {
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
 
+    /// Whether a vector excludes a node as it is, with rounding errors accounted for.
+    pub(super) fn excludes_with(&self, farkas: &[f64], states: &[StateSet]) -> bool {
+        self.verified(farkas.to_vec(), &self.bounds(states), None).is_some()
+    }
+
     /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of basic
-    /// variables, for which the vector gives exactly zero, are moved to the safe side.
-    fn verified(&self, mut farkas: Vec<f64>, bounds: &Bounds, basis: &Basis) -> Option<Vec<f64>> {
+    /// variables, for which the vector gives exactly zero, are moved to the safe side, if the basis is given.
+    fn verified(&self, mut farkas: Vec<f64>, bounds: &Bounds, basis: Option<&Basis>) -> Option<Vec<f64>> {
         let mut combined = Vec::new();
         for _ in 0..=SHIFTS {
             farkas = of_size_one(farkas)?;
@@ -225,7 +230,7 @@ impl Relaxation {
                     return None;
                 }
                 if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
-                    let row = basis.row_of(&self.program, variable)?;
+                    let row = basis?.row_of(&self.program, variable)?;
                     super::simplex::add_multiple(&mut shift, -2.0 * high, &row);
                     shifted = true;
                 } else if high > 0.0 {
@@ -359,9 +364,8 @@ mod tests {
             for _ in 0..40 {
                 let states = some_states(&mut numbers, &all_states(&scaled));
                 let bounds = relaxation.bounds(&states);
-                let basis = relaxation.first_basis();
                 let weights: Vec<f64> = (0..3).map(|_| numbers.number()).collect();
-                if relaxation.verified(weights, &bounds, &basis).is_some() {
+                if relaxation.verified(weights, &bounds, None).is_some() {
                     verified += 1;
                     assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");
                 }
@@ -378,7 +382,7 @@ mod tests {
         let problem = ModeProblem::new(columns, negative, none.clone(), none, load).expect("shapes fit");
         let (_, relaxation) = relaxation(&problem, 0.0);
         let bounds = relaxation.bounds(&[StateSet::only(ContactState::Positive); 2]);
-        relaxation.verified(weights.to_vec(), &bounds, &relaxation.first_basis()).is_some()
+        relaxation.verified(weights.to_vec(), &bounds, None).is_some()
     }
 
     #[test]

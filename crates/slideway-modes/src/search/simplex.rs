@@ -235,6 +235,19 @@ impl Basis {
         row.map_or(0.0, |row| self.value[row] * self.longest_step(row, 1.0, 0.0))
     }
 
+    pub(super) fn is_basic(&self, variable: usize) -> bool {
+        self.basic.contains(&variable)
+    }
+
+    /// The sum of the rows of `B^-1` that belong to variables of the program.
+    pub(super) fn sum_of_inverse_rows(&self, program: &LinearProgram) -> Vec<f64> {
+        let mut sum = vec![0.0; program.rows];
+        for row in (0..self.basic.len()).filter(|&row| self.basic[row] < program.columns) {
+            add_multiple(&mut sum, 1.0, &self.inverse_row(program, row));
+        }
+        sum
+    }
+
     /// The multipliers of the equations: the dual solution, if the program is solved.
     pub(super) fn multipliers(&self, program: &LinearProgram) -> Vec<f64> {
         let mut multipliers = vec![0.0; program.rows];

@@ -8,6 +8,7 @@ use super::faces::{Faces, Positive, Settled};
 use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::monitor::Monitor;
+use super::proof_log::ProofLog;
 use super::propagation::SolvedForm;
 use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
@@ -44,6 +45,8 @@ pub(super) struct Tree<'a> {
     /// Only if the numbers are exact: within bounds, no unknown vanishes for all values.
     faces: Option<Faces>,
     keep_exclusions: bool,
+    /// Only if a proof file is written.
+    log: Option<ProofLog>,
     report: TreeReport,
 }
 
@@ -64,13 +67,28 @@ impl<'a> Tree<'a> {
             relaxation: Relaxation::new(problem, load_radius, largest),
             faces: is_exact.then(|| Faces::new(loaded.view())),
             keep_exclusions: options.keep_exclusions,
+            log: None,
             report: TreeReport::default(),
         }
     }
 
+    /// The same tree, which also writes its steps.
+    pub(super) fn logged(self, log: ProofLog) -> Self {
+        Self { log: Some(log), ..self }
+    }
+
     /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
     /// patterns.
-    pub(super) fn run(mut self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
+    pub(super) fn run(self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
+        self.run_logged(leaves, monitor).0
+    }
+
+    /// [`run`](Self::run), with what was written.
+    pub(super) fn run_logged(
+        mut self,
+        leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> (TreeReport, Option<ProofLog>) {
         let root = Node { states: all_states(self.problem), basis: Rc::new(self.relaxation.first_basis()) };
         let mut open = vec![root];
         while let Some(node) = open.pop() {
@@ -85,7 +103,7 @@ impl<'a> Tree<'a> {
         }
         self.report.shares.unexplored +=
             open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum::<f64>();
-        self.report
+        (self.report, self.log)
     }
 
     /// Excludes a node, examines its only pattern, or adds its children to `open`.
@@ -102,16 +120,17 @@ impl<'a> Tree<'a> {
         let (pivots, proceed) = (&mut self.report.pivots, &mut || monitor.goes_on());
         let (relaxed, basis) = self.relaxation.solve(&node.states, &node.basis, pivots, proceed);
         let relaxed = match relaxed {
-            Relaxed::Excluded(farkas) => {
+            Relaxed::Excluded(farkas) if self.log_excluded(&node.states, &farkas, &basis, monitor) => {
                 self.report.shares.relaxation += fraction_of_patterns(self.problem, &node.states);
                 let problem = self.problem;
                 self.keep(&node.states, || ExclusionArgument::Farkas(problem.unscaled_rows(&farkas)));
                 return Ok(());
             }
             Relaxed::Feasible(relaxed) => Some(relaxed),
-            Relaxed::Undecided => None,
+            Relaxed::Excluded(_) | Relaxed::Undecided => None,
         };
         if let Some(pattern) = decided(&node.states) {
+            self.log_pattern(leaves, &pattern, monitor);
             return self.examine(&pattern, leaves, monitor);
         }
         let inside = match &relaxed {
@@ -125,10 +144,8 @@ impl<'a> Tree<'a> {
             && contradictions(&node.states, inside).next().is_none()
             && let Some(settled) = self.settle(&node.states, inside, monitor)
         {
-            return match settled {
-                Settled::Known => Ok(()),
-                Settled::Pattern(pattern) => leaves.examine(&pattern, monitor),
-            };
+            self.log_settled(leaves, &settled, monitor);
+            return if settled.is_known { Ok(()) } else { leaves.examine(&settled.pattern, monitor) };
         }
         let contradicting: Option<Vec<usize>> =
             inside.map(|inside| contradictions(&node.states, &inside).collect());
@@ -137,6 +154,10 @@ impl<'a> Tree<'a> {
         let mut children: Vec<ContactState> = node.states[contact].iter().collect();
         // The last one is visited first.
         children.sort_by_key(|&state| (state == preferred, std::cmp::Reverse(state)));
+        if let Some(log) = &mut self.log {
+            let visited: Vec<ContactState> = children.iter().rev().copied().collect();
+            log.branch(contact, &visited);
+        }
         for state in children {
             let mut states = node.states.clone();
             states[contact] = StateSet::only(state);
@@ -148,11 +169,56 @@ impl<'a> Tree<'a> {
     /// Whether a node that the relaxation left undecided has no solution, proven in integers.
     fn excludes_exactly(&mut self, states: &[StateSet], monitor: &mut Monitor<'_>) -> bool {
         let Some(faces) = &self.faces else { return false };
-        let excluded = faces.excludes(states, &mut || monitor.goes_on());
-        if excluded {
-            self.report.shares.relaxation += fraction_of_patterns(self.problem, states);
+        let Some(vector) = faces.excluding(states, &mut || monitor.goes_on()) else { return false };
+        self.report.shares.relaxation += fraction_of_patterns(self.problem, states);
+        if let Some(log) = &mut self.log {
+            log.exclude_exactly(faces.system(), &vector);
         }
-        excluded
+        true
+    }
+
+    /// Writes that the relaxation excludes a node, if steps are written; `false` if that is not possible.
+    fn log_excluded(
+        &mut self,
+        states: &[StateSet],
+        farkas: &[f64],
+        basis: &Basis,
+        monitor: &mut Monitor<'_>,
+    ) -> bool {
+        let (Some(log), Some(faces)) = (&mut self.log, &self.faces) else { return true };
+        if self.problem.has_jump.iter().all(|jump| !jump) {
+            if let Some(known) = log.known(|vector| self.relaxation.excludes_with(vector, states)) {
+                log.exclude_again(known);
+                return true;
+            }
+            if let Some(short) = self.relaxation.short(farkas, states, basis) {
+                log.exclude(short);
+                return true;
+            }
+        }
+        let vector = faces.excluding(states, &mut || monitor.goes_on());
+        if let Some(vector) = &vector {
+            log.exclude_exactly(faces.system(), vector);
+        }
+        vector.is_some()
+    }
+
+    /// Writes that a node has the solutions of a pattern, and why it has no others.
+    fn log_settled(&mut self, leaves: &Leaves<'_>, settled: &Settled, monitor: &mut Monitor<'_>) {
+        if let (Some(log), Some(faces), Some(vector)) = (&mut self.log, &self.faces, &settled.vector)
+            && !log.remove(faces.system(), vector)
+        {
+            return;
+        }
+        self.log_pattern(leaves, &settled.pattern, monitor);
+    }
+
+    /// Writes what a pattern admits.
+    fn log_pattern(&mut self, leaves: &Leaves<'_>, pattern: &[ContactState], monitor: &mut Monitor<'_>) {
+        if let (Some(log), Some(faces)) = (&mut self.log, &self.faces) {
+            let excluding = &mut |states: &[StateSet]| faces.excluding(states, &mut || monitor.goes_on());
+            log.pattern(faces.system(), leaves.problem().view(), pattern, excluding);
+        }
     }
 
     /// Settles a node whose solutions are those of one pattern.
