@@ -127,10 +127,6 @@ class Equations:
         self.pairs = [(k, size + k) for k in range(size)]
         for at, k in enumerate(self.jumps):
             self.pairs += [(k, 2 * size + 2 * at + 1), (size + k, 2 * size + 2 * at)]
-        first, second = ("z", "w") if data["type"] in ("lcp", "hlcp") else \
-            ("x+", "x-") if data["type"] == "ave" else ("N+", "N-")
-        self.names = [f"{first}{k}" for k in range(size)] + [f"{second}{k}" for k in range(size)]
-        self.names += [f"share{sign}{k}" for k in self.jumps for sign in "+-"]
 
     def complementary(self, columns):
         return not any(one in columns and other in columns for one, other in self.pairs)
@@ -160,7 +156,7 @@ class Equations:
 
 
 def random_problem(rng):
-    kind = rng.choice(["lcp", "lcp", "ave", "hlcp", "modes", "modes", "modes", "monotone", "blocks", "chain", "far"])
+    kind = rng.choice(["lcp", "ave", "hlcp", "modes", "modes", "modes", "monotone", "blocks", "chain", "far"])
     n = rng.randint(1, 4 if kind != "modes" else 3)
     most = rng.choice([1, 2, 5])
     def entry():
@@ -182,18 +178,17 @@ def random_problem(rng):
             # D^-1 (G' G + a skew-symmetric matrix), which the weights D make semidefinite.
             factor, skew = matrix(0.6), matrix(0.6)
             weights = [rng.choice([1, 1, 2]) for _ in range(n)]
-            m = [[(sum(g[i] * g[j] for g in factor[:rng.randint(0, n)]) if False else sum(g[i] * g[j] for g in factor))
-                  + skew[i][j] - skew[j][i] for j in range(n)] for i in range(n)]
+            m = [[sum(g[i] * g[j] for g in factor) + skew[i][j] - skew[j][i] for j in range(n)] for i in range(n)]
             return {"type": "lcp", "M": [[x / w for x in row] for row, w in zip(m, weights)], "q": vector()}
         case "blocks" | "chain":
-            n, group = 4, [0, 0, 1, 1] if kind == "blocks" else [0, 1, 2, 2]
-            allowed = {(0, 0), (1, 1), (2, 2)} | ({(1, 0), (2, 0)} if kind == "chain" else set())
-            m = matrix()
-            return {"type": "lcp", "q": vector(), "M": [[m[i][j] if (group[i], group[j]) in allowed else 0
-                    for j in range(n)] for i in range(n)]}
+            # Two groups that are independent, or that one contact acts on.
+            n, group = rng.choice([(4, [0, 0, 1, 1]), (3, [0, 1, 1])] if kind == "blocks" else [(4, [0, 1, 2, 2]), (3, [0, 1, 2])])
     data = {"type": "modes", "columns_positive": matrix(), "columns_negative": matrix(), "right_hand_side": vector()}
-    if rng.random() < 0.8:
+    if rng.random() < 0.7 and n <= 3:
         data |= {"jumps_positive": matrix(0.5), "jumps_negative": matrix(0.5)}
+    for name in set(data) - {"type", "right_hand_side"} if kind in ("blocks", "chain") else ():
+        data[name] = [[x if group[i] == group[j] or kind == "chain" and j == 0 and "columns" in name else 0
+                       for j, x in enumerate(row)] for i, row in enumerate(data[name])]
     return data
 
 
@@ -297,9 +292,9 @@ class Prover:
 
     def divide(self, node, real):
         size, rng = self.equations.size, self.rng
-        if not node[1] and rng.random() < 0.7 and self.monotone(node, real):
+        if rng.random() < 0.7 and self.monotone(node, real):
             return
-        if not node[1] and self.product(node, real):
+        if rng.random() < 0.5 and any(self.product(node, real) for _ in range(10)):
             return
         if self.splits_left and rng.random() < 0.15:
             return self.split(node)
@@ -461,14 +456,14 @@ def determinant(matrix):
 # Checks -------------------------------------------------------------------------------------------------------------
 
 
-def listed(tree):
-    """The columns of every listed set by their names, cell by cell of each product."""
+def listed(tree, columns):
+    """The columns of every listed set, for a tree with the given columns of the whole problem."""
     for cell in tree.cells:
-        yield frozenset(tree.problem.names[j] for j in cell.columns)
+        yield {columns[j] for j in cell.columns}
     for others, parts in tree.products:
-        names = frozenset(tree.problem.names[j] for j in others)
-        for combination in itertools.product(*(list(listed(part)) for part in parts)):
-            yield names.union(*combination)
+        sets = [list(listed(part, [columns[j] for j in chosen])) for chosen, part in parts]
+        for combination in itertools.product(*sets):
+            yield {columns[j] for j in others}.union(*combination)
 
 
 def check(problem_data, text):
@@ -481,7 +476,7 @@ def check(problem_data, text):
 
 def is_true(tree, equations, truth):
     """Whether the listed sets are complementary and not empty, and contain all solutions; and their dimensions."""
-    sets = [{equations.names.index(name) for name in names} for names in listed(tree)]
+    sets = list(listed(tree, range(len(equations.columns))))
     for columns in sets:
         if not equations.complementary(columns) or equations.support(columns) is None:
             return False
