@@ -177,7 +177,7 @@ class Cell:
         for at, generator in enumerate(generators or [columns]):
             require(self.columns.issuperset(generator), "a point or direction has columns that the cell does not have")
             self.add(problem, list(dict.fromkeys(generator)), at == 0)
-        rank = len(reduced([problem.columns[j] for j in self.columns], problem.right)[0])
+        rank = len(reduced([problem.columns[j] for j in self.columns], problem.right)[0] if generators else self.columns)
         self.dimension, self.exact = len(self.columns) - rank, self.positive == self.columns
 
     def add(self, problem, columns, is_first):
@@ -426,13 +426,13 @@ def read_proof(problem_data, lines):
 
 def report(tree, nodes):
     """What has been verified, in words."""
-    kind = "sets" if tree.products else "cells"
-    yield f"verified: the {tree.count()} listed {kind} are all solutions" if tree.count() \
-        else "verified: there is no solution"
+    count, kind = tree.count(), "set" if tree.products else "cell"
+    yield f"verified: the {count} listed {kind}s are all solutions" if count > 1 \
+        else f"verified: the listed {kind} is all solutions" if count else "verified: there is no solution"
     for (dimension, certain), count in sorted(Counter((cell.dimension, cell.exact) for cell in tree.cells).items()):
         yield f"  cells of dimension {dimension}{'' if certain else ' or less'}: {count}"
     if tree.products:
-        yield f"  products of cells of independent groups: {tree.count() - len(tree.cells)}"
+        yield f"  products of cells of independent groups: {count - len(tree.cells)}"
     if count := tree.parts_of_others():
         yield f"  cells that are part of others: {count}"
     yield f"  nodes: {nodes}"
