@@ -13,6 +13,7 @@ mod modes_batch;
 mod modes_degenerate;
 mod modes_klepp_2002;
 mod modes_uniqueness;
+mod proofs;
 mod search;
 mod search_extremes;
 mod search_low_rank;

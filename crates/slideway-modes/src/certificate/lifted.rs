@@ -9,8 +9,8 @@
 //! The solutions of the mode problem are the faces of this polyhedron in which no two of the unknowns of
 //! different states of a contact are positive (theory, section 4 (b)).
 
-use dashu_int::IBig;
-use dashu_int::ops::Gcd;
+use dashu_int::ops::{Gcd, UnsignedAbs};
+use dashu_int::{IBig, UBig};
 
 use super::elimination::integers_of_row;
 use crate::problem::{ContactState, ProblemView, Side};
@@ -156,15 +156,15 @@ fn eliminate(row: &mut [IBig], pivot_row: &[IBig], column: usize) {
 
 /// Divides by the greatest common divisor.
 pub(crate) fn make_primitive(row: &mut [IBig]) {
-    let nonzero = row.iter().filter(|entry| !entry.is_zero());
-    let mut common = IBig::ZERO;
-    for entry in nonzero {
-        common = if common.is_zero() { entry.clone() } else { IBig::from((&common).gcd(entry)) };
+    let mut common = UBig::ZERO;
+    for entry in row.iter().filter(|entry| !entry.is_zero()) {
+        common = if common.is_zero() { entry.clone().unsigned_abs() } else { common.gcd(entry) };
         if common.is_one() {
             return;
         }
     }
     if !common.is_zero() {
+        let common = IBig::from(common);
         row.iter_mut().filter(|entry| !entry.is_zero()).for_each(|entry| *entry = &*entry / &common);
     }
 }

@@ -47,8 +47,8 @@ pub(super) struct Settled {
     pub(super) pattern: Vec<ContactState>,
     /// Whether the pattern is examined already.
     pub(super) is_known: bool,
-    /// Proves that the unknowns of other states vanish; `None` if there are no others.
-    pub(super) vector: Option<Vec<IBig>>,
+    /// Proves that the unknowns of other states vanish; empty if there are no others.
+    pub(super) vector: Vec<IBig>,
 }
 
 impl Faces {
@@ -97,20 +97,21 @@ impl Faces {
     }
 
     /// A vector which proves that, in all solutions with the allowed columns, the unknowns of all others than
-    /// the given ones vanish; `Some(None)` if there are no others, `None` if none was found.
+    /// the given ones vanish: empty if there are no others; `None` if none was found.
     fn vanish(
         &self,
         allowed: &ContactSet,
         support: &ContactSet,
         columns: &ContactSet,
         proceed: &mut dyn FnMut() -> bool,
-    ) -> Option<Option<Vec<IBig>>> {
+    ) -> Option<Vec<IBig>> {
         let rest: Vec<usize> = allowed.iter().filter(|&column| !columns.contains(column)).collect();
         if rest.is_empty() {
-            return Some(None);
+            return Some(Vec::new());
         }
-        let (allowed, support): (Vec<usize>, Vec<usize>) = (allowed.iter().collect(), support.iter().collect());
-        separate(&self.system, (&allowed, &support), Separated::Vanishing(&rest), proceed).map(Some)
+        let (allowed, support): (Vec<usize>, Vec<usize>) =
+            (allowed.iter().collect(), support.iter().collect());
+        separate(&self.system, (&allowed, &support), Separated::Vanishing(&rest), proceed)
     }
 
     /// The columns of all states that a node allows.

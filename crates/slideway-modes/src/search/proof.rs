@@ -77,7 +77,13 @@ pub fn prove(
     let mut exponents = Exponents::new(view);
     for part in &parts {
         let load = Load::of(view);
-        prove_part(&LoadedProblem::restricted(view, part, &load), part, &options, (&mut proof, &mut exponents), &mut monitor)?;
+        prove_part(
+            &LoadedProblem::restricted(view, part, &load),
+            part,
+            &options,
+            (&mut proof, &mut exponents),
+            &mut monitor,
+        )?;
     }
     proof.text = exponents.header(&parts) + &proof.text;
     Ok(proof)
@@ -143,7 +149,8 @@ impl Exponents {
             let _ = writeln!(text, "rows {}", exponents.join(" "));
         }
         if parts.len() > 1 || parts.iter().any(|part| !part.is_sorted()) {
-            let group = |part: &Vec<usize>| part.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+            let group =
+                |part: &Vec<usize>| part.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
             let _ = writeln!(text, "p {}", parts.iter().map(group).collect::<Vec<_>>().join(" / "));
         }
         text

@@ -48,7 +48,8 @@ impl ProofLog {
 
     /// `f`: a node is excluded by a vector for the rows of the file.
     pub(super) fn exclude(&mut self, vector: Vec<f64>) {
-        let whole: Vec<IBig> = vector.iter().map(|&entry| IBig::try_from(entry).unwrap_or_default()).collect();
+        let whole: Vec<IBig> =
+            vector.iter().map(|&entry| IBig::try_from(entry).unwrap_or_default()).collect();
         self.write_vector('f', &whole);
         self.recent.push_back((self.vectors - 1, vector));
         if self.recent.len() > TRIED_AGAIN {
@@ -81,7 +82,11 @@ impl ProofLog {
         };
         let order: String = order.iter().map(letter).collect();
         let plain = order == "+-" || order == "+-0";
-        let _ = if plain { writeln!(self.text, "b {contact}") } else { writeln!(self.text, "b {contact} {order}") };
+        let _ = if plain {
+            writeln!(self.text, "b {contact}")
+        } else {
+            writeln!(self.text, "b {contact} {order}")
+        };
     }
 
     /// A node that allows only the columns of one pattern: `c` if it has solutions, otherwise `x` or `f`.
@@ -135,7 +140,10 @@ impl ProofLog {
             if is_new || corner == &corners[0] {
                 self.text.push_str(" /");
                 self.text.push_str(&columns(&|contact, at| corner[contact][at]));
-                covered.iter_mut().zip(corner).for_each(|(all, own)| (0..2).for_each(|at| all[at] |= own[at]));
+                covered
+                    .iter_mut()
+                    .zip(corner)
+                    .for_each(|(all, own)| (0..2).for_each(|at| all[at] |= own[at]));
             }
         }
         let _ = writeln!(self.text, "\nc {}", self.cells.len());

@@ -189,6 +189,7 @@ impl<'a> Rows<'a> {
         let bounds = Bounds { lower: vec![0.0; columns.len()], upper: vec![f64::INFINITY; columns.len()] };
         let program = LinearProgram::new(&columns, right, cost);
         let mut basis = program.artificial_basis();
+
         let LinearOutcome::Feasible(values) = program.solve(&mut basis, &bounds, &mut 0, proceed) else {
             return None;
         };

@@ -205,8 +205,9 @@ impl<'a> Tree<'a> {
 
     /// Writes that a node has the solutions of a pattern, and why it has no others.
     fn log_settled(&mut self, leaves: &Leaves<'_>, settled: &Settled, monitor: &mut Monitor<'_>) {
-        if let (Some(log), Some(faces), Some(vector)) = (&mut self.log, &self.faces, &settled.vector)
-            && !log.remove(faces.system(), vector)
+        if let (Some(log), Some(faces)) = (&mut self.log, &self.faces)
+            && !settled.vector.is_empty()
+            && !log.remove(faces.system(), &settled.vector)
         {
             return;
         }

@@ -1,0 +1,142 @@
+//! Proof files, checked by the plain Python program of `reference/`.
+
+use std::io::Write as _;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use nalgebra::{DMatrix, DVector};
+use slideway_modes::{ModeProblem, NoProof, SearchOptions, Side, prove};
+
+use super::search_support::{Random, low_rank, run};
+
+const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/check_proof.py");
+
+/// A problem as a file of type `modes`. The columns of an absolute value equation may be sums that are not
+/// numbers of a file.
+fn json(problem: &ModeProblem) -> String {
+    let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
+        matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+    };
+    let [positive, negative] = Side::BOTH.map(|side| rows(problem.columns(side)));
+    let [up, down] = Side::BOTH.map(|side| rows(problem.jumps(side)));
+    format!(
+        r#"{{"type": "modes", "columns_positive": {positive:?}, "columns_negative": {negative:?},
+            "jumps_positive": {up:?}, "jumps_negative": {down:?}, "right_hand_side": {:?}}}"#,
+        problem.right_hand_side().as_slice()
+    )
+}
+
+/// What the checker says of a proof, and whether it accepts it.
+fn checked(problem: &Path, proof: &str) -> (bool, String) {
+    let mut checker = Command::new("python3")
+        .args([Path::new(CHECKER), problem, Path::new("-")])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("python3 runs");
+    checker.stdin.take().expect("a pipe").write_all(proof.as_bytes()).expect("the checker reads");
+    let output = checker.wait_with_output().expect("the checker ends");
+    let said = [output.stdout, output.stderr].concat();
+    (output.status.success(), String::from_utf8_lossy(&said).into_owned())
+}
+
+/// Proves a problem, has the proof checked, and returns the lines of the proof.
+fn proven(problem: &ModeProblem, name: &str) -> String {
+    let proof = prove(problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
+    let proof = proof.unwrap_or_else(|fault| panic!("{name}: {fault}\n{problem:?}"));
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.json"));
+    std::fs::write(&path, json(problem)).expect("the folder of tests is writable");
+    let (accepted, said) = checked(&path, &proof.text);
+    assert!(accepted, "{name}: {said}\n{}\n{}", proof.text, json(problem));
+    proof.text
+}
+
+fn integers(random: &mut Random, size: usize, most: usize) -> DMatrix<f64> {
+    DMatrix::from_fn(size, size, |_, _| random.integer(most))
+}
+
+#[test]
+fn the_checker_accepts_proofs_of_degenerate_problems() {
+    for seed in 0..30 {
+        let mut random = Random::new(seed);
+        let size = 1 + random.below(4);
+        let m = integers(&mut random, size, 1);
+        let q = DVector::from_fn(size, |_, _| random.integer(1));
+        let problem = ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit");
+        proven(&problem, "degenerate");
+    }
+}
+
+#[test]
+fn the_checker_accepts_proofs_with_jumps() {
+    for seed in 0..30 {
+        let mut random = Random::new(100 + seed);
+        let size = 1 + random.below(3);
+        let whole = seed % 2 == 0;
+        let mut matrix = || if whole { integers(&mut random, size, 2) } else { random.matrix(size, size) };
+        let (positive, negative, up, down) = (matrix(), matrix(), matrix(), matrix());
+        let load = DVector::from_fn(size, |_, _| random.integer(2));
+        let problem = ModeProblem::new(positive, negative, up, down, load).expect("shapes fit");
+        proven(&problem, "jumps");
+    }
+}
+
+#[test]
+fn the_checker_accepts_proofs_of_random_problems_and_of_their_parts() {
+    for (seed, size) in [(1, 8), (2, 12), (3, 16)] {
+        let mut random = Random::new(seed);
+        let m = random.matrix(size, size);
+        let problem = ModeProblem::from_linear_complementarity(&m, random.vector(size)).expect("shapes fit");
+        proven(&problem, "random");
+        // Two groups, one of which acts on the other, and two that do not depend on each other.
+        for acts in [true, false] {
+            let half = size / 2;
+            let apart = |row: usize, column: usize| row / half != column / half;
+            let m = DMatrix::from_fn(size, size, |row, column| match apart(row, column) {
+                true if acts && row < half => m[(row, column)],
+                true => 0.0,
+                false => m[(row, column)],
+            });
+            let problem =
+                ModeProblem::from_linear_complementarity(&m, random.vector(size)).expect("shapes fit");
+            let text = proven(&problem, "parts");
+            assert!(text.contains("\np "), "{text}");
+        }
+    }
+    proven(&low_rank(&mut Random::new(4), 14, 2, 1.0), "low_rank");
+}
+
+#[test]
+fn a_cell_of_many_dimensions_and_a_point_of_many_patterns_take_few_lines() {
+    for (size, load) in [(12, -1.0), (12, 0.0)] {
+        let m = DMatrix::from_element(size, size, 1.0);
+        let problem = ModeProblem::from_linear_complementarity(&m, DVector::from_element(size, load));
+        let text = proven(&problem.expect("shapes fit"), "ones");
+        assert!(text.lines().count() < 5 * size, "{text}");
+    }
+}
+
+#[test]
+fn another_problem_is_not_proven() {
+    let m = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
+    let problem = |q: f64| {
+        ModeProblem::from_linear_complementarity(&m, DVector::from_element(2, q)).expect("shapes fit")
+    };
+    let text = proven(&problem(-1.0), "species");
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("other_species.json");
+    std::fs::write(&path, json(&problem(1.0))).expect("the folder of tests is writable");
+    let (accepted, said) = checked(&path, &text);
+    assert!(!accepted, "{said}");
+}
+
+#[test]
+fn an_interrupted_search_proves_nothing() {
+    let mut random = Random::new(5);
+    let m = random.matrix(12, 12);
+    let problem = ModeProblem::from_linear_complementarity(&m, random.vector(12)).expect("shapes fit");
+    let stopped = prove(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Break(()));
+    assert!(matches!(stopped, Err(NoProof::Stopped(_))));
+    assert!(run(&problem, &SearchOptions::default()).nodes() > 0);
+}
