@@ -53,8 +53,9 @@ def read_problem(path):
              set(data) - {"type"} - ({*JUMPS} if kind == "modes" else set()) == {*matrices, vector}]
     require(kinds, "type and names of the arrays belong to no known problem", Unreadable)
     matrices, vector = TYPES[kinds[0]]
-    size = len(data[vector]) if isinstance(data[vector], list) else 0
-    right = numbers([row[0] if isinstance(row, list) and len(row) == 1 else row for row in data[vector]], size)
+    right = data[vector] if isinstance(data[vector], list) else []
+    size = len(right)
+    right = numbers([row[0] if isinstance(row, list) and len(row) == 1 else row for row in right], size)
     given = [matrix(data[name], size) for name in matrices]
     zero, unit = ([[int(row == column) * one for row in range(size)] for column in range(size)] for one in (0, 1))
     jumps = [matrix(data.get(name), size) for name in JUMPS] if {*JUMPS} & set(data) else [zero, zero]

@@ -14,6 +14,7 @@ import itertools
 import json
 import math
 import random
+import subprocess
 import sys
 import tempfile
 from collections import Counter
@@ -21,6 +22,8 @@ from fractions import Fraction
 from pathlib import Path
 
 import check_proof
+
+ROOT = Path(__file__).resolve().parent.parent
 
 # Rational linear programs -------------------------------------------------------------------------------------------
 
@@ -38,20 +41,22 @@ def linear_program(columns, right, cost):
     basis = list(range(width, width + height))
 
     def pivot(row, column):
-        table[row] = [entry / table[row][column] for entry in table[row]]
+        table[row] = [entry and entry / table[row][column] for entry in table[row]]
         for other in range(height):
             if other != row and table[other][column]:
                 factor = table[other][column]
-                table[other] = [x - factor * y for x, y in zip(table[other], table[row])]
+                table[other] = [x - factor * y if y else x for x, y in zip(table[other], table[row])]
         basis[row] = column
 
     def multipliers(costs):
-        return [signs[k] * sum(costs[basis[i]] * table[i][width + k] for i in range(height)) for k in range(height)]
+        return [signs[k] * sum((costs[basis[i]] * table[i][width + k] for i in range(height) if costs[basis[i]]),
+                               Fraction(0)) for k in range(height)]
 
     def improve(costs):
         while True:
-            gain = [costs[j] - sum(costs[basis[i]] * table[i][j] for i in range(height)) for j in range(width)]
-            entering = next((j for j in range(width) if gain[j] > 0), None)
+            counted = [(costs[basis[i]], table[i]) for i in range(height) if costs[basis[i]]]
+            gains = (costs[j] - sum(cost * row[j] for cost, row in counted if row[j]) for j in range(width))
+            entering = next((j for j, gain in enumerate(gains) if gain > 0), None)
             if entering is None:
                 return None
             rows = [i for i in range(height) if table[i][entering] > 0]
@@ -119,7 +124,7 @@ class Equations:
         for k in set(jumps) - set(self.jumps):
             right = total(right, jumps[k][0])
         added = len(self.jumps)
-        self.size, self.right = size, right + [Fraction(1)] * added
+        self.size, self.right, self.supports = size, right + [Fraction(1)] * added, {}
         self.columns = [one + [Fraction(0)] * added for one, _ in pairs] + [two + [Fraction(0)] * added for _, two in pairs]
         for at, k in enumerate(self.jumps):
             for jump in jumps[k]:
@@ -133,6 +138,12 @@ class Equations:
 
     def support(self, columns):
         """The columns that are positive somewhere in {y >= 0, C y = b, y = 0 elsewhere}; `None` if that is empty."""
+        columns = frozenset(columns)
+        if columns not in self.supports:
+            self.supports[columns] = self.find_support(columns)
+        return self.supports[columns]
+
+    def find_support(self, columns):
         columns, found = sorted(columns), set()
         chosen = [self.columns[j] for j in columns]
         for at, j in enumerate(columns):
@@ -416,7 +427,7 @@ def part_of(equations, group, right):
     part = object.__new__(Equations)
     part.size, part.jumps = len(group), [at for at, k in enumerate(group) if k in jumps]
     part.columns = [[equations.columns[j][i] for i in rows] for j in columns]
-    part.right = [right[i] for i in rows]
+    part.right, part.supports = [right[i] for i in rows], {}
     part.pairs = [(k, part.size + k) for k in range(part.size)]
     for at, k in enumerate(part.jumps):
         part.pairs += [(k, 2 * part.size + 2 * at + 1), (part.size + k, 2 * part.size + 2 * at)]
@@ -496,7 +507,7 @@ def changed(text, rng):
             break
         at = rng.randrange(len(lines))
         line = lines[at]
-        match rng.randrange(9):
+        match rng.randrange(10):
             case 0: del lines[at]
             case 1: lines.insert(at, list(rng.choice(lines)))
             case 2:
@@ -507,11 +518,61 @@ def changed(text, rng):
             case 5 if line: line.insert(rng.randrange(len(line) + 1), str(rng.randint(-3, 9)))
             case 6 if line: line[0] = rng.choice(["f", "z", "l", "x", "c", "b", "e", "s", "m", "p", "cell", "g"])
             case 7: del lines[at:at + rng.randint(1, 4)]
+            case 8:
+                # A cell with one more column, and the same points.
+                cells = [line for line in lines if line[:1] == ["cell"]]
+                if cells:
+                    line = rng.choice(cells)
+                    line[:] = line if "/" in line else [*line, "/", *line[1:]]
+                    line.insert(1, str(rng.randint(0, 9)))
             case _ if line:
                 where = rng.randrange(len(line))
                 number = line[where].lstrip("-")
                 line[where] = str(int(line[where]) + rng.choice([-1, 1, 2])) if number.isdecimal() else "/"
     return "\n".join(map(" ".join, lines)) + "\n"
+
+
+def run(*arguments):
+    """Exit code and output of the checker as a program."""
+    done = subprocess.run([sys.executable, check_proof.__file__, *map(str, arguments)], capture_output=True, text=True)
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stdout
+
+
+def check_examples():
+    """The proofs of the book are accepted, and what the book says about them is printed."""
+    page = (ROOT / "docs/src/proofs.md").read_text(encoding="utf-8")
+    blocks = [block.split("```")[0] for block in page.split("```text\n")[1:]]
+    examples = [at for at, block in enumerate(blocks) if block.startswith("slideway proof 1\nproblem 2")]
+    problems = ["docs/src/examples/species.json", "crates/slideway-cli/tests/raw/good/ray.json"]
+    with tempfile.TemporaryDirectory() as folder:
+        for problem, at in zip(problems, examples, strict=True):
+            proof = Path(folder) / "proof.txt"
+            proof.write_text(blocks[at])
+            assert run(ROOT / problem, proof) == (0, blocks[at + 1]), problem
+
+
+def check_files():
+    """Files that are no problems are refused, and those that slideway reads are read as it reads them."""
+    proof = "slideway proof 1\nproblem 1 0\ncell 0\nb 0\nc 0\nf -1\n"
+    texts = {
+        '{"type": "lcp", "M": [[1]], "q": [-1]}': 0, '{"M": [[1]], "q": [[-1.0]]}': 0,
+        # Integers are rounded to doubles, too: w = 2^53 z - (2^53 + 1) has the solution z = 1.
+        '{"M": [[9007199254740992]], "q": [-9007199254740993]}': 0,
+        '{"M": [[1]], "q": [1]}': 1, '{"M": [[0]], "q": [-1]}': 1,
+        '{"M": [[1]], "q": [-1], "M": [[1]]}': 2, '{"M": [[1]], "q": [NaN]}': 2, '{"M": [[1]], "q": [1e999]}': 2,
+        '{"M": [[1]], "q": [true]}': 2, '{"M": [[1]], "q": ["-1"]}': 2, '{"M": [[1, 2]], "q": [-1]}': 2,
+        '{"M": [[1], [2]], "q": [-1]}': 2, '{"M": [1], "q": [-1]}': 2, '{"M": [], "q": []}': 2, '{"M": 1, "q": -1}': 2,
+        '{"type": "ave", "M": [[1]], "q": [-1]}': 2, '{"M": [[1]], "q": [-1], "r": [1]}': 2, '{"M": [[1]]}': 2,
+        "[]": 2, "1": 2, "": 2, "{}": 2, '[["M", [[1]]], ["q", [-1]]]': 2, '{"M": {"0": [1]}, "q": [-1]}': 2,
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder)
+        (path / "proof.txt").write_text(proof)
+        for text, code in texts.items():
+            (path / "problem.json").write_text(text)
+            assert run(path / "problem.json", path / "proof.txt")[0] == code, text
+        assert run(path / "problem.json", path / "absent.txt")[0] == 2
 
 
 def proof_of(equations, exponents, rng):
@@ -522,7 +583,9 @@ def proof_of(equations, exponents, rng):
     return "\n".join(header + prover.lines) + "\n"
 
 
-def main(problems=400, mutants=25, seed=1):
+def main(problems=200, mutants=25, seed=1):
+    check_examples()
+    check_files()
     rng = random.Random(seed)
     steps, refused, accepted = Counter(), 0, 0
     with tempfile.TemporaryDirectory() as folder:
