@@ -10,7 +10,12 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use slideway_modes::{ModeProblem, SearchOptions, search};
+use instances::structured::{
+    clamped_without_friction, game_with_two_costs, market, one_cell_of_low_rank, ones, pile,
+    pushed_without_friction, subset_sum, weights_with_subset,
+};
+use instances::{chained_blocks, planted_blocks, planted_complementarity};
+use slideway_modes::{CombinedState, ModeProblem, SearchOptions, search};
 
 mod instances;
 
@@ -33,7 +38,6 @@ type Make = fn() -> ModeProblem;
 
 /// The instances by name.
 fn table() -> Vec<(&'static str, Make)> {
-    use instances::*;
     vec![
         ("ones 12, q = 0", || ones(12, 0.0)),
         ("ones 40, q = 0", || ones(40, 0.0)),
@@ -52,7 +56,8 @@ fn table() -> Vec<(&'static str, Make)> {
         ("subset 14", || subset(14)),
         ("subset 18", || subset(18)),
         ("subset 20", || subset(20)),
-        ("chained 60", || chained_blocks(60, 0.5)),
+        ("chained 60, strength 1", || chained_blocks(60, 1.0)),
+        ("chained 60, strength 1.5", || chained_blocks(60, 1.5)),
         ("planted 24", || planted_complementarity(24, 1)),
         ("planted 36", || planted_complementarity(36, 1)),
         ("ave 1 28", || planted_blocks(28, 28, 1.0, 1)),
@@ -61,10 +66,10 @@ fn table() -> Vec<(&'static str, Make)> {
     ]
 }
 
-/// `subset_sum` with weights up to 10^5.
+/// `subset_sum` with weights up to 10^5 + 1.
 fn subset(items: usize) -> ModeProblem {
-    let (weights, target) = instances::weights_with_subset(items, 100_000, 1);
-    instances::subset_sum(&weights, target)
+    let (weights, target) = weights_with_subset(items, 50_000, 1);
+    subset_sum(&weights, target)
 }
 
 /// One line of the table.
@@ -75,7 +80,7 @@ fn line(name: &str, problem: &ModeProblem) -> String {
     });
     let milliseconds = 1e3 * start.elapsed().as_secs_f64();
     let counts = result.counts();
-    let maximal = result.product.states().filter(|state| state.is_maximal()).take(10_000).count();
+    let maximal = result.product.states().filter(CombinedState::is_maximal).take(10_000).count();
     let (solutions, sets, nodes) = (counts.solutions, counts.singular, result.nodes());
     format!(
         "| {name} | {solutions} | {sets} | {maximal} | {nodes} | {milliseconds:.1} | {} |",

@@ -4,9 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::{ModeProblem, SharedLoad};
 
-mod structured;
-
-pub(crate) use structured::*;
+pub(crate) mod structured;
 
 /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
 fn random_numbers(seed: u64) -> impl FnMut() -> f64 {

@@ -1,6 +1,8 @@
 //! Problems with continua, monotone problems and chained groups, in small whole numbers and halves: everything
 //! said about their solutions holds exactly.
 
+use std::collections::HashMap;
+
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::ModeProblem;
 
@@ -10,7 +12,7 @@ use super::random_numbers;
 fn whole_numbers(seed: u64, most: u32) -> impl FnMut() -> f64 {
     let mut random = random_numbers(seed);
     let width = f64::from(2 * most + 1);
-    move || ((random() + 1.0) / 2.0 * width).floor().min(width - 1.0) - f64::from(most)
+    move || (f64::midpoint(random(), 1.0) * width).floor().min(width - 1.0) - f64::from(most)
 }
 
 fn complementarity(m: &DMatrix<f64>, q: DVector<f64>) -> ModeProblem {
@@ -163,54 +165,33 @@ pub(crate) fn game_with_two_costs(strategies: usize, seed: u64) -> ModeProblem {
 /// |s| = sum_k a_k x_k - t          with t = 2 target - sum_k a_k
 /// |s'| = t - sum_k a_k x_k         both together: the sum is t, s = s' = 0
 /// ```
-pub(crate) fn subset_sum(weights: &[u32], target: u32) -> ModeProblem {
+pub(crate) fn subset_sum(weights: &[f64], target: f64) -> ModeProblem {
     let items = weights.len();
     let a = DMatrix::from_fn(items + 2, items + 2, |row, column| {
-        let weight = weights.get(column).map_or(0.0, |&weight| f64::from(weight));
-        if row == items {
-            -weight
-        } else if row == items + 1 {
-            weight
-        } else {
-            0.0
-        }
+        let sign = if row < items { 0.0 } else { [-1.0, 1.0][row - items] };
+        weights.get(column).map_or(0.0, |weight| sign * weight)
     });
-    let t = 2.0 * f64::from(target) - weights.iter().map(|&weight| f64::from(weight)).sum::<f64>();
-    let load = DVector::from_fn(items + 2, |row, _| {
-        if row < items {
-            1.0
-        } else if row == items {
-            -t
-        } else {
-            t
-        }
-    });
+    let t = 2.0 * target - weights.iter().sum::<f64>();
+    let load = DVector::from_fn(items + 2, |row, _| if row < items { 1.0 } else { [-t, t][row - items] });
     ModeProblem::from_absolute_value_equation(&a, &DMatrix::identity(items + 2, items + 2), load)
         .expect("shapes fit")
 }
 
-/// Weights up to `most`, and the sum of about half of them.
-pub(crate) fn weights_with_subset(items: usize, most: u32, seed: u64) -> (Vec<u32>, u32) {
-    let mut random = random_numbers(seed);
-    let mut target = 0;
-    let weights = (0..items).map(|_| {
-        let weight = 1 + ((random() + 1.0) / 2.0 * f64::from(most)) as u32;
-        if random() < 0.0 {
-            target += weight;
-        }
-        weight
-    });
-    (weights.collect(), target)
+/// Whole numbers from 1 to `2 most + 1`, and the sum of about half of them.
+pub(crate) fn weights_with_subset(items: usize, most: u32, seed: u64) -> (Vec<f64>, f64) {
+    let mut random = whole_numbers(seed, most);
+    let weights: Vec<f64> = (0..items).map(|_| random() + f64::from(most) + 1.0).collect();
+    let target = weights.iter().filter(|_| random() < 0.0).sum();
+    (weights, target)
 }
 
-/// How many subsets of the weights have each sum up to `target`, by adding one weight after the other.
-pub(crate) fn subsets_with_sum(weights: &[u32], target: u32) -> u64 {
-    let mut ways = vec![0_u64; target as usize + 1];
-    ways[0] = 1;
-    for &weight in weights {
-        for sum in (weight as usize..ways.len()).rev() {
-            ways[sum] += ways[sum - weight as usize];
+/// How many subsets of the weights add up to `target`, by adding one weight after the other.
+pub(crate) fn subsets_with_sum(weights: &[f64], target: f64) -> u64 {
+    let mut ways: HashMap<u64, u64> = HashMap::from([(0.0_f64.to_bits(), 1)]);
+    for weight in weights {
+        for (sum, count) in ways.clone() {
+            *ways.entry((f64::from_bits(sum) + weight).to_bits()).or_default() += count;
         }
     }
-    ways[target as usize]
+    ways.get(&target.to_bits()).copied().unwrap_or(0)
 }

@@ -1,4 +1,4 @@
-//! Solves groups of contacts one after the other and combines their solutions.
+//! Solves connected groups of contacts one after the other and combines their solutions.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -10,22 +10,24 @@ use super::monitor::Monitor;
 use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
 use crate::interval::Interval;
-use crate::problem::{ContactState, ProblemView, Side, SolutionSet, patterns_of};
+use crate::problem::{ContactState, ProblemView, Side, SolutionSet};
 use crate::solutions::{Certificate, SingularMode, Solutions, UndecidedPattern};
-
-/// A problem with at most this many patterns is not split into groups, so that the outcome of each pattern is
-/// known.
-const WHOLE_UP_TO: u64 = 64;
 
 /// Maximum number of group answers that are kept for reuse with the same right-hand side.
 const MOST_KEPT: usize = 10_000;
 
+/// A group is barren if it admits nothing for more than half of more right-hand sides than this.
+const BARREN_FROM: u64 = 64;
+
 /// A piece of the work: the fraction done before it, and the fraction that it makes up.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
-    done: f64,
-    share: f64,
+pub(super) struct Piece {
+    pub(super) done: f64,
+    pub(super) share: f64,
 }
+
+/// Ends an attempt to solve groups one after the other once it has visited so many nodes and some group is barren.
+const UNTIL_BARREN: u64 = 1000;
 
 /// A group's contacts and the right-hand side of its equations, bit by bit.
 type GroupKey = (Vec<usize>, Vec<u64>);
@@ -33,8 +35,11 @@ type GroupKey = (Vec<usize>, Vec<u64>);
 pub(super) struct Composer<'p, 'm, 'c> {
     problem: ProblemView<'p>,
     options: &'p SearchOptions,
-    groups: Groups,
+    groups: &'p Groups,
     monitor: &'m mut Monitor<'c>,
+    /// Whether to give up once there is a barren group.
+    until_barren: bool,
+    first_node: u64,
     solved: HashMap<GroupKey, Arc<SolvedGroup>>,
     /// Reports of all groups; those of one group with several right-hand sides are added up.
     pub(super) reports: Vec<GroupReport>,
@@ -47,27 +52,22 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     pub(super) fn new(
         problem: ProblemView<'p>,
         options: &'p SearchOptions,
+        groups: &'p Groups,
         monitor: &'m mut Monitor<'c>,
+        until_barren: bool,
     ) -> Self {
-        let few = options.arguments.every_pattern && patterns_of(problem) <= WHOLE_UP_TO;
-        let split = options.arguments.groups && !few;
-        let groups = if split { Groups::new(problem) } else { Groups::whole(problem) };
         Self {
+            first_node: monitor.nodes(),
             problem,
             options,
             groups,
             monitor,
+            until_barren,
             solved: HashMap::new(),
             reports: Vec::new(),
             chain_proven: true,
             all_examined: true,
         }
-    }
-
-    /// All solutions of the problem.
-    pub(super) fn solve(&mut self) -> SolutionProduct {
-        let all: Vec<usize> = (0..self.groups.members.len()).collect();
-        self.solve_groups(&all, &Load::of(self.problem), Piece { done: 0.0, share: 1.0 })
     }
 
     /// The solutions of some groups, given in increasing order, where `load` is the right-hand side including
@@ -94,7 +94,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 
     /// The solutions of connected groups: those of the first, and for each of them those of the others.
-    fn solve_part(&mut self, part: &[usize], load: &Load, work: Piece) -> Factor {
+    pub(super) fn solve_part(&mut self, part: &[usize], load: &Load, work: Piece) -> Factor {
         let rest = &part[1..];
         let first = self.groups.members[part[0]].clone();
         let part_size: usize = part.iter().map(|&group| self.groups.members[group].len()).sum();
@@ -124,7 +124,8 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             if !dependents.is_empty() {
                 alternatives.push(Alternative { state: Arc::clone(state), dependents });
             }
-            if self.monitor.stopped().is_some() {
+            // All answers may be known already, and combinations are very many.
+            if !self.monitor.goes_on() {
                 break;
             }
             done += share;
@@ -156,6 +157,12 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         report.contacts = contacts.to_vec();
         self.all_examined &= solutions.is_complete();
         self.file_report(&report);
+        if self.until_barren
+            && self.monitor.nodes() - self.first_node >= UNTIL_BARREN
+            && self.barren_groups().next().is_some()
+        {
+            self.monitor.give_up();
+        }
         let answer = Arc::new(SolvedGroup::of(solutions));
         // Results that were decided together with other contacts hold only for the states of these contacts.
         if !depends_on_ancestors && self.solved.len() < MOST_KEPT {
@@ -170,6 +177,13 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             Some(known) => known.add(report),
             None => self.reports.push(report.clone()),
         }
+    }
+
+    /// The first contacts of groups that admit nothing for most of many right-hand sides.
+    pub(super) fn barren_groups(&self) -> impl Iterator<Item = usize> {
+        let barren =
+            |report: &&GroupReport| report.loads > BARREN_FROM && 2 * report.barren_loads > report.loads;
+        self.reports.iter().filter(barren).map(|report| report.contacts[0])
     }
 
     /// The right-hand side with `sum_k d_k - c_k y_k` of a group's contacts.

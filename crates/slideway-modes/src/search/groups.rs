@@ -19,29 +19,66 @@ pub(super) struct Groups {
 
 impl Groups {
     pub(super) fn new(problem: ProblemView<'_>) -> Self {
-        let graph = coupling_graph(problem);
-        let mut members = strong_components(&graph);
+        let single = Self {
+            members: (0..problem.contacts()).map(|contact| vec![contact]).collect(),
+            acts_on: coupling_graph(problem),
+        };
+        single.condensed()
+    }
+
+    /// Groups that act on one another in both directions become one.
+    fn condensed(&self) -> Self {
+        let mut components = strong_components(&self.acts_on);
         // Tarjan's algorithm finishes components before those that act on them.
-        members.reverse();
-        for group in &mut members {
-            group.sort_unstable();
-        }
-        let mut group_of = vec![0; problem.contacts()];
-        for (group, contacts) in members.iter().enumerate() {
-            for &contact in contacts {
-                group_of[contact] = group;
+        components.reverse();
+        let mut component_of = vec![0; self.members.len()];
+        for (component, groups) in components.iter().enumerate() {
+            for &group in groups {
+                component_of[group] = component;
             }
         }
-        let acts_on = members.iter().enumerate().map(|(group, contacts)| {
-            let mut targets: Vec<usize> =
-                contacts.iter().flat_map(|&contact| &graph[contact]).map(|&row| group_of[row]).collect();
-            targets.sort_unstable();
-            targets.dedup();
-            targets.retain(|&target| target != group);
-            targets
+        let sorted = |mut list: Vec<usize>| {
+            list.sort_unstable();
+            list.dedup();
+            list
+        };
+        let members = components
+            .iter()
+            .map(|groups| sorted(groups.iter().flat_map(|&group| &self.members[group]).copied().collect()));
+        let acts_on = components.iter().enumerate().map(|(component, groups)| {
+            let targets = groups.iter().flat_map(|&group| &self.acts_on[group]);
+            let targets = targets.map(|&target| component_of[target]);
+            sorted(targets.filter(|&target| target != component).collect())
         });
-        let acts_on = acts_on.collect();
-        Self { members, acts_on }
+        Self { members: members.collect(), acts_on: acts_on.collect() }
+    }
+
+    /// Only some of the groups, given in increasing order, renumbered.
+    pub(super) fn restricted(&self, groups: &[usize]) -> Self {
+        let members = groups.iter().map(|&group| self.members[group].clone());
+        let acts_on = groups.iter().map(|&group| {
+            self.acts_on[group].iter().filter_map(|target| groups.binary_search(target).ok()).collect()
+        });
+        Self { members: members.collect(), acts_on: acts_on.collect() }
+    }
+
+    /// The groups after each of `chosen` has become one with all groups that act on it in at most so many
+    /// steps, and with those in between.
+    pub(super) fn joined_with_ancestors(&self, chosen: &[usize], steps: usize) -> Self {
+        let mut joined = self.clone();
+        for &group in chosen {
+            let mut reaches = vec![false; self.members.len()];
+            reaches[group] = true;
+            for _ in 0..steps {
+                let further: Vec<usize> = (0..reaches.len())
+                    .filter(|&at| !reaches[at] && self.acts_on[at].iter().any(|&target| reaches[target]))
+                    .collect();
+                further.iter().for_each(|&at| reaches[at] = true);
+                // Whatever acts on the group and is acted on by it becomes one with it.
+                joined.acts_on[group].extend(further);
+            }
+        }
+        joined.condensed()
     }
 
     /// All contacts in one group.
@@ -180,6 +217,25 @@ mod tests {
         assert_eq!(contacts.len(), 2);
         assert!(contacts.contains(&vec![vec![2], vec![0, 1]]));
         assert!(contacts.contains(&vec![vec![3]]));
+    }
+
+    #[test]
+    fn groups_join_their_ancestors() {
+        // 0 acts on 1, 1 on 2, 2 on 3, 4 on 3.
+        let mut coupling = DMatrix::identity(5, 5);
+        for (row, column) in [(1, 0), (2, 1), (3, 2), (3, 4)] {
+            coupling[(row, column)] = 1.0;
+        }
+        let chain = groups(&coupling, DMatrix::zeros(5, 5));
+        let last = chain.members.iter().position(|members| members == &[3]).expect("a group of its own");
+        let joined = |steps| {
+            let mut members = chain.joined_with_ancestors(&[last], steps).members;
+            members.sort();
+            members
+        };
+        assert_eq!(joined(1), [vec![0], vec![1], vec![2, 3, 4]]);
+        assert_eq!(joined(2), [vec![0], vec![1, 2, 3, 4]]);
+        assert_eq!(joined(3), [vec![0, 1, 2, 3, 4]]);
     }
 
     #[test]

@@ -47,6 +47,7 @@
 //! Except in groups for which every pattern is tried, singular patterns that admit nothing (locking of the
 //! mode) are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
 
+mod alternation;
 mod cells;
 mod composition;
 mod count;
@@ -89,7 +90,7 @@ pub use states::StateSet;
 
 use crate::problem::ProblemView;
 use crate::progress::Callback;
-use composition::Composer;
+use alternation::Composition;
 use monitor::Monitor;
 
 /// Bound on the loss by underflow in bounds and sums of products, far above the least number and far below
@@ -126,15 +127,14 @@ pub fn search<'a>(
 ) -> SearchResult {
     let problem = problem.into().without_zero_radii();
     let mut monitor = Monitor::new(options.nodes, progress);
-    let mut composer = Composer::new(problem, options, &mut monitor);
-    let product = composer.solve();
-    let (groups, all_examined) = (composer.reports, composer.all_examined);
-    let proven = composer.chain_proven && groups.iter().all(|group| group.proven);
+    let Composition { product, reports: groups, abandoned_nodes, chain_proven, all_examined } =
+        alternation::solve(problem, options, &mut monitor);
+    let proven = chain_proven && groups.iter().all(|group| group.proven);
     let completeness = match monitor.stopped() {
         Some(reason) => Completeness::Partial(reason),
         None if !all_examined => Completeness::Unexamined,
         None if proven => Completeness::Proven,
         None => Completeness::NotProven,
     };
-    SearchResult { product, completeness, groups, contacts: problem.contacts() }
+    SearchResult { product, completeness, groups, abandoned_nodes, contacts: problem.contacts() }
 }

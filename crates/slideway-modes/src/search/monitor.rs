@@ -3,11 +3,14 @@
 use super::report::StopReason;
 use crate::progress::{Callback, Progress};
 
-/// Counts nodes, reports to the caller, and records why the search ends early.
+/// Counts nodes, reports to the caller, and records why the search, or the present attempt, ends early.
 pub(super) struct Monitor<'a> {
     progress: &'a mut Callback<'a>,
     node_limit: u64,
     nodes: u64,
+    /// The present attempt is given up before it visits this node.
+    budget_end: u64,
+    out_of_budget: bool,
     states_found: u64,
     /// The fraction of the work that is done, and the fraction that the current group makes up.
     done: f64,
@@ -20,15 +23,64 @@ pub(super) struct Monitor<'a> {
 impl<'a> Monitor<'a> {
     pub(super) fn new(node_limit: u64, progress: &'a mut Callback<'a>) -> Self {
         let told = Progress { counted: "nodes", done: 0, fraction: Some(0.0), found: Some(0) };
-        Self { progress, node_limit, nodes: 0, states_found: 0, done: 0.0, share: 1.0, told, stopped: None }
+        Self {
+            progress,
+            node_limit,
+            nodes: 0,
+            budget_end: u64::MAX,
+            out_of_budget: false,
+            states_found: 0,
+            done: 0.0,
+            share: 1.0,
+            told,
+            stopped: None,
+        }
+    }
+
+    /// Nodes visited so far.
+    pub(super) fn nodes(&self) -> u64 {
+        self.nodes
+    }
+
+    /// Number of states counted so far.
+    pub(super) fn states_found(&self) -> u64 {
+        self.states_found
+    }
+
+    /// Begins an attempt that may visit so many nodes.
+    pub(super) fn begin_attempt(&mut self, budget: u64) {
+        self.budget_end = self.nodes.saturating_add(budget);
+    }
+
+    /// Ends the present attempt as if its budget were used up; the search goes on with another one.
+    pub(super) fn give_up(&mut self) {
+        self.out_of_budget = self.stopped.is_none();
+    }
+
+    /// Ends an attempt, before which so many states had been found; whether it was given up.
+    pub(super) fn end_attempt(&mut self, states_found_before: u64) -> bool {
+        self.budget_end = u64::MAX;
+        let given_up = std::mem::take(&mut self.out_of_budget);
+        if given_up {
+            self.states_found = states_found_before;
+        }
+        given_up
+    }
+
+    /// Whether the present attempt has ended early.
+    pub(super) fn has_ended(&self) -> bool {
+        self.out_of_budget || self.stopped.is_some()
     }
 
     pub(super) fn stopped(&self) -> Option<StopReason> {
         self.stopped
     }
 
+    /// Ends the search, unless only the present attempt has ended.
     pub(super) fn stop(&mut self, reason: StopReason) {
-        self.stopped.get_or_insert(reason);
+        if !self.out_of_budget {
+            self.stopped.get_or_insert(reason);
+        }
     }
 
     /// The next group makes up this share of the work.
@@ -44,11 +96,15 @@ impl<'a> Monitor<'a> {
     /// Counts a node; `false` if the search must end before it. `fraction` is the completed part of the
     /// group's patterns.
     pub(super) fn visit(&mut self, fraction: f64, found_in_group: usize) -> bool {
-        if self.stopped.is_some() {
+        if self.has_ended() {
             return false;
         }
         if self.nodes >= self.node_limit {
             self.stop(StopReason::NodeLimit);
+            return false;
+        }
+        if self.nodes >= self.budget_end {
+            self.give_up();
             return false;
         }
         self.nodes += 1;
@@ -56,7 +112,10 @@ impl<'a> Monitor<'a> {
             counted: "nodes",
             done: self.nodes,
             // Of the pattern space within a group of contacts, and of the contacts over all groups.
-            fraction: Some((self.done + self.share * fraction).min(1.0)),
+            // An attempt begins anew.
+            fraction: Some(
+                (self.done + self.share * fraction).min(1.0).max(self.told.fraction.unwrap_or(0.0)),
+            ),
             found: Some(self.states_found + found_in_group as u64),
         };
         self.goes_on()
@@ -64,9 +123,9 @@ impl<'a> Monitor<'a> {
 
     /// `false` if the search must end. Also called during long steps.
     pub(super) fn goes_on(&mut self) -> bool {
-        if self.stopped.is_none() && (self.progress)(&self.told).is_break() {
+        if !self.has_ended() && (self.progress)(&self.told).is_break() {
             self.stop(StopReason::Cancelled);
         }
-        self.stopped.is_none()
+        !self.has_ended()
     }
 }

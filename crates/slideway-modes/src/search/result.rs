@@ -17,6 +17,8 @@ pub struct SearchResult {
     /// How each group of contacts was searched. A group that depends on others is searched once for each of
     /// their solutions; the reports are added up.
     pub groups: Vec<GroupReport>,
+    /// Nodes of attempts with other groups, which were given up.
+    pub abandoned_nodes: u64,
     /// Number `r` of contacts.
     pub contacts: usize,
 }
@@ -111,9 +113,9 @@ impl SearchResult {
         self.groups.iter().filter(|group| group.barren_loads == group.loads)
     }
 
-    /// Nodes visited.
+    /// Nodes visited, those of attempts that were given up included.
     pub fn nodes(&self) -> u64 {
-        self.groups.iter().map(|group| group.nodes).sum()
+        self.groups.iter().map(|group| group.nodes).sum::<u64>() + self.abandoned_nodes
     }
 
     /// The strategy in words: how many groups were solved by which method.
