@@ -71,6 +71,30 @@ impl<'a> Findings<'a> {
         }
     }
 
+    /// Nothing yet, for the same problem.
+    pub(crate) fn another(&self) -> Self {
+        Self { exact: self.exact, ..Self::new(self.problem, &self.limits) }
+    }
+
+    /// Adds what was found elsewhere in the same problem.
+    pub(crate) fn absorb(&mut self, other: Self) -> Result<(), TooManySolutions> {
+        self.counts.add(&other.counts);
+        self.gap_counts.add(&other.gap_counts);
+        self.examined += other.examined;
+        for (determinant, pattern) in other.closest {
+            self.offer_closest(&pattern, determinant);
+        }
+        self.undecided.extend(other.undecided);
+        for mode in other.singular {
+            self.add_singular(mode);
+        }
+        for found in other.found {
+            self.add(found);
+            self.check_limit()?;
+        }
+        Ok(())
+    }
+
     /// Whether the maximum number of (nearly) singular patterns has been examined.
     pub(crate) fn has_examined_enough(&self) -> bool {
         self.examined >= self.limits.singular
@@ -208,7 +232,12 @@ impl<'a> Findings<'a> {
         } else {
             counts.boundary += 1;
         }
-        self.file(pattern, candidate, certificate);
+        self.add(Found::new(pattern, candidate, certificate));
+        self.check_limit()
+    }
+
+    /// Drops the latest state if there are too many.
+    fn check_limit(&mut self) -> Result<(), TooManySolutions> {
         if self.found.len() > self.limits.solutions {
             self.found.pop();
             let known = self.found.len();
@@ -233,10 +262,9 @@ impl<'a> Findings<'a> {
         true
     }
 
-    fn file(&mut self, pattern: &[ContactState], candidate: Candidate, certificate: Certificate) {
-        let free = self.free_contacts(&candidate);
-        let key = SharedPattern { states: canonical(pattern, &free), free };
-        let new = Found::new(pattern, candidate, certificate);
+    fn add(&mut self, new: Found) {
+        let free = self.free_contacts(&new.candidate);
+        let key = SharedPattern { states: canonical(new.pattern(), &free), free };
         match self.shared.get(&key) {
             // Contacts that are exactly zero drop out of the equations, and the other contacts have the same
             // equations.
@@ -295,18 +323,7 @@ impl<'a> Findings<'a> {
         certificate: Certificate,
     ) {
         self.counts_of(pattern).count_set(&set);
-        if !set.vertices().is_empty() {
-            if let Some(&place) = self.singular_places.get(&support) {
-                let mode = &mut self.singular[place];
-                mode.pattern_count += 1;
-                if mode.patterns.len() < self.limits.listed {
-                    mode.patterns.push(pattern.to_vec());
-                }
-                return;
-            }
-            self.singular_places.insert(support.clone(), self.singular.len());
-        }
-        self.singular.push(SingularMode {
+        self.add_singular(SingularMode {
             pattern: pattern.to_vec(),
             patterns: vec![pattern.to_vec()],
             pattern_count: 1,
@@ -318,6 +335,21 @@ impl<'a> Findings<'a> {
             support,
             certificate,
         });
+    }
+
+    /// Records a singular pattern, or those that admit the same set.
+    fn add_singular(&mut self, new: SingularMode) {
+        if !new.set.vertices().is_empty() {
+            if let Some(&place) = self.singular_places.get(&new.support) {
+                let mode = &mut self.singular[place];
+                mode.pattern_count += new.pattern_count;
+                let room = self.limits.listed.saturating_sub(mode.patterns.len());
+                mode.patterns.extend(new.patterns.into_iter().take(room));
+                return;
+            }
+            self.singular_places.insert(new.support.clone(), self.singular.len());
+        }
+        self.singular.push(new);
     }
 
     pub(crate) fn into_solutions(mut self) -> Solutions {

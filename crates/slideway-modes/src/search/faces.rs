@@ -5,6 +5,8 @@
 //! one pattern. That all other unknowns vanish is proven by vectors in integers ([`separate`]), so the node is
 //! settled with this pattern, however many others the node has.
 
+use std::sync::Arc;
+
 use dashu_int::IBig;
 use nalgebra::DVector;
 
@@ -15,8 +17,9 @@ use crate::problem::{ContactState, ProblemView, ScaledProblem};
 use crate::solutions::ContactSet;
 
 /// Faces of the relaxation of an exact problem.
+#[derive(Clone)]
 pub(super) struct Faces {
-    system: LiftedSystem,
+    system: Arc<LiftedSystem>,
     /// The patterns that are examined, with their columns.
     known: Vec<(ContactSet, Vec<ContactState>)>,
 }
@@ -53,7 +56,7 @@ pub(super) struct Settled {
 
 impl Faces {
     pub(super) fn new(problem: ProblemView<'_>) -> Self {
-        Self { system: LiftedSystem::new(problem), known: Vec::new() }
+        Self { system: Arc::new(LiftedSystem::new(problem)), known: Vec::new() }
     }
 
     /// A vector in integers that proves that a node has no solution, if one is found.

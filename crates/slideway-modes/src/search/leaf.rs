@@ -27,6 +27,19 @@ impl<'a> Leaves<'a> {
         Self { problem, findings, certify, unproven: 0, decided_jointly: false }
     }
 
+    /// Nothing yet, for the same problem.
+    pub(super) fn another(&self) -> Self {
+        let findings = self.findings.another();
+        Self { findings, unproven: 0, decided_jointly: false, ..*self }
+    }
+
+    /// Adds what was found elsewhere.
+    pub(super) fn absorb(&mut self, other: Self) -> Result<(), StopReason> {
+        self.unproven += other.unproven;
+        self.decided_jointly |= other.decided_jointly;
+        self.findings.absorb(other.findings).map_err(|_| StopReason::SolutionLimit)
+    }
+
     /// The problem whose patterns are decided.
     pub(super) fn problem(&self) -> &LoadedProblem<'a> {
         self.problem

@@ -73,6 +73,7 @@ mod short_vector;
 mod sieve;
 mod simplex;
 mod states;
+mod subtrees;
 #[cfg(test)]
 mod test_problems;
 mod tree;

@@ -121,6 +121,29 @@ impl<'a> Monitor<'a> {
         self.goes_on()
     }
 
+    /// Nodes that may still be visited.
+    pub(super) fn remaining(&self) -> u64 {
+        self.node_limit.min(self.budget_end).saturating_sub(self.nodes)
+    }
+
+    /// Ends the search, or the present attempt, because its nodes are used up.
+    pub(super) fn use_up(&mut self) {
+        if self.budget_end < self.node_limit { self.give_up() } else { self.stop(StopReason::NodeLimit) }
+    }
+
+    /// Counts nodes that were visited elsewhere.
+    pub(super) fn count_nodes(&mut self, nodes: u64) {
+        self.nodes += nodes;
+    }
+
+    /// Tells of nodes that are being visited elsewhere, and are not counted yet; `false` if the search must end.
+    pub(super) fn tell(&mut self, nodes: u64, fraction: f64, found_in_group: u64) -> bool {
+        self.told.done = self.nodes + nodes;
+        self.told.fraction = Some((self.done + self.share * fraction).min(1.0));
+        self.told.found = Some(self.states_found + found_in_group);
+        self.goes_on()
+    }
+
     /// `false` if the search must end. Also called during long steps.
     pub(super) fn goes_on(&mut self) -> bool {
         if !self.has_ended() && (self.progress)(&self.told).is_break() {

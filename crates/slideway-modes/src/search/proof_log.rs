@@ -13,6 +13,7 @@ use crate::problem::{ContactState, ProblemView};
 const TRIED_AGAIN: usize = 8;
 
 /// The proof of one group, as far as it is written.
+#[derive(Clone)]
 pub(super) struct ProofLog {
     text: String,
     /// The exponents of the powers of two by which the file multiplies the rows.

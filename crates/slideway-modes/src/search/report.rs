@@ -16,6 +16,8 @@ pub struct SearchOptions {
     /// Limits on what is found and examined. [`Limits::contacts`] and [`Limits::patterns`] do not apply to a
     /// search.
     pub limits: Limits,
+    /// Threads that share large trees; nodes and answer are the same for any number of them. 0 counts as 1.
+    pub threads: usize,
     /// Which arguments the search may use; by default all of them.
     #[doc(hidden)]
     pub arguments: Arguments,
@@ -29,10 +31,11 @@ pub struct SearchOptions {
 }
 
 impl Default for SearchOptions {
-    /// 100 million nodes.
+    /// 100 million nodes, one thread.
     fn default() -> Self {
         Self {
             nodes: 100_000_000,
+            threads: 1,
             limits: Limits::default(),
             arguments: Arguments::default(),
             certify: true,
@@ -160,6 +163,17 @@ impl PatternShares {
     /// The fraction of settled patterns.
     pub fn done(&self) -> f64 {
         self.uniqueness + self.cells + self.propagation + self.relaxation + self.faces + self.examined
+    }
+
+    /// Adds the fractions of another part of the same patterns.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.uniqueness += other.uniqueness;
+        self.cells += other.cells;
+        self.propagation += other.propagation;
+        self.relaxation += other.relaxation;
+        self.faces += other.faces;
+        self.examined += other.examined;
+        self.unexplored += other.unexplored;
     }
 
     fn mean(&self, other: &Self, weight: f64) -> Self {

@@ -1,6 +1,6 @@
 //! Branch and bound over the states of contacts.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -14,6 +14,7 @@ use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
 use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
+use super::subtrees;
 use crate::problem::{ContactState, ScaledProblem};
 
 /// Relaxed solutions that violate complementarity by at most this fraction of the largest unknown (or of 1)
@@ -24,13 +25,13 @@ const LEAST_COST: f64 = 1e-6;
 const MOST_COST: f64 = 1e9;
 
 /// A waiting node, with the basis of its parent.
-struct Node {
-    states: Vec<StateSet>,
-    basis: Rc<Basis>,
+pub(super) struct Node {
+    pub(super) states: Vec<StateSet>,
+    basis: Arc<Basis>,
 }
 
 /// What a tree search did.
-#[derive(Default)]
+#[derive(Debug, Default, Clone)]
 pub(super) struct TreeReport {
     pub(super) shares: PatternShares,
     pub(super) nodes: u64,
@@ -38,13 +39,25 @@ pub(super) struct TreeReport {
     pub(super) exclusions: Vec<Exclusion>,
 }
 
+impl TreeReport {
+    /// Adds what happened in a subtree.
+    pub(super) fn add(&mut self, other: Self) {
+        self.shares.add(&other.shares);
+        self.nodes += other.nodes;
+        self.pivots += other.pivots;
+        self.exclusions.extend(other.exclusions);
+    }
+}
+
+#[derive(Clone)]
 pub(super) struct Tree<'a> {
     problem: &'a ScaledProblem,
     propagation: Option<&'a SolvedForm>,
-    relaxation: Relaxation,
+    relaxation: Arc<Relaxation>,
     /// Only if the numbers are exact: within bounds, no unknown vanishes for all values.
     faces: Option<Faces>,
     keep_exclusions: bool,
+    threads: usize,
     /// Only if a proof file is written.
     log: Option<ProofLog>,
     report: TreeReport,
@@ -64,9 +77,10 @@ impl<'a> Tree<'a> {
             problem,
             // Without bounds, there is nothing to propagate.
             propagation: propagation.filter(|propagation| propagation.is_contraction()),
-            relaxation: Relaxation::new(problem, load_radius, largest),
+            relaxation: Arc::new(Relaxation::new(problem, load_radius, largest)),
             faces: is_exact.then(|| Faces::new(loaded.view())),
             keep_exclusions: options.keep_exclusions,
+            threads: options.threads,
             log: None,
             report: TreeReport::default(),
         }
@@ -84,26 +98,94 @@ impl<'a> Tree<'a> {
     }
 
     /// [`run`](Self::run), with what was written.
+    ///
+    /// A tree with many nodes is divided into subtrees, which threads share. What they are does not depend on
+    /// the number of threads. A proof is written in the order of one thread.
     pub(super) fn run_logged(
         mut self,
         leaves: &mut Leaves<'_>,
         monitor: &mut Monitor<'_>,
     ) -> (TreeReport, Option<ProofLog>) {
-        let root = Node { states: all_states(self.problem), basis: Rc::new(self.relaxation.first_basis()) };
+        let root = Node { states: all_states(self.problem), basis: Arc::new(self.relaxation.first_basis()) };
         let mut open = vec![root];
-        while let Some(node) = open.pop() {
-            if !monitor.visit(self.report.shares.done(), leaves.found()) {
-                open.push(node);
-                break;
-            }
-            self.report.nodes += 1;
-            if let Err(reason) = self.visit(node, &mut open, leaves, monitor) {
-                monitor.stop(reason);
-            }
+        let alone = if self.log.is_some() { u64::MAX } else { subtrees::ALONE };
+        self.work(&mut open, alone, (leaves, monitor));
+        if !open.is_empty() && !monitor.has_ended() {
+            self.widen(&mut open, (leaves, monitor));
+            open = subtrees::solve(&mut self, open, (leaves, monitor));
         }
         self.report.shares.unexplored +=
             open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum::<f64>();
         (self.report, self.log)
+    }
+
+    /// Visits up to `most` nodes, the latest ones first.
+    pub(super) fn work(
+        &mut self,
+        open: &mut Vec<Node>,
+        most: u64,
+        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
+    ) {
+        let end = self.report.nodes.saturating_add(most);
+        while self.report.nodes < end
+            && let Some(node) = open.pop()
+        {
+            if !self.visit_next(node, open, (leaves, monitor)) {
+                break;
+            }
+        }
+    }
+
+    /// Visits the nodes with most patterns until there are enough subtrees.
+    fn widen(&mut self, open: &mut Vec<Node>, (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>)) {
+        let size = |node: &Node| fraction_of_patterns(self.problem, &node.states);
+        let mut sizes: Vec<f64> = open.iter().map(size).collect();
+        while open.len() < subtrees::SUBTREES
+            && let Some(largest) = (0..open.len()).max_by(|&one, &other| sizes[one].total_cmp(&sizes[other]))
+        {
+            let node = open.remove(largest);
+            sizes.remove(largest);
+            if !self.visit_next(node, open, (leaves, monitor)) {
+                break;
+            }
+            sizes.extend(open[sizes.len()..].iter().map(|node| fraction_of_patterns(self.problem, &node.states)));
+        }
+    }
+
+    /// Visits a node; `false`, with the node still open, if the monitor stops the search.
+    fn visit_next(
+        &mut self,
+        node: Node,
+        open: &mut Vec<Node>,
+        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
+    ) -> bool {
+        if !monitor.visit(self.report.shares.done(), leaves.found()) {
+            open.push(node);
+            return false;
+        }
+        self.report.nodes += 1;
+        if let Err(reason) = self.visit(node, open, leaves, monitor) {
+            monitor.stop(reason);
+        }
+        true
+    }
+
+    /// The same tree before its first node, with what is known so far.
+    pub(super) fn subtree(&self) -> Self {
+        Self { report: TreeReport::default(), log: None, ..self.clone() }
+    }
+
+    pub(super) fn threads(&self) -> usize {
+        self.threads
+    }
+
+    pub(super) fn report(&self) -> &TreeReport {
+        &self.report
+    }
+
+    /// Adds the report of a subtree.
+    pub(super) fn add(&mut self, subtree: Self) {
+        self.report.add(subtree.report);
     }
 
     /// Excludes a node, examines its only pattern, or adds its children to `open`.
@@ -150,7 +232,7 @@ impl<'a> Tree<'a> {
         let contradicting: Option<Vec<usize>> =
             inside.map(|inside| contradictions(&node.states, &inside).collect());
         let (contact, preferred) = branching(&node.states, relaxed.as_deref(), contradicting.as_deref());
-        let basis = if relaxed.is_some() { Rc::new(basis) } else { node.basis };
+        let basis = if relaxed.is_some() { Arc::new(basis) } else { node.basis };
         let mut children: Vec<ContactState> = node.states[contact].iter().collect();
         // The last one is visited first.
         children.sort_by_key(|&state| (state == preferred, std::cmp::Reverse(state)));
@@ -161,7 +243,7 @@ impl<'a> Tree<'a> {
         for state in children {
             let mut states = node.states.clone();
             states[contact] = StateSet::only(state);
-            open.push(Node { states, basis: Rc::clone(&basis) });
+            open.push(Node { states, basis: Arc::clone(&basis) });
         }
         Ok(())
     }

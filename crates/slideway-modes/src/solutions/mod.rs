@@ -244,6 +244,18 @@ impl PatternCounts {
             + self.undecided
     }
 
+    /// Adds the counts of other patterns.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.solution += other.solution;
+        self.boundary += other.boundary;
+        self.no_solution += other.no_solution;
+        self.singular_empty += other.singular_empty;
+        self.singular_point += other.singular_point;
+        self.singular_continuum += other.singular_continuum;
+        self.not_examined += other.not_examined;
+        self.undecided += other.undecided;
+    }
+
     pub(crate) fn count_set(&mut self, set: &SolutionSet) {
         match set {
             SolutionSet::Empty => self.singular_empty += 1,
