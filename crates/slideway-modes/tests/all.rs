@@ -6,6 +6,8 @@
 mod exhaustive;
 mod existence;
 mod fuzz_findings;
+#[path = "../benches/instances/mod.rs"]
+mod instances;
 mod interval_functions;
 mod klepp_example;
 mod modes;
@@ -16,6 +18,7 @@ mod modes_uniqueness;
 mod proofs;
 mod search;
 mod search_extremes;
+mod search_groups;
 mod search_low_rank;
 mod search_proofs;
 mod search_rules;

@@ -63,7 +63,7 @@ impl Groups {
     }
 
     /// The groups after each of `chosen` has become one with all groups that act on it in at most so many
-    /// steps, and with those in between.
+    /// steps, with what these act on directly, and with all groups in between.
     pub(super) fn joined_with_ancestors(&self, chosen: &[usize], steps: usize) -> Self {
         let mut joined = self.clone();
         for &group in chosen {
@@ -73,9 +73,14 @@ impl Groups {
                 let further: Vec<usize> = (0..reaches.len())
                     .filter(|&at| !reaches[at] && self.acts_on[at].iter().any(|&target| reaches[target]))
                     .collect();
-                further.iter().for_each(|&at| reaches[at] = true);
-                // Whatever acts on the group and is acted on by it becomes one with it.
-                joined.acts_on[group].extend(further);
+                // Groups become one if each acts on the other, perhaps by way of others.
+                for ancestor in further {
+                    reaches[ancestor] = true;
+                    joined.acts_on[group].push(ancestor);
+                    for &target in &self.acts_on[ancestor] {
+                        joined.acts_on[target].push(group);
+                    }
+                }
             }
         }
         joined.condensed()
@@ -221,21 +226,21 @@ mod tests {
 
     #[test]
     fn groups_join_their_ancestors() {
-        // 0 acts on 1, 1 on 2, 2 on 3, 4 on 3.
-        let mut coupling = DMatrix::identity(5, 5);
-        for (row, column) in [(1, 0), (2, 1), (3, 2), (3, 4)] {
+        // 0 acts on 1, 1 on 2, 2 on 3 and 5, 4 on 3.
+        let mut coupling = DMatrix::identity(6, 6);
+        for (row, column) in [(1, 0), (2, 1), (3, 2), (5, 2), (3, 4)] {
             coupling[(row, column)] = 1.0;
         }
-        let chain = groups(&coupling, DMatrix::zeros(5, 5));
+        let chain = groups(&coupling, DMatrix::zeros(6, 6));
         let last = chain.members.iter().position(|members| members == &[3]).expect("a group of its own");
         let joined = |steps| {
             let mut members = chain.joined_with_ancestors(&[last], steps).members;
             members.sort();
             members
         };
-        assert_eq!(joined(1), [vec![0], vec![1], vec![2, 3, 4]]);
-        assert_eq!(joined(2), [vec![0], vec![1, 2, 3, 4]]);
-        assert_eq!(joined(3), [vec![0, 1, 2, 3, 4]]);
+        assert_eq!(joined(1), [vec![0], vec![1], vec![2, 3, 4, 5]]);
+        assert_eq!(joined(2), [vec![0], vec![1, 2, 3, 4, 5]]);
+        assert_eq!(joined(3), [vec![0, 1, 2, 3, 4, 5]]);
     }
 
     #[test]
