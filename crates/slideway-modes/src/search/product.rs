@@ -254,6 +254,16 @@ impl CombinedState<'_> {
         self.parts.iter().all(|(_, state)| state.is_maximal())
     }
 
+    /// Which unknowns of each contact are positive somewhere in the state, given the number of contacts: `y^+` and
+    /// `y^-`, and, if the right-hand side jumps, the shares `lambda` and `1 - lambda`; none for undecided patterns.
+    ///
+    /// States with the same positive unknowns are the same set; of two sets, one is part of the other if its
+    /// positive unknowns are.
+    pub fn positive_unknowns(&self, contacts: usize) -> Vec<[bool; 4]> {
+        let support = self.support(contacts);
+        (0..contacts).map(|contact| support.of_contact(contact)).collect()
+    }
+
     /// The positive unknowns of all contacts, given their number; none for undecided patterns.
     pub(crate) fn support(&self, contacts: usize) -> Support {
         let mut support = Support::none_of(contacts);

@@ -112,6 +112,11 @@ impl Support {
         }
     }
 
+    /// The unknowns of one contact: `y^+`, `y^-`, `lambda`, `1 - lambda`.
+    pub(crate) fn of_contact(&self, contact: usize) -> [bool; UNKNOWNS] {
+        std::array::from_fn(|at| self.unknowns.contains(UNKNOWNS * contact + at))
+    }
+
     /// The number of unknowns.
     pub(crate) fn len(&self) -> usize {
         self.unknowns.len()
