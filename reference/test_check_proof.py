@@ -5,14 +5,16 @@
 
 A small prover (branch and bound with rational linear programs) writes proofs for random problems with up to four
 contacts that use every step of the format. An oracle that knows no proof tries all complementary sets of columns.
-Then every proof is changed at random: tokens and lines are altered, deleted, exchanged, repeated. A changed proof may still
-be accepted, but only if what it lists is true, by the oracle.
+Then every proof is changed at random: tokens and lines are altered, deleted, exchanged, repeated; and the prover writes others
+in which it takes steps without asking whether they apply. Such a proof may be accepted, but only if what it lists is true, by
+the oracle: all listed sets are solutions, and those that close nodes are all solutions.
 """
 
 import io
 import itertools
 import json
 import math
+import operator
 import random
 import subprocess
 import sys
@@ -217,10 +219,13 @@ def whole(vector):
 
 
 class Prover:
-    """Writes the proof of a problem, choosing among the possible steps at random."""
+    """Writes the proof of a problem, choosing among the possible steps at random.
 
-    def __init__(self, equations, exponents, rng, part=None):
-        self.equations, self.exponents, self.rng = equations, exponents, rng
+    With a frequency of `lies` it takes a step without asking whether it applies, and goes on as if it did.
+    """
+
+    def __init__(self, equations, exponents, rng, lies=0.0):
+        self.equations, self.exponents, self.rng, self.lies = equations, exponents, rng, lies
         self.lines, self.cells, self.known, self.vectors, self.forms = [], [], [], [], []
         self.splits_left = 2
 
@@ -247,7 +252,38 @@ class Prover:
         if len(entries) <= len(self.equations.right):
             self.vectors.append(entries)
 
+    def lying(self):
+        return self.rng.random() < self.lies
+
+    def lie(self, node):
+        """Closes a node, or takes columns away, without a reason."""
+        rng, height = self.rng, len(self.equations.right) + len(node[1])
+        if self.vectors and rng.random() < 0.3:
+            # A vector that proved something elsewhere, perhaps with another entry.
+            vector = list(rng.choice(self.vectors))
+            if vector and rng.random() < 0.3:
+                vector[rng.randrange(len(vector))] += rng.choice([-1, 1])
+        else:
+            vector = [rng.choice([0, 0, 0, 1, -1, 2]) for _ in range(rng.randint(1, height))]
+        match rng.randrange(6):
+            case 0: self.lines.append(" ".join(map(str, ["f", *vector])))
+            case 1: self.lines.append("x")
+            case 2 if self.vectors: self.lines.append(f"l {rng.randrange(len(self.vectors))}")
+            case 3 if self.cells: self.lines.append(f"c {rng.randrange(len(self.cells))}")
+            case 4 if self.cells:
+                number = rng.randrange(len(self.cells))
+                self.lines.append(" ".join(map(str, ["m", number, *rng.choices([0, 1, 1], k=rng.randint(1, len(self.equations.pairs)))])))
+                leaving = {b for pair in self.equations.pairs for a, b in (pair, pair[::-1]) if a in self.known[number]}
+                self.prove((node[0] - leaving, node[1]))
+            case _:
+                self.lines.append(" ".join(map(str, ["z", *vector])))
+                columns, _ = self.system(node)
+                products = [sum(map(operator.mul, vector, column)) for column in columns]
+                self.prove((node[0] - {j for j, product in zip(sorted(node[0]), products) if product < 0}, node[1]))
+
     def prove(self, node):
+        if self.lying():
+            return self.lie(node)
         columns, right = self.system(node)
         order = sorted(node[0])
         answer = linear_program(columns, right, [0] * len(columns))
@@ -293,6 +329,11 @@ class Prover:
                 elif generator not in generators:
                     generators.append(generator)
         generators = generators or [[]]
+        if self.lying():
+            # Other columns, or the columns of another cell's points.
+            order = sorted(set(order) ^ {self.rng.randrange(len(self.equations.columns))})
+            self.rng.shuffle(generators)
+            generators[0] = self.rng.choice([generators[0][1:], order, *self.known])
         if self.rng.random() < 0.3:
             generators = generators[:1]
         lists = [order] + ([] if generators == [order] else generators)
@@ -312,7 +353,7 @@ class Prover:
         violated = [pair for pair in self.equations.pairs if pair[0] in real and pair[1] in real]
         one, other = rng.choice(violated or self.equations.pairs)
         if rng.random() < 0.3:
-            one, other = rng.sample([one, other], 2)
+            one, other = rng.sample(sorted(range(len(self.equations.columns))) if self.lying() else [one, other], 2)
             self.lines.append(f"e {one} {other}")
             children = [{one}, {other}]
         else:
@@ -350,9 +391,9 @@ class Prover:
             return False
         for weights in [[1] * len(self.equations.pairs)] + [
                 [self.rng.choice([0, 1, 1, 2]) for _ in self.equations.pairs] for _ in range(4)]:
-            if any(weights) and self.is_monotone(sorted(real), weights):
+            if any(weights) and (self.lying() or self.is_monotone(sorted(real), weights)):
                 number = self.cell(support)
-                if not self.known[number] <= real:
+                if not self.known[number] <= real and not self.lying():
                     return False
                 leaving = set()
                 for (one, other), weight in zip(self.equations.pairs, weights):
@@ -396,15 +437,19 @@ class Prover:
         row_of = [*range(size), *equations.jumps]
         for j in real:
             reached = {label[row_of[i]] for i, x in enumerate(equations.columns[j]) if x}
-            if label[contact_of[j]] and reached - {label[contact_of[j]]}:
+            if label[contact_of[j]] and reached - {label[contact_of[j]]} and not self.lying():
                 return False
         rest = [j for j in sorted(real) if not label[contact_of[j]]]
         rows = [i for i in range(len(row_of)) if not label[row_of[i]]]
         chosen = [[equations.columns[j][i] for i in rows] for j in rest]
-        if rest and rank(chosen) < len(rest):
+        if rest and rank(chosen) < len(rest) and not self.lying():
             return False
         answer = linear_program(chosen, [equations.right[i] for i in rows], [0] * len(rest))
-        if answer[0] == "empty" or not equations.complementary({rest[k] for k in answer[1]}):
+        if answer[0] == "empty":
+            if not self.lying():
+                return False
+            answer = "greatest", {k: Fraction(1) for k in range(len(rest))}
+        if not equations.complementary({rest[k] for k in answer[1]}) and not self.lying():
             return False
         right = list(equations.right)
         for k, value in answer[1].items():
@@ -413,7 +458,7 @@ class Prover:
         for group in groups:
             part, own_rows, columns = part_of(equations, group, right)
             exponents = [(self.exponents + [0] * len(right))[i] for i in own_rows]
-            prover = Prover(part, exponents, self.rng)
+            prover = Prover(part, exponents, self.rng, self.lies)
             prover.prove((frozenset(at for at, j in enumerate(columns) if j in real), ()))
             self.lines += prover.lines
         return True
@@ -467,12 +512,25 @@ def determinant(matrix):
 # Checks -------------------------------------------------------------------------------------------------------------
 
 
-def listed(tree, columns):
-    """The columns of every listed set, for a tree with the given columns of the whole problem."""
-    for cell in tree.cells:
-        yield {columns[j] for j in cell.columns}
+class Tree(check_proof.Tree):
+    """A tree that knows which of its cells close a node."""
+
+    def close(self, fields, *node):
+        following = super().close(fields, *node)
+        self.used = getattr(self, "used", set()) | {int(fields[0])}
+        return following
+
+
+check_proof.Tree = Tree
+
+
+def listed(tree, columns, only_used):
+    """The columns of every listed set, or of those that close nodes, for a tree with the given columns of the whole problem."""
+    for number, cell in enumerate(tree.cells):
+        if not only_used or number in getattr(tree, "used", ()):
+            yield {columns[j] for j in cell.columns}
     for others, parts in tree.products:
-        sets = [list(listed(part, [columns[j] for j in chosen])) for chosen, part in parts]
+        sets = [list(listed(part, [columns[j] for j in chosen], only_used)) for chosen, part in parts]
         for combination in itertools.product(*sets):
             yield {columns[j] for j in others}.union(*combination)
 
@@ -486,8 +544,9 @@ def check(problem_data, text):
 
 
 def is_true(tree, equations, truth):
-    """Whether the listed sets are complementary and not empty, and contain all solutions; and their dimensions."""
-    sets = list(listed(tree, range(len(equations.columns))))
+    """Whether the listed sets are complementary and not empty, those that close nodes contain all solutions, and cells
+    have the stated dimensions."""
+    sets, used = (list(listed(tree, range(len(equations.columns)), only_used)) for only_used in (False, True))
     for columns in sets:
         if not equations.complementary(columns) or equations.support(columns) is None:
             return False
@@ -496,7 +555,7 @@ def is_true(tree, equations, truth):
             chosen = [equations.columns[j] for j in sorted(cell.columns)]
             if equations.support(cell.columns) != cell.columns or cell.dimension != len(chosen) - rank(chosen):
                 return False
-    return all(any(support <= columns for columns in sets) for support in truth)
+    return all(any(support <= columns for columns in used) for support in truth)
 
 
 def changed(text, rng):
@@ -575,8 +634,8 @@ def check_files():
         assert run(path / "problem.json", path / "absent.txt")[0] == 2
 
 
-def proof_of(equations, exponents, rng):
-    prover = Prover(equations, exponents, rng)
+def proof_of(equations, exponents, rng, lies=0.0):
+    prover = Prover(equations, exponents, rng, lies)
     prover.prove((frozenset(range(len(equations.columns))), ()))
     header = ["slideway proof 1", f"problem {equations.size} {len(equations.jumps)}"]
     header += [" ".join(map(str, ["rows", *exponents]))] if exponents else []
@@ -587,7 +646,7 @@ def main(problems=200, mutants=25, seed=1):
     check_examples()
     check_files()
     rng = random.Random(seed)
-    steps, refused, accepted = Counter(), 0, 0
+    steps, outcomes = Counter(), Counter()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "problem.json"
         for number in range(problems):
@@ -601,15 +660,16 @@ def main(problems=200, mutants=25, seed=1):
             tree = check(problem_data, text)
             assert tree is not None and is_true(tree, equations, truth), (data, text)
             steps.update(line.split()[0] for line in text.splitlines()[2:])
-            for _ in range(mutants):
-                mutant = changed(text, rng)
-                tree = check(problem_data, mutant)
-                refused += tree is None
-                accepted += tree is not None
-                assert tree is None or is_true(tree, equations, truth), (data, mutant)
+            wrong = (changed(text, rng) if at % 3 else proof_of(equations, exponents, rng, rng.choice([0.05, 0.2]))
+                     for at in range(mutants))
+            for other in wrong:
+                tree = check(problem_data, other)
+                outcomes["refused" if tree is None else "accepted and true"] += 1
+                assert tree is None or is_true(tree, equations, truth), (data, other)
     missing = set("f z l x c b e s m p cell g rows".split()) - set(steps)
     print(f"{problems} proofs accepted: " + ", ".join(f"{step} {count}" for step, count in sorted(steps.items())))
-    print(f"{refused + accepted} changed proofs: {refused} refused, {accepted} accepted and true")
+    print(f"{outcomes.total()} changed or careless proofs: "
+          + ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items())))
     return f"no proof has a step {missing}" if missing and problems >= 200 else 0
 
 
