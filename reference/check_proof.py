@@ -131,7 +131,7 @@ def integers(entries):
 def reduced(columns, right, rows=None):
     """Gauss-Jordan elimination without fractions (Bareiss 1968) of some rows of the equations.
 
-    The pivot columns, the rows with the right-hand side last, and the positive number that is the pivot of the first rows.
+    The pivot columns, the rows with the right-hand side last, and the positive pivot that the first rows share.
     """
     rows = range(len(right)) if rows is None else rows
     rows = [row for row in ([column[i] for column in columns] + [right[i]] for i in rows) if any(row)]
@@ -178,8 +178,8 @@ class Cell:
         for at, generator in enumerate(generators or [columns]):
             require(self.columns.issuperset(generator), "a point or direction has columns that the cell does not have")
             self.add(problem, list(dict.fromkeys(generator)), at == 0)
-        rank = len(reduced([problem.columns[j] for j in self.columns], problem.right)[0] if generators else self.columns)
-        self.dimension, self.exact = len(self.columns) - rank, self.positive == self.columns
+        independent = reduced([problem.columns[j] for j in self.columns], problem.right)[0] if generators else columns
+        self.dimension, self.exact = len(self.columns) - len({*independent}), self.positive == self.columns
 
     def add(self, problem, columns, is_first):
         """A point, or a direction, that is determined by some columns."""
@@ -215,8 +215,8 @@ class Lines:
 
 
 class Tree:
-    """A proof for one problem. A node is its allowed columns, and columns and right-hand side of its equations: those of
-    the problem, and for each half-space another equation and the column of its slack."""
+    """A proof for one problem. A node is its allowed columns, and columns and right-hand side of its equations: those
+    of the problem, and for each half-space another equation and the column of its slack."""
 
     def __init__(self, problem, lines, allowed):
         self.problem, self.lines, self.width, self.root = problem, lines, len(problem.columns), frozenset(allowed)
@@ -224,8 +224,9 @@ class Tree:
 
     def verify(self):
         """Reads steps until every node is closed. Each step returns the nodes that take the place of its node."""
-        steps = {"cell": self.cell, "g": self.form, "f": self.farkas, "z": self.zero, "l": self.stored, "x": self.solve,
-                 "c": self.close, "b": self.branch, "e": self.either, "s": self.split, "m": self.monotone, "p": self.product}
+        steps = {"cell": self.cell, "g": self.form, "f": self.farkas, "z": self.zero, "l": self.stored,
+                 "x": self.solve, "c": self.close, "b": self.branch, "e": self.either, "s": self.split,
+                 "m": self.monotone, "p": self.product}
         open_nodes = [(self.root, self.problem.columns, self.problem.right)]
         while open_nodes:
             name, *fields = self.lines.next()
