@@ -430,7 +430,7 @@ def report(tree, nodes):
     """What has been verified, in words."""
     count, kind = tree.count(), "set" if tree.products else "cell"
     yield f"verified: the {count} listed {kind}s are all solutions" if count > 1 \
-        else f"verified: the listed {kind} is all solutions" if count else "verified: there is no solution"
+        else f"verified: the listed {kind} is the set of all solutions" if count else "verified: there is no solution"
     for (dimension, certain), count in sorted(Counter((cell.dimension, cell.exact) for cell in tree.cells).items()):
         yield f"  cells of dimension {dimension}{'' if certain else ' or less'}: {count}"
     if tree.products:

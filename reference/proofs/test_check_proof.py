@@ -5,9 +5,9 @@
 
 A small prover (branch and bound with rational linear programs) writes proofs for random problems with up to four
 contacts that use every step of the format. An oracle that knows no proof tries all complementary sets of columns.
-Then every proof is changed at random: tokens and lines are altered, deleted, exchanged, repeated; and the prover writes others
-in which it takes steps without asking whether they apply. Such a proof may be accepted, but only if what it lists is true, by
-the oracle: all listed sets are solutions, and those that close nodes are all solutions.
+Then every proof is changed at random: tokens and lines are altered, deleted, exchanged, repeated; and the prover writes
+others in which it takes steps without asking whether they apply. Such a proof may be accepted, but only if what it lists is
+true, by the oracle: all listed sets are solutions, and those that close nodes are all solutions.
 """
 
 import io
