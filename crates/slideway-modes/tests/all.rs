@@ -20,6 +20,7 @@ mod search;
 mod search_extremes;
 mod search_groups;
 mod search_low_rank;
+mod search_monotone;
 mod search_oracle;
 mod search_proofs;
 mod search_rules;

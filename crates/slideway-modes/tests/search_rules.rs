@@ -104,7 +104,7 @@ fn singular_values_prove_one_solution() -> Outcome {
     let load = random.vector(size);
     let problem = ModeProblem::from_absolute_value_equation(&DMatrix::identity(size, size), &-b, load)?;
     let result = run(&problem, &SearchOptions::default());
-    assert_eq!(result.groups[0].method, Method::SingularValue);
+    assert_eq!(result.groups[0].method, Method::Monotone { strictly: true });
     assert_eq!(result.completeness, Completeness::Proven);
     let arguments = Arguments { uniqueness: false, ..Arguments::default() };
     let other = run(&problem, &SearchOptions { arguments, ..SearchOptions::default() });

@@ -11,7 +11,7 @@ use super::propagation::SolvedForm;
 use super::relaxation::load_error;
 use super::report::{GroupReport, Method, PatternOutcomes, PatternShares, SearchOptions};
 use super::tree::{Tree, TreeReport};
-use super::{every, uniqueness};
+use super::{every, monotone};
 use crate::findings::Findings;
 use crate::problem::{ContactState, ScaledProblem};
 use crate::solutions::Solutions;
@@ -93,8 +93,8 @@ fn search_large_group(
     }
     let continuous = scaled.has_jump.iter().all(|jump| !jump);
     let proof = solved.as_ref().filter(|_| arguments.uniqueness && continuous);
-    let unique = proof.and_then(|solved| by_uniqueness(scaled, solved, leaves, monitor));
-    let answered = unique.or_else(|| {
+    let monotone = proof.and_then(|solved| by_monotonicity(loaded, (scaled, solved), leaves, monitor));
+    let answered = monotone.or_else(|| {
         let large = scaled.contacts() >= CELLS_FROM;
         if arguments.low_rank && large { by_cells(scaled, &load_radius, leaves, monitor) } else { None }
     });
@@ -108,27 +108,36 @@ fn search_large_group(
     })
 }
 
-/// The only solution, if a proof shows that there is exactly one.
-fn by_uniqueness(
-    problem: &ScaledProblem,
-    solved: &SolvedForm,
+/// The solutions of the only pattern that has any, if the problem is monotone.
+fn by_monotonicity(
+    loaded: &LoadedProblem<'_>,
+    (scaled, solved): (&ScaledProblem, &SolvedForm),
     leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {
-    let method = uniqueness::proof(problem, solved, &mut || monitor.goes_on())?;
-    let pattern = uniqueness::only_pattern(problem, solved, &mut || monitor.goes_on())?;
+    let strictly = monotone::is_strict(scaled, solved, &mut || monitor.goes_on());
+    let pattern = if strictly {
+        monotone::only_pattern(scaled, solved, &mut || monitor.goes_on())?
+    } else {
+        monotone::pattern_of_all_solutions(loaded.view(), scaled, &mut || monitor.goes_on())?
+    };
     let shares = if monitor.visit(0.0, 0) {
-        match leaves.examine_only(&pattern, monitor) {
+        let certain = if strictly {
+            leaves.examine_only(&pattern, monitor)
+        } else {
+            leaves.examine(&pattern, monitor).map(|()| true)
+        };
+        match certain {
             Ok(true) => {}
             Ok(false) => return None,
             Err(reason) => monitor.stop(reason),
         }
-        let examined = (-log2_patterns(problem)).exp2();
+        let examined = (-log2_patterns(scaled)).exp2();
         PatternShares { uniqueness: 1.0 - examined, examined, ..PatternShares::default() }
     } else {
         PatternShares { unexplored: 1.0, ..PatternShares::default() }
     };
-    Some((method, TreeReport { nodes: 1, shares, ..TreeReport::default() }))
+    Some((Method::Monotone { strictly }, TreeReport { nodes: 1, shares, ..TreeReport::default() }))
 }
 
 /// The solutions among the cells of an arrangement, if the coupling has low rank.

@@ -6,7 +6,8 @@
 //!    product, [`SolutionProduct`].
 //! 2. In a group with few patterns, each pattern is decided, so that all outcomes are known, including locked
 //!    modes ([`GroupReport::outcomes`]).
-//! 3. A larger group has exactly one solution if one of two cheap proofs succeeds (section 4 (a), (c)).
+//! 3. A larger group that is monotone has all its solutions in one pattern, which Lemke's method finds (section 4
+//!    (c)).
 //! 4. If a large group is coupled only through one to six quantities, all patterns that can occur are the
 //!    cells of a hyperplane arrangement in as many dimensions (section 4 (e)): the space of these quantities
 //!    is subdivided until each part is excluded or has few patterns.
@@ -58,9 +59,11 @@ mod groups;
 mod inverse;
 mod joined;
 mod leaf;
+mod lemke;
 mod load;
 mod low_rank;
 mod monitor;
+mod monotone;
 mod product;
 mod proof;
 mod proof_log;
@@ -77,7 +80,6 @@ mod subtrees;
 #[cfg(test)]
 mod test_problems;
 mod tree;
-mod uniqueness;
 
 pub use count::BigCount;
 pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};

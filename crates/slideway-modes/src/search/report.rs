@@ -111,10 +111,11 @@ impl fmt::Display for StopReason {
 /// How a group of contacts was solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// The spectral radius of `|G|` is below 1: one solution.
-    Contraction,
-    /// The largest singular value of `G` is below 1: one solution.
-    SingularValue,
+    /// The problem is monotone: all solutions are those of one pattern.
+    Monotone {
+        /// Whether there is exactly one solution for every right-hand side.
+        strictly: bool,
+    },
     /// Every pattern that can occur, by the cells of a hyperplane arrangement.
     Cells {
         /// The rank of the coupling.
@@ -129,8 +130,12 @@ pub enum Method {
 impl fmt::Display for Method {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Contraction => formatter.write_str("one solution, because rho(|G|) < 1"),
-            Self::SingularValue => formatter.write_str("one solution, because sigma_max(G) < 1"),
+            Self::Monotone { strictly: true } => {
+                formatter.write_str("one solution, because it is strictly monotone")
+            }
+            Self::Monotone { strictly: false } => {
+                formatter.write_str("one pattern has all solutions, because it is monotone")
+            }
             Self::Cells { rank } => write!(formatter, "cells of an arrangement, coupling of rank {rank}"),
             Self::BranchAndBound => formatter.write_str("branch and bound with linear relaxation"),
             Self::EveryPattern => formatter.write_str("every pattern"),
@@ -142,7 +147,7 @@ impl fmt::Display for Method {
 /// to 1. Multiplied by `2^`[`GroupReport::log2_patterns`], they are numbers of patterns.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PatternShares {
-    /// Excluded by a proof of uniqueness.
+    /// Excluded by a proof that one pattern has all solutions.
     pub uniqueness: f64,
     /// Excluded because they are not cells of the arrangement.
     pub cells: f64,

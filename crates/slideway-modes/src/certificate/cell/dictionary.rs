@@ -86,6 +86,60 @@ impl Dictionary {
         Ok(dictionary)
     }
 
+    /// Solves `S x = 0` for a symmetric matrix without negative eigenvalues; `None` if it has one, or once
+    /// `proceed` is `false`.
+    ///
+    /// After each pivot on the diagonal, the other rows are a positive multiple of the Schur complement, which
+    /// must be semidefinite as well: no diagonal entry is negative, and where it is zero, so is its row.
+    pub(super) fn of_semidefinite(matrix: &[Vec<IBig>], proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
+        let own = matrix.len();
+        let mut dictionary = Self {
+            denominator: IBig::ONE,
+            rows: matrix.iter().map(|row| row.iter().cloned().chain([IBig::ZERO]).collect()).collect(),
+            basic: (own..2 * own).collect(),
+            nonbasic: (0..own).collect(),
+        };
+        loop {
+            let left = (0..dictionary.rows.len()).filter(|&row| dictionary.basic[row] >= own);
+            let diagonal = |row: usize| {
+                let at =
+                    dictionary.nonbasic.iter().position(|&unknown| unknown == dictionary.basic[row] - own)?;
+                Some((row, at))
+            };
+            let diagonals: Vec<(usize, usize)> = left.filter_map(diagonal).collect();
+            if diagonals.iter().any(|&(row, at)| dictionary.rows[row][at] < IBig::ZERO) {
+                return None;
+            }
+            let Some(&(row, at)) = diagonals.iter().find(|&&(row, at)| !dictionary.rows[row][at].is_zero())
+            else {
+                break;
+            };
+            dictionary.pivot(row, at, proceed).ok()?;
+            dictionary.remove_column(at);
+        }
+        while let Some(row) = dictionary.basic.iter().position(|&unknown| unknown >= own) {
+            if dictionary.entries(row).iter().any(|entry| !entry.is_zero()) {
+                return None;
+            }
+            dictionary.remove_row(row);
+        }
+        Some(dictionary)
+    }
+
+    /// A basis of the solutions if all `t_i` are zero: the vectors in which one nonbasic unknown is not zero.
+    pub(super) fn homogeneous_solutions(&self) -> Vec<Vec<IBig>> {
+        let unknowns = self.basic.len() + self.nonbasic.len();
+        let along = |(column, &own): (usize, &usize)| {
+            let mut solution = vec![IBig::ZERO; unknowns];
+            solution[own].clone_from(&self.denominator);
+            for (row, &unknown) in self.rows.iter().zip(&self.basic) {
+                solution[unknown] = -&row[column];
+            }
+            primitive(solution)
+        };
+        self.nonbasic.iter().enumerate().map(along).collect()
+    }
+
     /// Pivots until all basic unknowns are nonnegative: the dual simplex method for a zero objective, with the
     /// least index that is negative and the least that can help, which ends (Bland, New finite pivoting rules
     /// for the simplex method, Math. Oper. Res. 2 (1977)).

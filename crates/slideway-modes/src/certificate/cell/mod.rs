@@ -121,6 +121,15 @@ impl Cell {
     }
 }
 
+/// A basis of the null space of a symmetric matrix without negative eigenvalues, in integers; `None` if it has
+/// one, or once `proceed` is `false`.
+pub(super) fn null_space_of_semidefinite(
+    matrix: &[Vec<IBig>],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Vec<Vec<IBig>>> {
+    Some(Dictionary::of_semidefinite(matrix, proceed)?.homogeneous_solutions())
+}
+
 impl CellPart {
     fn new(dictionary: &Dictionary, block: &Block, most: usize, proceed: &mut dyn FnMut() -> bool) -> Self {
         let basic = block.rows.iter().map(|&row| dictionary.basic(row));
