@@ -4,6 +4,8 @@
 //! ```text
 //! cargo bench -p slideway-modes --bench nodes             all
 //! cargo bench -p slideway-modes --bench nodes -- pile     those whose name contains a word
+//! cargo bench -p slideway-modes --bench nodes -- --two    with two threads
+//! cargo bench -p slideway-modes --bench nodes -- --prove  with proof files: their sizes and times
 //! ```
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
@@ -15,7 +17,7 @@ use instances::structured::{
     pushed_without_friction, subset_sum, weights_with_subset,
 };
 use instances::{chained_blocks, planted_blocks, planted_complementarity};
-use slideway_modes::{CombinedState, ModeProblem, SearchOptions, search};
+use slideway_modes::{CombinedState, ModeProblem, SearchOptions, prove, search};
 
 mod instances;
 
@@ -25,11 +27,16 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
     // `cargo test` starts benchmarks, too, without `--bench`.
     let few = !std::env::args().any(|argument| argument == "--bench");
+    let given = |option: &str| std::env::args().any(|argument| argument == option);
+    let options = SearchOptions { threads: 1 + usize::from(given("--two")), ..SearchOptions::default() };
     println!("| instance | solutions | sets | maximal | nodes | time (ms) | |");
     println!("|---|---:|---:|---:|---:|---:|---|");
     for (name, make) in table().into_iter().take(if few { 1 } else { usize::MAX }) {
         if words.is_empty() || words.iter().any(|word| name.contains(word.as_str())) {
-            println!("{}", line(name, &make()));
+            println!("{}", line(name, &make(), &options));
+            if given("--prove") {
+                println!("{}", proof_line(&make()));
+            }
         }
     }
 }
@@ -73,9 +80,9 @@ fn subset(items: usize) -> ModeProblem {
 }
 
 /// One line of the table.
-fn line(name: &str, problem: &ModeProblem) -> String {
+fn line(name: &str, problem: &ModeProblem, options: &SearchOptions) -> String {
     let start = Instant::now();
-    let result = search(problem, &SearchOptions::default(), &mut |_| {
+    let result = search(problem, options, &mut |_| {
         if start.elapsed() < TIME_LIMIT { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     let milliseconds = 1e3 * start.elapsed().as_secs_f64();
@@ -86,4 +93,23 @@ fn line(name: &str, problem: &ModeProblem) -> String {
         "| {name} | {solutions} | {sets} | {maximal} | {nodes} | {milliseconds:.1} | {} |",
         result.completeness
     )
+}
+
+/// A further line on the proof file: its cells, nodes and time, and its size.
+fn proof_line(problem: &ModeProblem) -> String {
+    let start = Instant::now();
+    let proof = prove(problem, &SearchOptions::default(), &mut |_| {
+        if start.elapsed() < TIME_LIMIT { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let milliseconds = 1e3 * start.elapsed().as_secs_f64();
+    match proof {
+        Ok(proof) => {
+            let size = proof.text.len() as f64 / 1e3;
+            format!(
+                "| proof file | | | {:?} | {} | {milliseconds:.1} | {size:.1} kB |",
+                proof.cells, proof.nodes
+            )
+        }
+        Err(fault) => format!("| proof file | | | | | {milliseconds:.1} | {fault} |"),
+    }
 }

@@ -87,7 +87,8 @@ fn round<'t, 'l>(
 ) {
     let before: u64 = subtrees.iter().map(|subtree| subtree.tree.report().nodes).sum();
     let mut latest: Vec<(u64, f64, u64)> = vec![(0, 0.0, 0); subtrees.len()];
-    let tasks: Vec<Mutex<&mut Subtree<'t, 'l>>> = subtrees.iter_mut().map(|subtree| Mutex::new(&mut **subtree)).collect();
+    let tasks: Vec<Mutex<&mut Subtree<'t, 'l>>> =
+        subtrees.iter_mut().map(|subtree| Mutex::new(&mut **subtree)).collect();
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (sender, receiver) = channel();
     std::thread::scope(|scope| {
@@ -105,7 +106,8 @@ fn round<'t, 'l>(
         drop(sender);
         for Told { subtree, nodes, fraction, found } in receiver {
             latest[subtree] = (nodes, fraction, found);
-            let sum = latest.iter().fold((0, done, known), |sum, at| (sum.0 + at.0, sum.1 + at.1, sum.2 + at.2));
+            let sum =
+                latest.iter().fold((0, done, known), |sum, at| (sum.0 + at.0, sum.1 + at.1, sum.2 + at.2));
             if !monitor.tell(sum.0, sum.1, sum.2) {
                 stop.store(true, Ordering::Relaxed);
             }

@@ -148,7 +148,9 @@ impl<'a> Tree<'a> {
             if !self.visit_next(node, open, (leaves, monitor)) {
                 break;
             }
-            sizes.extend(open[sizes.len()..].iter().map(|node| fraction_of_patterns(self.problem, &node.states)));
+            sizes.extend(
+                open[sizes.len()..].iter().map(|node| fraction_of_patterns(self.problem, &node.states)),
+            );
         }
     }
 
