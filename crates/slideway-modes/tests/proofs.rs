@@ -140,3 +140,17 @@ fn an_interrupted_search_proves_nothing() {
     assert!(matches!(stopped, Err(NoProof::Stopped(_))));
     assert!(run(&problem, &SearchOptions::default()).nodes() > 0);
 }
+
+#[test]
+fn a_monotone_problem_takes_one_node() {
+    // M = B^T B + K with a skew K is positive semidefinite, and singular, as B has three rows only.
+    let mut random = Random::new(6);
+    let b = DMatrix::from_fn(3, 9, |_, _| random.integer(3));
+    let skew = integers(&mut random, 9, 3);
+    let m = b.transpose() * &b + &skew - skew.transpose();
+    let z = DVector::from_fn(9, |row, _| f64::from(u8::from(row % 2 == 0)));
+    let q = DVector::from_fn(9, |row, _| f64::from(u8::from(row % 2 == 1))) - &m * z;
+    let problem = ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit");
+    let text = proven(&problem, "monotone");
+    assert!(text.contains("\nm 0\n") && !text.contains("\nb "), "{text}");
+}

@@ -214,3 +214,28 @@ fn shares_of_patterns_add_up() {
         }
     }
 }
+
+#[test]
+fn any_number_of_threads_visits_the_same_nodes() {
+    let mut random = Random::new(8);
+    let b = random.matrix(30, 30) * (3.0_f64 / 30.0).sqrt();
+    let x = random.vector(30);
+    let identity = DMatrix::identity(30, 30);
+    let problem = ModeProblem::from_absolute_value_equation(&identity, &-&b, &x - &b * x.abs());
+    let problem = problem.expect("shapes fit");
+    let with = |threads: usize, nodes: u64, solutions: usize| {
+        let limits = Limits { solutions, ..Limits::default() };
+        run(&problem, &SearchOptions { threads, nodes, limits, ..SearchOptions::default() })
+    };
+    // Not so few that no subtrees are made.
+    let alone = with(1, u64::MAX, 1000);
+    assert!(alone.nodes() > 1500 && alone.completeness == Completeness::Proven, "{}", alone.nodes());
+    for threads in [2, 3, 8] {
+        assert_eq!(with(threads, u64::MAX, 1000), alone);
+    }
+    for nodes in [1100, 1300, alone.nodes()] {
+        let limited = with(1, nodes, 1000);
+        assert!(limited.nodes() <= nodes);
+        assert_eq!(with(3, nodes, 1000), limited);
+    }
+}

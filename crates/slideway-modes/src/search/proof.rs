@@ -6,9 +6,12 @@ use super::groups::Groups;
 use super::leaf::Leaves;
 use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
+use super::monotone::pattern_of_all_solutions;
 use super::proof_log::ProofLog;
 use super::report::{Arguments, SearchOptions, StopReason};
+use super::states::all_states;
 use super::tree::Tree;
+use crate::certificate::LiftedSystem;
 use crate::findings::Findings;
 use crate::problem::{ModeProblem, ProblemView, ScaledProblem};
 use crate::progress::Callback;
@@ -35,7 +38,8 @@ pub enum NoProof {
     Open,
 }
 
-/// Searches all solutions of an exact problem by trees only, and writes down every step.
+/// Searches all solutions of an exact problem by the rule for monotone problems and by trees, and writes down
+/// every step.
 ///
 /// `options` limit the search; `progress` is called at every node and during long steps, and ends the search
 /// by breaking. Parts that do not depend on each other are proven one by one.
@@ -101,8 +105,13 @@ fn prove_part(
     let radius = scaled.scaled_load_radius(&loaded.right_hand_side_radius());
     let rows = exponents.add(&scaled, contacts);
     let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), true);
-    let tree = Tree::new((loaded, &scaled), None, &radius, options).logged(ProofLog::new(rows));
-    let (report, log) = tree.run_logged(&mut leaves, monitor);
+    let mut log = ProofLog::new(rows);
+    let all_solutions = pattern_of_all_solutions(loaded.view(), &scaled, &mut || monitor.goes_on());
+    let left = all_solutions
+        .and_then(|pattern| log.monotone(&LiftedSystem::new(loaded.view()), loaded.view(), &pattern));
+    let root = left.unwrap_or_else(|| all_states(&scaled));
+    let tree = Tree::new((loaded, &scaled), None, &radius, options).logged(log);
+    let (report, log) = tree.run_from(root, (&mut leaves, monitor));
     if let Some(reason) = monitor.stopped() {
         return Err(NoProof::Stopped(reason));
     }

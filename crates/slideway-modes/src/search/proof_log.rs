@@ -103,25 +103,52 @@ impl ProofLog {
             return;
         }
         let decision = decide_while(problem, pattern, &mut || true).map(|verdict| verdict.decision);
-        match decision {
-            Some(Decision::NoSolution { .. }) => self.text.push_str("x\n"),
-            Some(decision) => match corners(pattern, &decision) {
-                Some(corners) if corners.is_empty() => {
-                    let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-                    match excluding(&states) {
-                        Some(vector) => self.exclude_exactly(system, &vector),
-                        None => self.has_gap = true,
-                    }
+        if let Some(Decision::NoSolution { .. }) = decision {
+            self.text.push_str("x\n");
+            return;
+        }
+        match decision.and_then(|decision| corners(pattern, &decision)) {
+            Some(corners) if !corners.is_empty() => {
+                self.cell(system, pattern, &corners);
+                let _ = writeln!(self.text, "c {}", self.cells.len() - 1);
+            }
+            Some(_) => {
+                let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
+                match excluding(&states) {
+                    Some(vector) => self.exclude_exactly(system, &vector),
+                    None => self.has_gap = true,
                 }
-                Some(corners) => self.cell(system, pattern, &corners),
-                None => self.has_gap = true,
-            },
+            }
             None => self.has_gap = true,
         }
     }
 
-    /// `cell` and `c`: a pattern and the unknowns that are positive at some of its points and directions.
-    fn cell(&mut self, system: &LiftedSystem, pattern: &[ContactState], corners: &[Vec<[bool; 2]>]) {
+    /// `cell` and `m`: all solutions of a monotone problem are those of a pattern. Returns the states that are
+    /// left; `None`, with nothing written, if the solutions have too many corners.
+    pub(super) fn monotone(
+        &mut self,
+        system: &LiftedSystem,
+        problem: ProblemView<'_>,
+        pattern: &[ContactState],
+    ) -> Option<Vec<StateSet>> {
+        let decision = decide_while(problem, pattern, &mut || true)?.decision;
+        let corners = corners(pattern, &decision).filter(|corners| !corners.is_empty())?;
+        let positive = self.cell(system, pattern, &corners);
+        let _ = writeln!(self.text, "m {}", self.cells.len() - 1);
+        let left = |(&state, positive): (&ContactState, &[bool; 2])| {
+            if positive[0] { StateSet::only(state) } else { StateSet::undecided(false) }
+        };
+        Some(pattern.iter().zip(&positive).map(left).collect())
+    }
+
+    /// `cell`: a pattern and the unknowns that are positive at some of its points and directions. Returns which
+    /// are positive at one of those that are written.
+    fn cell(
+        &mut self,
+        system: &LiftedSystem,
+        pattern: &[ContactState],
+        corners: &[Vec<[bool; 2]>],
+    ) -> Vec<[bool; 2]> {
         self.text.push_str("cell");
         let columns = |keep: &dyn Fn(usize, usize) -> bool| -> String {
             let contacts = pattern.iter().enumerate().flat_map(|(contact, &state)| {
@@ -147,8 +174,9 @@ impl ProofLog {
                     .for_each(|(all, own)| (0..2).for_each(|at| all[at] |= own[at]));
             }
         }
-        let _ = writeln!(self.text, "\nc {}", self.cells.len());
+        self.text.push('\n');
         self.cells.push(pattern.to_vec());
+        covered
     }
 
     /// A vector for the lifted equations as one for the rows of the file, in integers.

@@ -94,19 +94,20 @@ impl<'a> Tree<'a> {
     /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
     /// patterns.
     pub(super) fn run(self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
-        self.run_logged(leaves, monitor).0
+        let root = all_states(self.problem);
+        self.run_from(root, (leaves, monitor)).0
     }
 
-    /// [`run`](Self::run), with what was written.
+    /// [`run`](Self::run) from a node on, with what was written.
     ///
     /// A tree with many nodes is divided into subtrees, which threads share. What they are does not depend on
     /// the number of threads. A proof is written in the order of one thread.
-    pub(super) fn run_logged(
+    pub(super) fn run_from(
         mut self,
-        leaves: &mut Leaves<'_>,
-        monitor: &mut Monitor<'_>,
+        states: Vec<StateSet>,
+        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
     ) -> (TreeReport, Option<ProofLog>) {
-        let root = Node { states: all_states(self.problem), basis: Arc::new(self.relaxation.first_basis()) };
+        let root = Node { states, basis: Arc::new(self.relaxation.first_basis()) };
         let mut open = vec![root];
         let alone = if self.log.is_some() { u64::MAX } else { subtrees::ALONE };
         self.work(&mut open, alone, (leaves, monitor));
