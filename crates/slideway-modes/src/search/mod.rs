@@ -13,7 +13,9 @@
 //!    is subdivided until each part is excluded or has few patterns.
 //! 5. Otherwise, branch and bound over the states of the contacts. A node is excluded by interval propagation
 //!    or by an infeasible linear relaxation (section 4 (a), (b)); a node with all contacts decided is a
-//!    pattern to decide. The next contact to branch on is the one for which forbidding either side costs
+//!    pattern to decide. If the numbers are exact, a node is also settled if all its solutions are those of one
+//!    pattern, a face of the relaxation (section 4, "Faces"): degenerate solutions and continua are met once.
+//!    The next contact to branch on is the one for which forbidding either side costs
 //!    most, as estimated from one dual step.
 //!
 //! # What is proven
@@ -42,8 +44,12 @@
 //! # Cost
 //! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
 //! problems, but weak if columns of many contacts are nearly dependent, as in low-rank coupling beyond the
-//! scope of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary
-//! occurs in up to `2^m` patterns, each of which is decided.
+//! scope of method 4: there the tree can have nearly `2^r` nodes. Within bounds, a solution with `m` contacts
+//! on a boundary occurs in up to `2^m` patterns, each of which is decided. Large trees are divided into
+//! subtrees, which threads share; nodes and results are the same for any number of threads.
+//!
+//! # Proof files
+//! [`prove`] searches an exact problem and writes every step for a checker that needs nothing of this crate.
 //!
 //! Except in groups for which every pattern is tried, singular patterns that admit nothing (locking of the
 //! mode) are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).

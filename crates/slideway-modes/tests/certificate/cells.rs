@@ -109,8 +109,8 @@ fn simplices_and_cross_polytopes() {
 
 #[test]
 fn facets_of_cyclic_polytopes() {
-    // n / (n - m) binomial(n - m, m) for d = 2 m (upper bound theorem; Ziegler, Lectures on polytopes,
-    // section 8.4; by Gale's evenness condition).
+    // n / (n - m) binomial(n - m, m) for d = 2 m (upper bound theorem; Ziegler, Lectures on Polytopes,
+    // chapter 8; by Gale's evenness condition).
     for (points, degree, facets) in [(8, 4, 20), (9, 4, 27), (10, 2, 10), (12, 6, 112)] {
         let mut rows = nonnegative_polynomials(points, degree);
         let cone = cell(&rows, 1000);

@@ -319,8 +319,7 @@ impl Dictionary {
     }
 
     /// The blocks of unknowns that share no equation. They are the same for every basis: the connected
-    /// components of the matroid of the columns (Oxley, Matroid theory (2011), proposition 4.1.2 and section
-    /// 4.3).
+    /// components of the matroid of the columns (Oxley, Matroid Theory, chapter 4).
     pub(super) fn blocks(&self) -> Vec<Block> {
         let mut blocks: Vec<Block> = Vec::new();
         for row in 0..self.rows.len() {

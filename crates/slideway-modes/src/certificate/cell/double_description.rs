@@ -45,7 +45,7 @@ impl BitSet {
 /// `simplex[k]`, which is positive: they are the rays of the cone with these inequalities only. The others
 /// are added one by one: a ray on the wrong side goes, and where the edge to an adjacent ray on the right
 /// side meets the new face, there is a new ray (Motzkin et al. (1953); Fukuda and Prodon, Double description
-/// method revisited (1996), with the combinatorial test of adjacency, proposition 7). The next inequality is the one with the
+/// method revisited (1996), with the combinatorial test of adjacency). The next inequality is the one with the
 /// fewest pairs of rays on opposite sides.
 pub(super) fn extreme_rays(
     start: Vec<Vec<IBig>>,
