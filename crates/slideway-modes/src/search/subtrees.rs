@@ -20,6 +20,8 @@ use crate::progress::Progress;
 pub(super) const ALONE: u64 = 1024;
 /// The number of subtrees.
 pub(super) const SUBTREES: usize = 64;
+/// A thread tells how it proceeds once in so many calls: each time another thread wakes up.
+const CALLS: u64 = 64;
 /// Nodes of each subtree in the first round.
 const FIRST_ROUND: u64 = 64;
 
@@ -120,14 +122,18 @@ fn round<'t, 'l>(
 
 impl Subtree<'_, '_> {
     fn work(&mut self, most: u64, (at, sender): (usize, &Sender<Told>), stop: &AtomicBool) {
+        let mut calls = 0_u64;
         let mut callback = |progress: &Progress| {
-            // The receiver lives as long as the threads.
-            let _ = sender.send(Told {
-                subtree: at,
-                nodes: progress.done,
-                fraction: progress.fraction.unwrap_or(0.0),
-                found: progress.found.unwrap_or(0),
-            });
+            if calls.is_multiple_of(CALLS) {
+                // The receiver lives as long as the threads.
+                let _ = sender.send(Told {
+                    subtree: at,
+                    nodes: progress.done,
+                    fraction: progress.fraction.unwrap_or(0.0),
+                    found: progress.found.unwrap_or(0),
+                });
+            }
+            calls += 1;
             if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let mut monitor = Monitor::new(u64::MAX, &mut callback);
