@@ -3,6 +3,7 @@
 
     python3 reference/comparison/compare.py            about 30 minutes
     python3 reference/comparison/compare.py --quick    about 3 minutes, smaller instances
+    python3 reference/comparison/compare.py --quick --families degenerate monotone chained
 
 Makes what it needs first: Siconos from Debian's packages (asks apt-get if it is not installed, which needs root), a
 virtual environment with NumPy and HiGHS, two small C programs, and the Rust example `compare`. Everything but the
@@ -110,6 +111,7 @@ def parse_arguments():
     parser.add_argument("--limit", type=float, help="seconds for a search or for HiGHS on one instance (120; 15)")
     parser.add_argument("--pattern-limit", type=float, help="seconds for trying every pattern (60; 5)")
     parser.add_argument("--ladder-limit", type=float, help="seconds for the largest instance of a family (60; 5)")
+    parser.add_argument("--families", nargs="+", default=[], help="only those whose name begins with one of these words")
     parser.add_argument("--threads", type=int, default=1, help="threads of slideway and of LAPACK (1)")
     parser.add_argument("--output", type=Path, help="the Markdown file to write")
     return parser.parse_args()
@@ -125,7 +127,7 @@ def main():
     compile_rivals(folder)
     program = build_slideway()
     quick = arguments.quick
-    default = folder / "quick.md" if quick else ROOT / "docs" / "src" / "comparison-results.md"
+    default = folder / "quick.md" if quick or arguments.families else ROOT / "docs" / "src" / "comparison-results.md"
     options = {
         "--folder": folder,
         "--slideway": program,
@@ -138,7 +140,9 @@ def main():
     }
     words = [str(word) for option in options.items() for word in option]
     environment = os.environ | {"OPENBLAS_NUM_THREADS": str(arguments.threads)}
-    command = [python, HERE / "measure.py", *words, *(["--quick"] if quick else [])]
+    words += ["--quick"] if quick else []
+    words += ["--families", *arguments.families] if arguments.families else []
+    command = [python, HERE / "measure.py", *words]
     sys.exit(subprocess.run(command, env=environment).returncode)
 
 

@@ -116,6 +116,73 @@ def _modes(family, size, positive, negative, load):
     return Instance(family, size, arrays)
 
 
+def ones(q):
+    """M of ones and q constant. q = 0: only z = 0; q = -1: the simplex sum z = 1."""
+
+    def make(family, size):
+        return Instance(family, size, {"M": np.ones((size, size)), "q": np.full(size, float(q))})
+
+    return make
+
+
+# Unknowns of a contact with friction: normal force, friction to both sides, sliding speed.
+OF_CONTACT = 4
+
+
+def pile(family, size):
+    """Boxes on one another, each on both corners of its base; Stewart and Trinkle (1996), mu = 1/2, horizontal loads of 1/8.
+
+    Eight unknowns for each box. Everything rests: one cell of dimension 3 for each box, with 8 vertices for each.
+    """
+    boxes = size // (2 * OF_CONTACT)
+    contacts = 2 * boxes
+    normal, tangential = np.zeros((2, contacts, 3 * boxes))
+    for contact in range(contacts):
+        above, x = contact // 2, (-1, 1)[contact % 2]
+        for body, sign, y in ((above, 1, -0.5), (above - 1, -1, 0.5)):
+            if body >= 0:
+                normal[contact, 3 * body : 3 * body + 3] = sign * np.array([0, 1, x])
+                tangential[contact, 3 * body : 3 * body + 3] = sign * np.array([1, 0, -y])
+    mobility = np.diag(np.tile([1.0, 1.0, 2.0], boxes))
+    free = np.tile([0.125, -1.0, 0.0], boxes)
+    m, q = np.zeros((size, size)), np.zeros(size)
+    directions = np.stack([normal, tangential, -tangential, np.zeros_like(normal)], axis=1).reshape(size, -1)
+    m += directions @ mobility @ directions.T
+    q += directions @ free
+    for first in range(0, size, OF_CONTACT):
+        m[first + 1 : first + 3, first + 3] = 1
+        m[first + 3, first : first + 3] = 0.5, -1, -1
+    return Instance(family, size, {"M": m, "q": q})
+
+
+def market(family, size):
+    """Activities x and prices p: c + D x - A'p >= 0, x >= 0; A x + E p - d >= 0, p >= 0; a solution is planted.
+
+    D is diagonal with some zeros, E positive semidefinite of half the rank: all solutions form one convex set.
+    """
+    random = _random(family, size)
+    half = size // 2
+    technology, demand = random.integers(-4, 5, (half, half)), random.integers(-4, 5, (half, half // 2))
+    costs = np.diag(np.maximum(random.integers(-4, 5, half), 0))
+    m = np.block([[costs, -technology.T], [technology, demand @ demand.T]]).astype(float)
+    x = random.integers(-4, 5, size).astype(float)
+    return Instance(family, size, {"M": m, "q": np.maximum(-x, 0) - m @ np.maximum(x, 0)})
+
+
+def subset_sum(family, size):
+    """Which of size - 2 weights up to 10^5 have the same sum as a planted subset of them.
+
+    w_k = a_k - z_k: each z_k is 0 or a_k. Two rows, w = sum z - t - u and w' = t - sum z - u', need sum z = t.
+    """
+    random = _random(family, size)
+    items = size - 2
+    weights = random.integers(1, 100_001, items).astype(float)
+    target = weights[random.random(items) < 0.5].sum()
+    m = -np.eye(size)
+    m[items, :items], m[items + 1, :items] = 1, -1
+    return Instance(family, size, {"M": m, "q": np.concatenate([weights, [-target, target]])})
+
+
 def boom(program):
     """The gallery's telescopic boom, retracting with mu = 0.4; two contacts for each stage."""
 
@@ -138,6 +205,8 @@ class Family:
     sizes: tuple
     quick: tuple
     ladder: tuple
+    # Whether solutions form continua or coincide, so that sign patterns do not tell them apart.
+    by_cells: bool = False
 
 
 def families(program):
@@ -163,5 +232,14 @@ def families(program):
         "boom": Family(
             "telescopic boom, retracting, *μ* = 0.4", boom(program), (6, 16, 100), (6,), (50, 100, 200, 400)
         ),
+    }
+    steps = tuple(range(4, 84, 4))
+    boxes = tuple(range(8, 88, 8))
+    result |= {
+        "degenerate-point": Family("*M* of ones, *q* = 0", ones(0), (12, 20, 40), (12,), steps, True),
+        "degenerate-simplex": Family("*M* of ones, *q* = −1", ones(-1), (12, 20, 40), (12,), steps, True),
+        "degenerate-pile": Family("boxes on one another, with friction", pile, (8, 16, 24), (8, 16), boxes, True),
+        "monotone": Family("market equilibrium", market, (20, 40, 60), (12, 20), tuple(range(12, 204, 8)), True),
+        "chained": Family("subset sum", subset_sum, (14, 18, 22), (14, 18), tuple(range(10, 44, 4)), True),
     }
     return result

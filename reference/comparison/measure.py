@@ -2,6 +2,7 @@
 import argparse
 import json
 import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -14,6 +15,8 @@ import table
 MOST_TRIED = 24
 # HiGHS is not tried where there are more solutions than this: it needs one cut and one run for each.
 MOST_CUTS = 1000
+# lcp_enum lists its solutions for so many unknowns at most.
+MOST_LISTED = 16
 
 
 def log(text):
@@ -46,6 +49,24 @@ class Run:
             result |= self.every_pattern(instance)
         result["highs"] = self.mixed_integer(instance, own)
         result["disagreements"] = disagreements(result)
+        return result
+
+    def measure_cells(self, instance):
+        """The codes that do not need regular matrices, on an instance whose solutions patterns do not tell apart."""
+        log(instance.name)
+        path = instance.save(self.folder)
+        own = rivals.slideway(self.program, path, self.limit, 0, MOST_CUTS, self.environment)
+        result = {"family": instance.family, "size": instance.size, "slideway": own}
+        if instance.size <= MOST_TRIED:
+            try:
+                listed = instance.size <= MOST_LISTED
+                program = self.folder / "lcp_enum"
+                found = rivals.lcp_enum(program, instance, self.folder, listed, self.environment, self.pattern_limit)
+                result["lcp_enum"] = found
+            except subprocess.TimeoutExpired:
+                result["lcp_enum"] = None
+        result["highs"] = self.mixed_integer(instance, own)
+        result["disagreements"] = outside_cells(result)
         return result
 
     def every_pattern(self, instance):
@@ -124,6 +145,23 @@ def disagreements(result):
     return found
 
 
+def outside_cells(result):
+    """Solutions of other codes that are in none of the search's cells, in words."""
+    search = result["slideway"]["search"]
+    if not search["complete"] or len(search["cells"]) == MOST_CUTS:
+        return []
+    found = []
+    for name, points in (
+        ("lcp_enum", (result.get("lcp_enum") or {}).get("patterns", [])),
+        ("highs", result["highs"].get("points", [])),
+    ):
+        within = lambda point, cell: all(sign in ("0", of_cell) for sign, of_cell in zip(point, cell))
+        outside = [point for point in points if not any(within(point, cell) for cell in search["cells"])]
+        if outside:
+            found.append(f"{name}: in no cell: {sorted(set(outside))}")
+    return found
+
+
 def parse_arguments():
     """The arguments that compare.py gives."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -136,6 +174,7 @@ def parse_arguments():
     parser.add_argument("--ladder-limit", type=float, required=True, help="seconds for the largest instance")
     parser.add_argument("--threads", type=int, required=True)
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--families", nargs="*", default=[""])
     return parser.parse_args()
 
 
@@ -143,13 +182,15 @@ def main():
     """Runs everything and writes the tables."""
     arguments = parse_arguments()
     run = Run(arguments)
-    families = instances.families(run.program)
+    wanted = lambda name: any(name.startswith(word) for word in arguments.families)
+    families = {name: family for name, family in instances.families(run.program).items() if wanted(name)}
     load = os.getloadavg()[0]
     start = time.perf_counter()
     results, largest = [], {}
     for name, family in families.items():
         for size in family.quick if arguments.quick else family.sizes:
-            results.append(run.measure(family.make(name, size)))
+            measure = run.measure_cells if family.by_cells else run.measure
+            results.append(measure(family.make(name, size)))
             for text in results[-1]["disagreements"]:
                 log(f"DISAGREEMENT {name} {size}: {text}")
     for name, family in families.items():

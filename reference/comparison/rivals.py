@@ -42,12 +42,12 @@ def slideway(program, path, time_limit, exhaustive, listed, environment):
     return result
 
 
-def lcp_enum(program, instance, folder, listed, environment):
+def lcp_enum(program, instance, folder, listed, environment, timeout=None):
     """Siconos' lcp_enum on the problem as an LCP."""
     m, q = instance.complementarity()
     path = folder / f"{instance.name}.lcp"
     _write(path, instance.size, m, q)
-    result = _json_of([program, path, int(listed)], environment)
+    result = _json_of([program, path, int(listed)], environment, timeout)
     if result["solutions"] is not None:
         result["patterns"] = [signs(values) for values in result["solutions"]]
     return result
@@ -103,9 +103,9 @@ def highs(instance, bounds, time_limit):
     """
     positive, negative, load = instance.columns()
     size = instance.size
-    largest = WIDER * np.array(bounds) if bounds else np.full(size, GENEROUS * abs(load).max())
+    largest = WIDER * np.array(bounds) if bounds else np.full(size, GENEROUS * (abs(load).max() or 1.0))
     solver = _model(positive, negative, load, largest)
-    start, found, spurious, outcome = time.perf_counter(), [], 0, "time limit"
+    start, found, points, spurious, outcome, first = time.perf_counter(), [], [], 0, "time limit", None
     while (left := time_limit - (time.perf_counter() - start)) > 0:
         # HiGHS' clock goes on from run to run.
         solver.setOptionValue("time_limit", solver.getRunTime() + left)
@@ -117,10 +117,13 @@ def highs(instance, bounds, time_limit):
         if status != highspy.HighsModelStatus.kOptimal:
             outcome = "time limit" if status == highspy.HighsModelStatus.kTimeLimit else str(status)
             break
-        up = np.array(solver.getSolution().col_value)[2 * size :] > 0.5
-        y = np.linalg.solve(np.where(up, positive, negative), load)
-        if y.min() >= -1e-9 * abs(y).max():
+        values = np.array(solver.getSolution().col_value)
+        up = values[2 * size :] > 0.5
+        y = _solution_of(np.where(up, positive, negative), load, np.where(up, values[:size], values[size : 2 * size]))
+        first = first or time.perf_counter() - start
+        if y is not None:
             found.append("".join("+" if each else "-" for each in up))
+            points.append(signs(np.where(up, y, -y) * (y > 1e-7 * max(1.0, y.max()))))
         else:
             spurious += 1
         # Some sign differs: sum over s = 1 of (1 - s) plus sum over s = 0 of s is at least 1.
@@ -129,10 +132,22 @@ def highs(instance, bounds, time_limit):
     return {
         "seconds": time.perf_counter() - start,
         "outcome": outcome,
+        "first_seconds": first,
         "patterns": found,
+        "points": points,
         "spurious": spurious,
         "bound": "propagation" if bounds else "generous",
     }
+
+
+def _solution_of(matrix, load, near):
+    """The y >= 0 of a pattern; for a singular matrix, the given one if it solves the equations; else none."""
+    try:
+        y = np.linalg.solve(matrix, load)
+    except np.linalg.LinAlgError:
+        solves = abs(matrix @ near - load).max() <= 1e-6 * max(1.0, abs(load).max())
+        return near if solves else None
+    return y if y.min() >= -1e-9 * abs(y).max() else None
 
 
 def _model(positive, negative, load, largest):

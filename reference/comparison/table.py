@@ -37,6 +37,28 @@ def _line(result):
     return [name, count(search["count"]) + partial, _search(search), every, _highs(result["highs"]), *tried]
 
 
+def by_cells(results):
+    """Times of instances with continua, of monotone ones and of chains."""
+    header = ["instance", "cells", "nodes", "search", "HiGHS, first solution", "HiGHS, all patterns", "lcp_enum"]
+    return rows(header, [_cells_line(result) for result in results])
+
+
+def _cells_line(result):
+    search, highs = result["slideway"]["search"], result["highs"]
+    cells = f"{len(search['cells'])}" + ("" if search["complete"] else " or more")
+    first = seconds(highs["first_seconds"]) if highs.get("first_seconds") else "–"
+    name = f"{result['family']} {result['size']}"
+    return [name, cells, f"{search['nodes']}", _search(search), first, _highs(highs), _counted(result)]
+
+
+def _counted(result):
+    """Time of lcp_enum, and how many solutions it counts: one for each pattern that has any."""
+    if "lcp_enum" not in result:
+        return "–"
+    found = result["lcp_enum"]
+    return f"{seconds(found['seconds'])} ({found['count']} counted)" if found else "not finished"
+
+
 def _search(search):
     if not search["complete"]:
         return f"> {seconds(search['seconds'])}"
@@ -109,6 +131,8 @@ def disagreements(results):
 
 def markdown(data, families):
     """The whole page of results."""
+    dense = [result for result in data["results"] if not families[result["family"]].by_cells]
+    cells = [result for result in data["results"] if families[result["family"]].by_cells]
     machine = "\n".join(f"| {name} | {text} |" for name, text in data["versions"].items())
     quick = " with `--quick`" if data["quick"] else ""
     return f"""<!-- Written by reference/comparison/compare.py{quick}; do not edit. -->
@@ -129,13 +153,20 @@ How long each code took; [Comparison with other codes](comparison.md) says what 
 
 Limit of the search and of HiGHS: {data['limit']:.0f} s. *Slanted*: extrapolated. –: not tried.
 
-{all_solutions(data['results'])}
+{all_solutions(dense)}
+
+## Continua, monotone problems and chains
+
+A cell is a largest set of solutions without a change of sign, perhaps a point. HiGHS and lcp_enum meet a cell once for each
+pattern that has a part of it; HiGHS' patterns are those found by the limit.
+
+{by_cells(cells)}
 
 ## Nanoseconds for each pattern
 
 *Slanted*: measured on a part of the patterns (LU), or extrapolated from a smaller instance (lcp_enum).
 
-{per_pattern(data['results'])}
+{per_pattern(dense)}
 
 ## The largest instance
 

@@ -89,6 +89,13 @@ fn timed(problem: &ModeProblem, options: &Options) -> Value {
         .filter_map(|state| list(&state))
         .take(options.listed)
         .collect();
+    let cells: Vec<_> = result
+        .product
+        .states()
+        .filter(slideway::modes::CombinedState::is_maximal)
+        .map(|state| signs(&state, contacts))
+        .take(options.listed)
+        .collect();
     let without_jumps = (0..contacts).all(|contact| !problem.has_jump(contact));
     let exhaustive = (contacts <= options.exhaustive && without_jumps).then(|| exhaustive(problem));
     json!({
@@ -104,10 +111,21 @@ fn timed(problem: &ModeProblem, options: &Options) -> Value {
             "nodes": result.nodes(),
             "strategy": result.strategy(),
             "solutions": solutions,
+            "cells": cells,
         },
         "exhaustive": exhaustive,
         "bounds": bounds(problem),
     })
+}
+
+/// The signs of the unknowns in a set of solutions: `+` or `-` where they are nonzero somewhere in it.
+fn signs(state: &slideway::modes::CombinedState<'_>, contacts: usize) -> String {
+    let sign = |positive: [bool; 4]| match positive {
+        [true, ..] => '+',
+        [_, true, ..] => '-',
+        _ => '0',
+    };
+    state.positive_unknowns(contacts).into_iter().map(sign).collect()
 }
 
 /// A search that ends at the time limit.
