@@ -152,7 +152,7 @@ def outside_cells(result):
         return []
     found = []
     for name, points in (
-        ("lcp_enum", (result.get("lcp_enum") or {}).get("patterns", [])),
+        ("lcp_enum", (result.get("lcp_enum") or {}).get("points", [])),
         ("highs", result["highs"].get("points", [])),
     ):
         within = lambda point, cell: all(sign in ("0", of_cell) for sign, of_cell in zip(point, cell))

@@ -50,7 +50,14 @@ def lcp_enum(program, instance, folder, listed, environment, timeout=None):
     result = _json_of([program, path, int(listed)], environment, timeout)
     if result["solutions"] is not None:
         result["patterns"] = [signs(values) for values in result["solutions"]]
+        result["points"] = [signs(beyond(values, result["tolerance"])) for values in result["solutions"]]
     return result
+
+
+def beyond(values, tolerance):
+    """The values, with zero for those within a tolerance, relative to the largest one and to 1."""
+    values = np.asarray(values)
+    return np.where(abs(values) > tolerance * max(1.0, abs(values).max()), values, 0.0)
 
 
 def lu_lapack(program, instance, folder, most, environment):
@@ -123,7 +130,7 @@ def highs(instance, bounds, time_limit):
         first = first or time.perf_counter() - start
         if y is not None:
             found.append("".join("+" if each else "-" for each in up))
-            points.append(signs(np.where(up, y, -y) * (y > 1e-7 * max(1.0, y.max()))))
+            points.append(signs(beyond(np.where(up, y, -y), 100 * TOLERANCE)))
         else:
             spurious += 1
         # Some sign differs: sum over s = 1 of (1 - s) plus sum over s = 0 of s is at least 1.
