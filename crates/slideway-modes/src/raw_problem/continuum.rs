@@ -18,9 +18,7 @@ pub(super) fn told(
         pattern: correspondence.pattern(&state.pattern(size)),
         maximal: state.is_maximal(),
         parts: match correspondence.players() {
-            Some(players) => {
-                players.map(|player| strategies(state, correspondence, player, (size, most))).into()
-            }
+            Some(players) => players.map(|player| strategies(state, correspondence, &player, most)).into(),
             None => parts(state, correspondence, most),
         },
     }
@@ -52,25 +50,25 @@ fn parts(state: &CombinedState<'_>, correspondence: &Correspondence, most: usize
 fn strategies(
     state: &CombinedState<'_>,
     correspondence: &Correspondence,
-    contacts: Vec<usize>,
-    (size, most): (usize, usize),
+    contacts: &[usize],
+    most: usize,
 ) -> ContinuumPart {
-    let joined = state.joined(size, 1);
-    let points = match &joined {
+    // All unknowns of a game depend on one another, so that they are one group.
+    let points = state.parts.iter().flat_map(|(_, part)| match part {
         GroupState::Singular(mode) => mode.set.vertices(),
         other => other.normal_force().into_iter().collect(),
-    };
+    });
     let mut vertices: Vec<Unknowns> = Vec::new();
     for point in points {
         let values: Vec<f64> = contacts.iter().map(|&contact| point[contact]).collect();
-        let vertex = correspondence.point(&contacts, &values);
+        let vertex = correspondence.point(contacts, &values);
         if !vertices.contains(&vertex) {
             vertices.push(vertex);
         }
     }
     let vertex_count = vertices.len();
     vertices.truncate(most);
-    let indices = correspondence.indices(&contacts);
+    let indices = correspondence.indices(contacts);
     ContinuumPart { indices, vertices, directions: Vec::new(), vertex_count, direction_count: 0 }
 }
 

@@ -111,10 +111,10 @@ pub enum Unknowns {
     },
     /// For a game; a part of a continuum is one player's strategy, with the payoff of the other.
     Strategies {
-        /// The probabilities of the rows, the first player's strategies.
+        /// `x`; of a game, the probabilities of the rows, the first player's strategies.
         #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "known_values")]
         x: Vec<f64>,
-        /// The probabilities of the columns, the second player's strategies.
+        /// `y_k = |N_k|`; of a game, the probabilities of the columns, the second player's strategies.
         #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "known_values")]
         y: Vec<f64>,
         /// The first player's payoff, which depends on `y`.
