@@ -124,7 +124,7 @@ impl Correspondence {
     /// gives the other player.
     pub(super) fn players(&self) -> Option<[Vec<usize>; 2]> {
         let (first, size) = (self.first, self.size);
-        let strategies = [(0..first).chain([size + 1]).collect(), (first..size + 1).collect()];
+        let strategies = [(0..first).chain([size + 1]).collect(), (first..=size).collect()];
         (self.kind == RawKind::Game).then_some(strategies)
     }
 
