@@ -188,29 +188,40 @@ pub(crate) fn name(path: &Path) -> String {
 /// # Errors
 /// If it cannot be read.
 pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Option<Vec<u8>>, Failure> {
-    let cannot_read = |error: io::Error| match error.kind() {
+    let (source, size) = open(path)?;
+    let mut bytes = Vec::new();
+    if size <= limit {
+        source.take(limit + 1).read_to_end(&mut bytes).map_err(|error| cannot_read(path, error))?;
+    }
+    let size = size.max(bytes.len() as u64);
+    Ok((size <= limit).then_some(bytes))
+}
+
+/// A file, or standard input for `-`, and its size as far as it is known.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn open(path: &Path) -> Result<(Box<dyn Read>, u64), Failure> {
+    if path == Path::new("-") {
+        return Ok((Box::new(io::stdin().lock()), 0));
+    }
+    let file = File::open(path).map_err(|error| cannot_read(path, error))?;
+    let metadata = file.metadata().map_err(|error| cannot_read(path, error))?;
+    if metadata.is_dir() {
+        return Err(Failure::IsDirectory { path: path.to_owned() });
+    }
+    Ok((Box::new(file), metadata.len()))
+}
+
+/// That a file cannot be read.
+pub(crate) fn cannot_read(path: &Path, error: io::Error) -> Failure {
+    match error.kind() {
         io::ErrorKind::NotFound => {
             Failure::NotFound { path: path.to_owned(), gallery_name: gallery_name(path) }
         }
         io::ErrorKind::IsADirectory => Failure::IsDirectory { path: path.to_owned() },
         _ => Failure::CannotRead { path: path.to_owned(), error },
-    };
-    let (source, size): (Box<dyn Read>, u64) = if path == Path::new("-") {
-        (Box::new(io::stdin().lock()), 0)
-    } else {
-        let file = File::open(path).map_err(cannot_read)?;
-        let metadata = file.metadata().map_err(cannot_read)?;
-        if metadata.is_dir() {
-            return Err(Failure::IsDirectory { path: path.to_owned() });
-        }
-        (Box::new(file), metadata.len())
-    };
-    let mut bytes = Vec::new();
-    if size <= limit {
-        source.take(limit + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
     }
-    let size = size.max(bytes.len() as u64);
-    Ok((size <= limit).then_some(bytes))
 }
 
 /// The model of the gallery that was meant by the path of a file that does not exist.

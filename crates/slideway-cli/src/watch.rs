@@ -46,6 +46,21 @@ pub(crate) struct Alarm {
 }
 
 impl Alarm {
+    /// An interruption, or so much time from now on.
+    pub(crate) fn within(limit: Option<Duration>) -> Self {
+        Self { start: Instant::now(), limit }
+    }
+
+    /// The same with as much time from now on.
+    pub(crate) fn afresh(self) -> Self {
+        Self { start: Instant::now(), ..self }
+    }
+
+    /// Breaks when it rings.
+    pub(crate) fn flow(&self) -> ControlFlow<()> {
+        if self.rings() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
     /// Whether time is up or someone has interrupted.
     pub(crate) fn rings(&self) -> bool {
         INTERRUPTED.load(Ordering::Relaxed) || self.limit.is_some_and(|limit| self.start.elapsed() >= limit)

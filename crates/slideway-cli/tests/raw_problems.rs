@@ -253,3 +253,102 @@ fn faulty_arguments_are_refused() {
     }
     golden("help", &slideway(&["modes", "--help"]).stdout);
 }
+
+/// Lines are answered in order; one that is no problem does not end the batch.
+#[test]
+fn a_batch_answers_every_line_in_order() {
+    let lines: String = (0..600)
+        .map(|line| match line {
+            4 => "{\"M\": [[1, 2]], \"q\": [0, 1]}\n".to_owned(),
+            5 => "\n".to_owned(),
+            // w = z - line: z = line.
+            _ => format!("{{\"M\": [[1]], \"q\": [-{line}]}}\n"),
+        })
+        .collect();
+    let run = slideway_reading(&["modes", "-", "--json-lines"], lines.as_bytes());
+    assert_eq!((run.code, run.stderr.as_str()), (2, ""));
+    let answers: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(answers.len(), 600);
+    for (line, answer) in answers.iter().enumerate().filter(|(line, _)| ![4, 5].contains(line)) {
+        assert_eq!(answer["solutions"][0]["z"], serde_json::json!([line as f64]));
+    }
+    assert_eq!((&answers[4]["line"], &answers[5]["line"]), (&5.into(), &6.into()));
+    assert!(answers[4]["faults"][0].as_str().unwrap().contains("`M` is a 1 x 2 matrix"), "{}", answers[4]);
+    assert!(answers[5]["faults"][0].as_str().unwrap().contains("the problem is empty"), "{}", answers[5]);
+    // Without faults, and without a line end behind the last one.
+    let run = slideway_reading(&["modes", "-", "--json-lines"], br#"{"M": [[0]], "q": [-1]}"#);
+    assert_eq!((run.code, run.stdout.lines().count()), (0, 1));
+    assert!(slideway_reading(&["modes", "-", "--json-lines"], b"").stdout.is_empty());
+}
+
+/// Another program may wait for an answer before it asks the next question.
+#[test]
+fn a_batch_answers_a_line_before_the_next_one() {
+    use std::io::{BufRead, BufReader, Write};
+    let mut child = command(&["modes", "-", "--json-lines"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let (mut questions, mut answers) =
+        (child.stdin.take().unwrap(), BufReader::new(child.stdout.take().unwrap()));
+    for value in 1..=3 {
+        writeln!(questions, "{{\"M\": [[1]], \"q\": [-{value}]}}").unwrap();
+        let mut answer = String::new();
+        answers.read_line(&mut answer).unwrap();
+        let answer: Value = serde_json::from_str(&answer).unwrap();
+        assert_eq!(answer["solutions"][0]["z"], serde_json::json!([f64::from(value)]));
+    }
+    drop(questions);
+    assert!(child.wait().unwrap().success());
+}
+
+#[test]
+fn a_count_needs_no_list() {
+    let (code, report) = json(&["modes", EIGHT, "--format", "json", "--count-only"]);
+    assert_eq!((code, &report["count"], &report["complete"]), (0, &"8".into(), &"proven".into()));
+    assert_eq!(report["solutions"], serde_json::json!([]));
+    let run = slideway(&["modes", EIGHT, "--count-only"]);
+    assert!(run.stdout.contains("8 solutions.") && !run.stdout.contains("Solution 1"), "{}", run.stdout);
+}
+
+/// w = -z + 1 for each of 100 unknowns that do not depend on each other: one solution of each is enough.
+#[test]
+fn one_solution_is_enough() {
+    let m: Vec<Vec<f64>> =
+        (0..100).map(|row| (0..100).map(|k| if k == row { -1.0 } else { 0.0 }).collect()).collect();
+    let problem = serde_json::json!({"M": m, "q": vec![1.0; 100]}).to_string();
+    let arguments = ["modes", "-", "--any", "--format", "json"];
+    let run = slideway_reading(&arguments, problem.as_bytes());
+    let report: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!((run.code, &report["count"], &report["partial"]), (0, &"1".into(), &true.into()));
+    assert_eq!(report["solutions"][0]["residual"], 0.0);
+    assert!(report["open"][0].as_str().unwrap().contains("--any"), "{report}");
+    // w_1 = 1 - z_1, w_2 = 2 z_1 - 1, eight times: z_1 = 0 has no w_2, z_1 = 1 has. What others depend on is not cut
+    // off at the first of its solutions.
+    let m: Vec<Vec<f64>> = (0..16)
+        .map(|row| (0..16).map(|k| if k == row / 2 * 2 { [-1.0, 2.0][row % 2] } else { 0.0 }).collect())
+        .collect();
+    let q: Vec<f64> = (0..16).map(|row| [1.0, -1.0][row % 2]).collect();
+    let run = slideway_reading(&arguments, serde_json::json!({"M": m, "q": q}).to_string().as_bytes());
+    let report: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(report["count"], "1", "{report}");
+}
+
+/// The unknowns of every type of problem are arrays under their names, whose lengths may differ.
+#[test]
+fn archives_of_answers_have_the_names_of_the_problem() {
+    let cases: [(&str, &[&str]); 3] = [
+        ("game.json", &["x", "y", "payoff_1", "payoff_2", "vertex_x", "vertex_payoff_1"]),
+        ("mixed.json", &["u", "z", "w"]),
+        ("bounds.json", &["z", "w", "signs"]),
+    ];
+    for (file, names) in cases {
+        let path = folder("good").join(file);
+        let output = command(&["modes", path.to_str().unwrap(), "--format", "npz"]).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        for name in names {
+            assert!(text.contains(&format!("{name}.npy")), "{file}: {name}");
+        }
+    }
+}

@@ -6,10 +6,12 @@
 mod exhaustive;
 mod existence;
 mod fuzz_findings;
+mod games;
 #[path = "../benches/instances/mod.rs"]
 mod instances;
 mod interval_functions;
 mod klepp_example;
+mod mixed_problems;
 mod modes;
 mod modes_batch;
 mod modes_degenerate;

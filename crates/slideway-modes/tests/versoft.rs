@@ -100,7 +100,7 @@ fn as_many_solutions_as_printed() {
             .map(|solution| match &solution.unknowns {
                 Unknowns::Complementary { z, w } => w.iter().zip(z).map(|(w, z)| w - z).collect(),
                 Unknowns::AbsoluteValue { x } => x.clone(),
-                Unknowns::Modes { .. } => unreachable!(),
+                _ => unreachable!("an equation or a complementarity problem"),
             })
             .collect();
         for printed in &example.enclosures {

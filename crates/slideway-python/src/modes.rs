@@ -92,6 +92,49 @@ pub(crate) fn hlcp<'py>(
     answer(py, RawKind::Hlcp, vec![array("A", a), array("B", b), array("q", q)], options)
 }
 
+/// All solutions of `A u + C z + a = 0`, `w = D u + B z + b`.
+#[pyfunction]
+#[pyo3(signature = (matrices: "tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike]", vectors: "tuple[ArrayLike, ArrayLike]", options: "dict[str, Any]")
+    -> "reports.RawReport")]
+pub(crate) fn mlcp<'py>(
+    py: Python<'py>,
+    matrices: [Bound<'_, PyAny>; 4],
+    vectors: [Bound<'_, PyAny>; 2],
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let named = ["A", "B", "C", "D", "a", "b"].into_iter().zip(matrices.iter().chain(&vectors));
+    // An empty list is a matrix without rows or columns.
+    answer(py, RawKind::Mlcp, named.map(|(name, given)| array(name, given)).collect(), options)
+}
+
+/// All solutions of `w = M z + q` within bounds.
+#[pyfunction]
+#[pyo3(signature = (m: "ArrayLike", q: "ArrayLike", bounds: "tuple[ArrayLike, ArrayLike]", options: "dict[str, Any]") -> "reports.RawReport")]
+pub(crate) fn mcp<'py>(
+    py: Python<'py>,
+    m: &Bound<'_, PyAny>,
+    q: &Bound<'_, PyAny>,
+    bounds: [Bound<'_, PyAny>; 2],
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let [lower, upper] = &bounds;
+    let arrays = vec![array("M", m), array("q", q), array("l", lower), array("u", upper)];
+    answer(py, RawKind::Mcp, arrays, options)
+}
+
+/// All equilibria of a bimatrix game.
+#[pyfunction]
+#[pyo3(signature = (a: "ArrayLike", b: "ArrayLike | None", options: "dict[str, Any]") -> "reports.RawReport")]
+pub(crate) fn game<'py>(
+    py: Python<'py>,
+    a: &Bound<'_, PyAny>,
+    b: Option<Bound<'_, PyAny>>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let second = b.iter().map(|b| array("B", b));
+    answer(py, RawKind::Game, [array("A", a)].into_iter().chain(second).collect(), options)
+}
+
 /// All solutions of a mode problem.
 #[pyfunction]
 #[pyo3(signature = (columns_positive: "ArrayLike", columns_negative: "ArrayLike", right_hand_side: "ArrayLike", jumps: "tuple[ArrayLike, ArrayLike] | None", options: "dict[str, Any]")

@@ -58,6 +58,10 @@ PROBLEMS: dict[str, dict[str, Any]] = {
     "solve": {"A": [[2.0, -1.0], [0.5, 1.0]], "B": [[0.5, 1.5], [-1.0, 2.0]], "b": [1.0, -3.0]},
     "lcp": {"M": [[1.0, 2.0], [2.0, 1.0]], "q": [-1.0, -1.0]},
     "hlcp": {"A": [[1.0, 0.5], [0.0, 1.0]], "B": [[2.0, 0.0], [1.0, 3.0]], "q": [1.0, -2.0]},
+    "mlcp": {
+        "A": [[0.0]], "B": [[1.0, 0.0], [0.0, 1.0]], "C": [[1.0, 1.0]], "D": [[-1.0], [-1.0]], "a": [-1.0], "b": [-2.0, 0.0]
+    },
+    "mcp": {"M": [[1.0, 2.0], [2.0, 1.0]], "q": [-1.0, -1.0], "l": [0.0, -1.0], "u": [3.0, 0.1]},
     "mode_problem": {
         "columns_positive": [[1.0, 0.2], [0.3, 1.0]],
         "columns_negative": [[1.0, -0.2], [-0.3, 1.0]],
@@ -74,6 +78,17 @@ def test_same_json_of_problems_given_by_matrices(program: Program, kind: str, un
     said, complaint = program.json(["modes", *options], json.dumps(problem), "problem.json")
     answer = getattr(slideway.modes, kind)(*problem.values(), uniqueness=uniqueness)
     assert answer.to_json() == said, complaint
+
+
+@pytest.mark.parametrize("problem", [
+    {"A": [[3, 3], [2, 5], [0, 6]], "B": [[3, 3], [2, 6], [3, 1]]},
+    {"A": [[0.0, 1.0, -1.0], [-1.0, 0.0, 1.0], [1.0, -1.0, 0.0]]},
+])
+def test_same_json_of_games(program: Program, problem: dict[str, Any]) -> None:
+    said, complaint = program.json(["modes"], json.dumps({"type": "game", **problem}), "problem.json")
+    answer = slideway.modes.game(**problem)
+    assert answer.to_json() == said, complaint
+    assert all(solution.x.sum() == pytest.approx(1) for solution in answer)
 
 
 # The JSON output says all that words are made of: each model and each of these questions once is enough.

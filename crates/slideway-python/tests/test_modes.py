@@ -92,6 +92,17 @@ def test_horizontal_complementarity_problems_by_every_pattern(problem: tuple[Mat
         same([solution.z for solution in answer], [np.maximum(-one, 0.0) for one in wanted])
 
 
+def test_bounds_can_be_infinite() -> None:
+    none = float("inf")
+    m, q = np.array([[1.0, 2.0], [2.0, 1.0]]), np.array([-1.0, -1.0])
+    answer = modes.mcp(m, q, [0.0, 0.0], [none, none])
+    same([solution.z for solution in answer], [solution.z for solution in modes.lcp(m, q)])
+    free = modes.mcp(m, q, [-none, -none], np.array([none, none]))
+    same([solution.z for solution in free], [np.linalg.solve(m, -q)])
+    with pytest.raises(ValueError, match="lower bound 2 is above the upper bound 1"):
+        modes.mcp(m, q, [0.0, 2.0], [none, 1.0])
+
+
 def test_what_arrays_can_be() -> None:
     m, q = np.array([[1.0, 2.0], [2.0, 1.0]]), np.array([-1.0, -1.0])
     wanted = modes.lcp(m, q)

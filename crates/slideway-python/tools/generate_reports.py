@@ -182,7 +182,8 @@ def variants(body: str) -> list[Field]:
     """The named fields of all variants of an enum; each may be absent."""
     found = {}
     for docs, name, type_ in re.findall(r"((?: +///.*\n)+)(?: +#\[.*\n)*        (\w+): (.*),\n", body):
-        found.setdefault(name, Field(name, f"Option<{type_}>", plain(docs), "None"))
+        optional = type_ if type_.startswith("Option<") else f"Option<{type_}>"
+        found.setdefault(name, Field(name, optional, plain(docs), "None"))
     return list(found.values())
 
 
@@ -303,7 +304,7 @@ def hints(types: Types) -> str:
                 fields[member.name] = inner
         if types.items[name].flattened:
             of = types.items[types.items[name].flattened[0]]
-            fields |= {member.name: "array" for member in of.variants}
+            fields |= {member.name: "array" for member in of.variants if "Vec<" in member.type}
         if fields:
             text += f'    "{name}": {{' + ", ".join(f'"{key}": "{value}"' for key, value in fields.items()) + "},\n"
     return text + "}\n" + documented("Lists of numbers that are arrays, and classes whose name serialization does not tell, by class and field.", "")

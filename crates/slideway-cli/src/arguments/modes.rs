@@ -2,13 +2,24 @@
 
 use super::{Destination, SearchArguments};
 use clap::{Args, ValueEnum};
+use slideway::modes::SearchOptions;
+use slideway::raw_problem::Listing;
 use std::path::PathBuf;
+use std::time::Duration;
 
 pub(super) const HELP: &str = "\
 Types of problems and their arrays:
   lcp    M, q       w = M z + q, w >= 0, z >= 0, w_k z_k = 0
   ave    A, B, b    A x + B |x| = b
   hlcp   A, B, q    A w - B z = q, w >= 0, z >= 0, w_k z_k = 0
+  mlcp   A, B, C, D, a, b
+                    A u + C z + a = 0, w = D u + B z + b, w >= 0, z >= 0,
+                    w_k z_k = 0; u is free
+  mcp    M, q, l, u w = M z + q, l <= z <= u, w_k >= 0 where z_k < u_k,
+                    w_k <= 0 where z_k > l_k; null in l or u: no bound
+  game   A, perhaps B
+                    all Nash equilibria: x maximises x^T A y, y maximises
+                    x^T B y; without B, B = -A. The type must be given.
   modes  columns_positive, columns_negative, right_hand_side,
          optionally jumps_positive, jumps_negative
 
@@ -21,12 +32,14 @@ Examples:
   slideway modes problem.npz --output result.npz
   slideway modes problem.json --time-limit 30s --format json
   slideway modes problem.json --uniqueness
+  slideway modes problem.json --count-only
   slideway modes - < problem.json
+  slideway modes - --json-lines < problems.jsonl > answers.jsonl
 
 Exit codes:
   0    solutions were found: one, several, infinitely many, or a state in a preload gap
   1    no solution, and the search was complete
-  2    invalid input: the problem, the files or the arguments
+  2    invalid input: the problem (with --json-lines: of some line), the files or the arguments
   3    unknown: nothing was found, but the search was not complete
   130  interrupted (Ctrl-C): the solutions found so far are printed";
 
@@ -43,21 +56,50 @@ pub(crate) struct ModesArguments {
 
     /// Also list what is part of a larger continuum: its ends and faces.
     #[arg(long)]
-    pub(crate) all_faces: bool,
+    all_faces: bool,
 
     /// Also decide whether there is exactly one solution for every right-hand side (of an LCP: whether M is a
     /// P-matrix).
     #[arg(long)]
     pub(crate) uniqueness: bool,
 
+    /// Count the solutions without listing them.
+    #[arg(long, conflicts_with = "max_solutions")]
+    count_only: bool,
+
+    /// One solution is enough: end the search when there are more than that. The answer is then partial.
+    #[arg(long, conflicts_with = "max_found")]
+    any: bool,
+
+    /// Read a problem as JSON from every line, and write each answer as JSON in one line, in the same order. For a
+    /// line that is no problem, its number and what is wrong with it are written. A time limit is for each problem.
+    #[arg(long, conflicts_with_all = ["format", "output"])]
+    pub(crate) json_lines: bool,
+
     #[command(flatten)]
-    pub(crate) search: SearchArguments,
+    search: SearchArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,
 }
 
 impl ModesArguments {
+    /// How the search is to be done.
+    pub(crate) fn options(&self) -> SearchOptions {
+        if self.any { self.search.options_for_one() } else { self.search.options() }
+    }
+
+    /// What is to be listed.
+    pub(crate) fn listing(&self) -> Listing {
+        let most = if self.count_only { 0 } else { self.search.max_solutions };
+        Listing { most, all_faces: self.all_faces }
+    }
+
+    /// The time for one problem.
+    pub(crate) fn time_limit(&self) -> Option<Duration> {
+        self.search.time.time_limit
+    }
+
     /// The form that is asked for.
     pub(crate) fn format(&self) -> ModesFormat {
         let ending = self.destination.output.as_ref().and_then(|path| path.extension()?.to_str());

@@ -15,7 +15,8 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N")]
     max_nodes: Option<u64>,
 
-    /// End the search once a group of contacts or unknowns has N solutions; the answer is then partial.
+    /// End the search of contacts or unknowns that do not depend on others once it has more than N solutions; the
+    /// answer is then partial. The numbers of independent ones multiply.
     #[arg(long, value_name = "N", default_value_t = Limits::default().solutions)]
     max_found: usize,
 
@@ -27,5 +28,10 @@ impl SearchArguments {
     /// The options of the search.
     pub(crate) fn options(&self) -> SearchOptions {
         SearchOptions::within(self.max_nodes, Some(self.max_found))
+    }
+
+    /// The same where one solution is enough.
+    pub(crate) fn options_for_one(&self) -> SearchOptions {
+        SearchOptions::within(self.max_nodes, Some(1))
     }
 }

@@ -1,11 +1,12 @@
 //! From a problem to its report: the search, and what is reported.
 
+use super::correspondence::Correspondence;
 use super::listing::{Counts, Listing, Sort, list};
 use super::range::in_range;
-use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, Unknowns};
+use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA};
 use super::residual::Equations;
 use super::values::Values;
-use super::{RawKind, RawProblem, continuum, nearby};
+use super::{RawProblem, continuum, nearby};
 use crate::certificate::{Decision, decide};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem, ModeProblemError};
@@ -51,6 +52,7 @@ pub fn solve_with(
     progress: &mut Callback<'_>,
 ) -> Result<RawReport, ModeProblemError> {
     let problem = raw.mode_problem()?;
+    let correspondence = Correspondence::of(raw);
     let result = search(&problem, options, progress);
     let counts = Counts::of(&result.product, false);
     let all = Counts::of(&result.product, true);
@@ -60,7 +62,8 @@ pub fn solve_with(
     let mut report = RawReport {
         schema: SCHEMA,
         kind: raw.kind(),
-        size: problem.contacts(),
+        size: correspondence.size(),
+        first: correspondence.first(),
         status: status(&result, &counts),
         complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
         partial: is_partial(result.completeness),
@@ -85,10 +88,15 @@ pub fn solve_with(
         nodes: result.nodes(),
         groups: result.groups.iter().map(group).collect(),
     };
-    let teller = Teller { raw, problem: &problem, equations: Equations::of(raw) };
+    let teller = Teller {
+        correspondence: &correspondence,
+        problem: &problem,
+        equations: Equations::of(raw, &problem),
+    };
     teller.list(&result.product, listed, listing, &mut report);
-    if report.status == Status::None {
+    if report.status == Status::None && listing.most > 0 {
         let spent = (options, report.nodes);
+        let raw = (raw, &correspondence);
         report.within_rounding = nearby::within_rounding(raw, &problem, spent, progress);
     }
     Ok(report)
@@ -126,6 +134,9 @@ fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
             let groups = result.groups.iter().filter(|group| group.shares.unexplored > 0.0).count();
             let reason = match reason {
                 StopReason::Cancelled => "the search was stopped by a time limit or on request".to_owned(),
+                StopReason::SolutionLimit if options.limits.solutions == 1 => {
+                    "the search ended when it had a solution (--any)".to_owned()
+                }
                 StopReason::SolutionLimit => {
                     format!("the limit of {} solutions of a group of unknowns", options.limits.solutions)
                         + " was reached (--max-found)"
@@ -141,7 +152,7 @@ fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
 
 fn unexplored(groups: usize) -> String {
     match groups {
-        0 => "some groups of unknowns were not searched".to_owned(),
+        0 => "some groups of unknowns were not searched for every solution of others".to_owned(),
         1 => "a group of unknowns was not searched to its end".to_owned(),
         groups => format!("{groups} groups of unknowns were not searched to their end"),
     }
@@ -180,7 +191,7 @@ fn group(report: &GroupReport) -> RawGroup {
 
 /// Describes states of the search in the terms of the problem.
 struct Teller<'a> {
-    raw: &'a RawProblem,
+    correspondence: &'a Correspondence,
     problem: &'a ModeProblem,
     equations: Equations<'a>,
 }
@@ -200,7 +211,7 @@ impl Teller<'_> {
         });
         let mut continua = Vec::new();
         list(product, (counts, Sort::Continuum), listing, &mut |state| {
-            report.continua.push(continuum::told(state, self.kind(), size, listing.most));
+            report.continua.push(continuum::told(state, self.correspondence, size, listing.most));
             continua.push(state.support(size));
         });
         for (solution, end) in report.solutions.iter_mut().zip(&ends).filter(|(one, _)| !one.maximal) {
@@ -208,28 +219,31 @@ impl Teller<'_> {
         }
     }
 
-    fn kind(&self) -> RawKind {
-        self.raw.kind()
-    }
-
     fn point(&self, state: &CombinedState<'_>, number: usize) -> RawSolution {
         let size = self.problem.contacts();
         let pattern = state.pattern(size);
         let mut values = Values::new(state, size);
-        let signs: Vec<i8> = values.signed.iter().map(|value| sign(*value)).collect();
-        let in_gap = |at: usize| pattern[at] == ContactState::Gap;
-        let on_boundary = signs.iter().enumerate().any(|(at, &sign)| sign == 0 && !in_gap(at));
-        let beyond_range = values.settle(self.kind(), self.problem, &pattern);
+        let signs = self.correspondence.signs(&values.signed);
+        let is_on_boundary = |(at, &value): (usize, &f64)| {
+            value == 0.0 && pattern[at] != ContactState::Gap && self.correspondence.has_boundary(at)
+        };
+        let on_boundary = values.signed.iter().enumerate().any(is_on_boundary);
+        let is_degenerate = on_boundary || values.signed.contains(&0.0);
+        let beyond_range = values.settle(self.correspondence, self.problem, &pattern);
         let singular = state.parts.iter().any(|(_, part)| matches!(part, GroupState::Singular(_)));
         let work = (number as f64 + 1.0) * (size as f64).powi(3);
-        let exactly = on_boundary || !beyond_range.is_empty();
+        let exactly = is_degenerate || !beyond_range.is_empty();
         let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
             && (!exactly || size <= EXACT_UNKNOWNS);
         let enclosure_radius = (affordable && !singular && values.gaps.is_empty())
-            .then(|| radius(self.problem, &pattern, &values.signed))
-            .flatten();
+            .then(|| self.radius(&pattern, &values.signed))
+            .flatten()
+            .map(|radius| match self.correspondence.rounding(&values.signed) {
+                0.0 => radius,
+                rounding => (radius + rounding).next_up(),
+            });
         RawSolution {
-            unknowns: Unknowns::new(self.kind(), &values.signed),
+            unknowns: self.correspondence.unknowns(&values.signed),
             signs,
             on_boundary,
             maximal: state.is_maximal(),
@@ -241,31 +255,29 @@ impl Teller<'_> {
             end_of_continuum: None,
         }
     }
-}
 
-/// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Values
-/// without a floating-point number are ignored.
-fn radius(problem: &ModeProblem, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
-    let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
-        decide(problem, pattern).decision
-    else {
-        return None;
-    };
-    let distance = |(bounds, value): (&Interval, &f64)| {
-        let largest = (bounds.upper() - value.abs()).max(value.abs() - bounds.lower());
-        if largest > 0.0 { largest.next_up() } else { 0.0 }
-    };
-    let known = unknowns.iter().zip(values).filter(|(_, value)| in_range(**value));
-    let radius = known.map(distance).fold(0.0, f64::max);
-    radius.is_finite().then_some(radius)
-}
-
-fn sign(value: f64) -> i8 {
-    i8::from(value > 0.0) - i8::from(value < 0.0)
+    /// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Values
+    /// without a floating-point number, and those that are not told, are ignored.
+    fn radius(&self, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
+        let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
+            decide(self.problem, pattern).decision
+        else {
+            return None;
+        };
+        let distance = |(bounds, value): (&Interval, &f64)| {
+            let largest = (bounds.upper() - value.abs()).max(value.abs() - bounds.lower());
+            if largest > 0.0 { largest.next_up() } else { 0.0 }
+        };
+        let is_told = |at: usize| in_range(values[at]) && self.correspondence.tells(at, values[at]);
+        let known = unknowns.iter().zip(values).enumerate().filter(|(at, _)| is_told(*at));
+        let radius = known.map(|(_, one)| distance(one)).fold(0.0, f64::max);
+        radius.is_finite().then_some(radius)
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::report::Unknowns;
     use super::*;
     use std::ops::ControlFlow;
 

@@ -57,7 +57,8 @@ impl Given {
             }
             GivenType::Nothing => {
                 let fits = |kind: &RawKind| {
-                    kind.required().iter().all(|name| self.has(name))
+                    kind.is_told_by_names()
+                        && kind.required().iter().all(|name| self.has(name))
                         && self.arrays.iter().all(|(name, _)| kind.names().contains(&name.as_str()))
                 };
                 let present = || self.arrays.iter().map(|(name, _)| name.clone()).collect();
@@ -85,15 +86,14 @@ impl Given {
         if let Some(faults) = RawFaults::some(std::mem::take(&mut faults)) {
             return Err(faults);
         }
-        let [matrices @ .., vector] = kind.required() else { unreachable!("every type has arrays") };
-        let size = self.size(vector)?;
-        let optional = kind.optional().iter().filter(|name| self.has(name));
-        for name in matrices.iter().chain(optional) {
-            self.check_matrix(name, (*vector, size), &mut faults);
+        let sizes = self.sizes(kind)?;
+        let is_sized_by = |name: &&str| kind.size_vectors().contains(name);
+        for name in kind.names().into_iter().filter(|name| self.has(name) && !is_sized_by(name)) {
+            self.check_shape(kind, name, &sizes, &mut faults);
         }
         match RawFaults::some(faults) {
             Some(faults) => Err(faults),
-            None => self.problem(kind, size),
+            None => self.problem(kind, &sizes),
         }
     }
 
@@ -115,36 +115,88 @@ impl Given {
         faults.extend(missing.map(|key| RawFault::MissingKey { key, kind }));
     }
 
-    /// The number of unknowns, determined by the vector.
-    fn size(&self, key: &'static str) -> Result<usize, RawFault> {
-        let found = self.array(key).map_or(Shape::Vector(0), Array::shape);
-        let (Shape::Vector(size) | Shape::Matrix(size, 1)) = found else {
-            let expected = match found {
-                Shape::Matrix(1, size) | Shape::Matrix(size, _) => Shape::Vector(size),
-                _ => Shape::Vector(1),
-            };
-            return Err(RawFault::Shape { key: key.to_owned(), expected, found, reference: None });
+    /// The sizes of the problem.
+    fn sizes(&self, kind: RawKind) -> Result<Vec<usize>, RawFaults> {
+        let vectors = kind.size_vectors();
+        let sizes = if vectors.is_empty() {
+            self.sizes_of_matrix("A")?
+        } else {
+            vectors.iter().map(|vector| self.length(vector)).collect::<Result<Vec<_>, _>>()?
         };
-        match size {
-            0 => Err(RawFault::Empty),
-            size if size > GREATEST_SIZE => {
-                Err(RawFault::TooManyUnknowns { key: key.to_owned(), found: size, limit: GREATEST_SIZE })
+        match sizes.iter().sum() {
+            0 => Err(RawFault::Empty.into()),
+            found if found > GREATEST_SIZE => {
+                Err(RawFault::TooManyUnknowns { found, limit: GREATEST_SIZE }.into())
             }
-            size => {
+            _ => {
                 let mut faults = Vec::new();
-                self.check_finite(key, &mut faults);
-                faults.pop().map_or(Ok(size), Err)
+                vectors.iter().for_each(|vector| self.check_finite(vector, &mut faults));
+                RawFaults::some(faults).map_or(Ok(sizes), Err)
             }
         }
     }
 
-    fn check_matrix(&self, key: &str, reference: (&'static str, usize), faults: &mut Vec<RawFault>) {
+    /// The number of entries of a vector.
+    fn length(&self, key: &'static str) -> Result<usize, RawFault> {
+        let found = self.array(key).map_or(Shape::Vector(0), Array::shape);
+        match found {
+            Shape::Vector(size) | Shape::Matrix(size, 1) => Ok(size),
+            Shape::Matrix(1, size) | Shape::Matrix(size, _) => Err(Shape::Vector(size)),
+            _ => Err(Shape::Vector(1)),
+        }
+        .map_err(|expected| RawFault::Shape {
+            key: key.to_owned(),
+            expected,
+            found,
+            references: Vec::new(),
+        })
+    }
+
+    /// The rows and columns of a matrix that has both.
+    fn sizes_of_matrix(&self, key: &'static str) -> Result<Vec<usize>, RawFault> {
+        let found = self.array(key).map_or(Shape::Vector(0), Array::shape);
+        let expected = match found {
+            Shape::Matrix(rows, columns) if rows * columns > 0 => return Ok(vec![rows, columns]),
+            Shape::Vector(columns @ 1..) => Shape::Matrix(1, columns),
+            Shape::Number => Shape::Matrix(1, 1),
+            _ => return Err(RawFault::Empty),
+        };
+        Err(RawFault::Shape { key: key.to_owned(), expected, found, references: Vec::new() })
+    }
+
+    fn check_shape(&self, kind: RawKind, key: &str, sizes: &[usize], faults: &mut Vec<RawFault>) {
         let Some(array) = self.array(key) else { return };
-        let (found, expected) = (array.shape(), Shape::Matrix(reference.1, reference.1));
-        if found == expected {
-            self.check_finite(key, faults);
-        } else {
-            faults.push(RawFault::Shape { key: key.to_owned(), expected, found, reference: Some(reference) });
+        let (rows, columns) = kind.dimensions(key);
+        let expected = match columns {
+            Some(columns) => Shape::Matrix(sizes[rows], sizes[columns]),
+            None => Shape::Vector(sizes[rows]),
+        };
+        let found = array.shape();
+        let is_column = columns.is_none() && found == Shape::Matrix(sizes[rows], 1);
+        // No list of rows tells how long rows are of which there are none.
+        let is_nothing = array.values.is_empty() && expected.entries() == 0;
+        if found == expected || is_column || is_nothing {
+            return if kind.is_bound(key) {
+                self.check_bounds(key, faults);
+            } else {
+                self.check_finite(key, faults);
+            };
+        }
+        let named = kind.size_vectors().iter().zip(sizes).enumerate();
+        let references = named
+            .filter(|(at, _)| *at == rows || Some(*at) == columns)
+            .map(|(_, (name, size))| (*name, *size))
+            .collect();
+        faults.push(RawFault::Shape { key: key.to_owned(), expected, found, references });
+    }
+
+    /// Records the first bound that is no number, or that no number satisfies.
+    fn check_bounds(&self, key: &str, faults: &mut Vec<RawFault>) {
+        let impossible = if key == "l" { f64::INFINITY } else { f64::NEG_INFINITY };
+        let Some(array) = self.array(key) else { return };
+        let mut entries = array.values.iter().enumerate();
+        if let Some((row, &value)) = entries.find(|(_, value)| value.is_nan() || **value == impossible) {
+            faults.push(RawFault::NotFinite { key: key.to_owned(), row, column: None, value });
         }
     }
 
@@ -161,13 +213,16 @@ impl Given {
     }
 
     /// The problem from checked arrays.
-    fn problem(&self, kind: RawKind, size: usize) -> Result<RawProblem, RawFaults> {
-        let matrix = |key: &str| match self.array(key) {
-            Some(array) => DMatrix::from_row_slice(size, size, &array.values),
-            None => DMatrix::zeros(size, size),
+    fn problem(&self, kind: RawKind, sizes: &[usize]) -> Result<RawProblem, RawFaults> {
+        let matrix = |key: &str| {
+            let (rows, columns) = kind.dimensions(key);
+            let (rows, columns) = (sizes[rows], columns.map_or(1, |columns| sizes[columns]));
+            match self.array(key) {
+                Some(array) => DMatrix::from_row_slice(rows, columns, &array.values),
+                None => DMatrix::zeros(rows, columns),
+            }
         };
-        let vector =
-            |key: &str| DVector::from_vec(self.array(key).map_or(Vec::new(), |array| array.values.clone()));
+        let vector = |key: &str| matrix(key).column(0).into_owned();
         let problem = match kind {
             RawKind::Lcp => RawProblem::LinearComplementarity { m: matrix("M"), q: vector("q") },
             RawKind::Ave => {
@@ -175,6 +230,22 @@ impl Given {
             }
             RawKind::Hlcp => {
                 RawProblem::HorizontalComplementarity { a: matrix("A"), b: matrix("B"), q: vector("q") }
+            }
+            RawKind::Mlcp => RawProblem::MixedLinearComplementarity {
+                m: blocks([[&matrix("A"), &matrix("C")], [&matrix("D"), &matrix("B")]]),
+                q: stacked(&vector("a"), &vector("b")),
+                free: sizes[0],
+            },
+            RawKind::Mcp => {
+                let (lower, upper) = (vector("l"), vector("u"));
+                check_order(&lower, &upper)?;
+                RawProblem::MixedComplementarity { m: matrix("M"), q: vector("q"), lower, upper }
+            }
+            RawKind::Game => {
+                let a = matrix("A");
+                // Without the payoffs of the second player the sum of both is zero.
+                let b = if self.has("B") { matrix("B") } else { -&a };
+                RawProblem::Game { a, b }
             }
             RawKind::Modes => {
                 let modes = ModeProblem::new(
@@ -190,4 +261,26 @@ impl Given {
         problem.check_range()?;
         Ok(problem)
     }
+}
+
+/// `[[A, C], [D, B]]`
+fn blocks([[a, c], [d, b]]: [[&DMatrix<f64>; 2]; 2]) -> DMatrix<f64> {
+    let (free, size) = (a.nrows(), a.nrows() + b.nrows());
+    let mut matrix = DMatrix::zeros(size, size);
+    for (block, place) in [(a, (0, 0)), (c, (0, free)), (d, (free, 0)), (b, (free, free))] {
+        matrix.view_mut(place, block.shape()).copy_from(block);
+    }
+    matrix
+}
+
+/// `(a, b)`
+fn stacked(a: &DVector<f64>, b: &DVector<f64>) -> DVector<f64> {
+    DVector::from_iterator(a.len() + b.len(), a.iter().chain(b).copied())
+}
+
+/// Refuses lower bounds above upper ones.
+fn check_order(lower: &DVector<f64>, upper: &DVector<f64>) -> Result<(), RawFaults> {
+    let crossed = lower.iter().zip(upper).enumerate().filter(|(_, (lower, upper))| lower > upper);
+    let fault = |(at, (&lower, &upper)): (usize, _)| RawFault::BoundsCross { at, lower, upper };
+    RawFaults::some(crossed.map(fault).collect()).map_or(Ok(()), Err)
 }

@@ -54,12 +54,10 @@ pub enum RawFault {
         /// The maximum number of bytes.
         limit: u64,
     },
-    /// More unknowns than permitted for a problem.
-    #[error("`{key}` has {found} entries; a problem may have up to {limit} unknowns")]
+    /// More unknowns than permitted for a problem, with those that its bounds require.
+    #[error("the problem has {found} unknowns; at most {limit} are accepted")]
     TooManyUnknowns {
-        /// The vector that determines the size of the problem.
-        key: String,
-        /// The number of its entries.
+        /// Their number.
         found: usize,
         /// The maximum number.
         limit: usize,
@@ -165,7 +163,7 @@ pub enum RawFault {
         found: usize,
     },
     /// A matrix or vector of the wrong shape.
-    #[error("`{key}` is {found}, but must be {expected}{}", because(reference.as_ref()))]
+    #[error("`{key}` is {found}, but must be {expected}{}", because(references))]
     Shape {
         /// The name.
         key: String,
@@ -173,8 +171,8 @@ pub enum RawFault {
         expected: Shape,
         /// The shape found.
         found: Shape,
-        /// The vector that determines the size of the problem, and the number of its entries.
-        reference: Option<(&'static str, usize)>,
+        /// The vectors that determine the shape, and the numbers of their entries.
+        references: Vec<(&'static str, usize)>,
     },
     /// An entry that is infinite or NaN.
     #[error("`{key}`: {} is {value}", place(*row, *column))]
@@ -187,6 +185,18 @@ pub enum RawFault {
         column: Option<usize>,
         /// The entry.
         value: f64,
+    },
+    /// A lower bound above the upper one.
+    #[error(
+        "`l` and `u`: entry {at} (counted from 0): the lower bound {lower} is above the upper bound {upper}"
+    )]
+    BoundsCross {
+        /// Index of the unknown.
+        at: usize,
+        /// The lower bound.
+        lower: f64,
+        /// The upper bound.
+        upper: f64,
     },
     /// `A + B` or `B - A` is beyond the range of floating-point numbers.
     #[error("`A` and `B`: row {row}, column {column} of their sum or difference overflows")]
@@ -234,7 +244,15 @@ impl RawFault {
                 let kinds = RawKind::ALL.map(|kind| format!("{kind} ({})", kind.required().join(", ")));
                 Some(format!("the types and their arrays: {}", kinds.join("; ")))
             }
-            Self::NotFiniteWord { .. } => Some("every entry must be a finite number".to_owned()),
+            Self::NotFiniteWord { .. } => Some(
+                "every entry must be a finite number; in `l` and `u` of type mcp, null means no bound"
+                    .to_owned(),
+            ),
+            Self::NotFinite { key, value, .. }
+                if value.is_infinite() && matches!(key.as_str(), "l" | "u") =>
+            {
+                Some("no number lies within this bound".to_owned())
+            }
             Self::Shape { expected: Shape::Matrix(..), .. } => {
                 Some("a matrix is a list of rows, each a list of numbers".to_owned())
             }
@@ -256,8 +274,10 @@ fn place(row: usize, column: Option<usize>) -> String {
     }
 }
 
-fn because(reference: Option<&(&'static str, usize)>) -> String {
-    reference.map_or(String::new(), |(key, size)| format!(", as `{key}` has {}", entries(*size)))
+fn because(references: &[(&'static str, usize)]) -> String {
+    let told: Vec<String> =
+        references.iter().map(|(key, size)| format!("`{key}` has {}", entries(*size))).collect();
+    if told.is_empty() { String::new() } else { format!(", as {}", told.join(" and ")) }
 }
 
 fn entries(count: usize) -> String {

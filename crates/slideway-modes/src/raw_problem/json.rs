@@ -128,7 +128,8 @@ fn array(key: &str, value: &Value) -> Result<Array, RawFault> {
 /// The numbers of a vector, or of one row of a matrix.
 fn numbers(key: &str, entries: &[Value], row: Option<usize>) -> Result<Vec<f64>, RawFault> {
     let number = |(at, entry): (usize, &Value)| {
-        entry.as_f64().ok_or_else(|| RawFault::NotANumber {
+        let no_bound = || no_bound(key).filter(|_| entry.is_null() && row.is_none());
+        entry.as_f64().or_else(no_bound).ok_or_else(|| RawFault::NotANumber {
             key: key.to_owned(),
             row: row.unwrap_or(at),
             column: row.map(|_| at),
@@ -136,6 +137,15 @@ fn numbers(key: &str, entries: &[Value], row: Option<usize>) -> Result<Vec<f64>,
         })
     };
     entries.iter().enumerate().map(number).collect()
+}
+
+/// What `null` means in the bounds of an unknown.
+fn no_bound(key: &str) -> Option<f64> {
+    match key {
+        "l" => Some(f64::NEG_INFINITY),
+        "u" => Some(f64::INFINITY),
+        _ => None,
+    }
 }
 
 fn word(value: &Value) -> &'static str {

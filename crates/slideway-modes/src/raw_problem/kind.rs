@@ -14,13 +14,20 @@ pub enum RawKind {
     Ave,
     /// Horizontal linear complementarity problem.
     Hlcp,
+    /// Mixed linear complementarity problem: some unknowns are free.
+    Mlcp,
+    /// Mixed complementarity problem with a linear function: every unknown between two bounds.
+    Mcp,
+    /// Bimatrix game.
+    Game,
     /// Mode problem.
     Modes,
 }
 
 impl RawKind {
     /// All types.
-    pub const ALL: [Self; 4] = [Self::Lcp, Self::Ave, Self::Hlcp, Self::Modes];
+    pub const ALL: [Self; 7] =
+        [Self::Lcp, Self::Ave, Self::Hlcp, Self::Mlcp, Self::Mcp, Self::Game, Self::Modes];
 
     /// The word for it in files.
     pub fn word(self) -> &'static str {
@@ -28,6 +35,9 @@ impl RawKind {
             Self::Lcp => "lcp",
             Self::Ave => "ave",
             Self::Hlcp => "hlcp",
+            Self::Mlcp => "mlcp",
+            Self::Mcp => "mcp",
+            Self::Game => "game",
             Self::Modes => "modes",
         }
     }
@@ -38,6 +48,9 @@ impl RawKind {
             Self::Lcp => "Linear complementarity problem",
             Self::Ave => "Absolute value equation",
             Self::Hlcp => "Horizontal linear complementarity problem",
+            Self::Mlcp => "Mixed linear complementarity problem",
+            Self::Mcp => "Mixed complementarity problem",
+            Self::Game => "Bimatrix game",
             Self::Modes => "Mode problem",
         }
     }
@@ -48,16 +61,22 @@ impl RawKind {
             Self::Lcp => "w = M z + q,  w >= 0,  z >= 0,  w_k z_k = 0",
             Self::Ave => "A x + B |x| = b",
             Self::Hlcp => "A w - B z = q,  w >= 0,  z >= 0,  w_k z_k = 0",
+            Self::Mlcp => "A u + C z + a = 0,  w = D u + B z + b,  w >= 0,  z >= 0,  w_k z_k = 0",
+            Self::Mcp => "w = M z + q,  l <= z <= u,  w_k >= 0 where z_k < u_k,  w_k <= 0 where z_k > l_k",
+            Self::Game => "x maximises x^T A y,  y maximises x^T B y,  x >= 0,  y >= 0,  sum x = sum y = 1",
             Self::Modes => "sum_k c_k y_k = N(0) + sum_k d_k,  y >= 0,  columns by the signs of N",
         }
     }
 
-    /// The arrays that are required; the last one is the vector that determines the size.
+    /// The arrays that are required.
     pub fn required(self) -> &'static [&'static str] {
         match self {
             Self::Lcp => &["M", "q"],
             Self::Ave => &["A", "B", "b"],
             Self::Hlcp => &["A", "B", "q"],
+            Self::Mlcp => &["A", "B", "C", "D", "a", "b"],
+            Self::Mcp => &["M", "q", "l", "u"],
+            Self::Game => &["A"],
             Self::Modes => &["columns_positive", "columns_negative", "right_hand_side"],
         }
     }
@@ -66,8 +85,44 @@ impl RawKind {
     pub fn optional(self) -> &'static [&'static str] {
         match self {
             Self::Modes => &["jumps_positive", "jumps_negative"],
+            Self::Game => &["B"],
             _ => &[],
         }
+    }
+
+    /// The vectors whose lengths are the sizes of the problem: two for a mixed linear complementarity problem,
+    /// none for a game, whose sizes are the rows and columns of `A`.
+    pub fn size_vectors(self) -> &'static [&'static str] {
+        match self {
+            Self::Lcp | Self::Hlcp | Self::Mcp => &["q"],
+            Self::Ave => &["b"],
+            Self::Mlcp => &["a", "b"],
+            Self::Game => &[],
+            Self::Modes => &["right_hand_side"],
+        }
+    }
+
+    /// Which sizes, by number, are the rows and the columns of an array; no columns of a vector.
+    pub(super) fn dimensions(self, name: &str) -> (usize, Option<usize>) {
+        match (self, name) {
+            (Self::Mlcp, "b") => (1, None),
+            (Self::Mlcp, "B") => (1, Some(1)),
+            (Self::Mlcp, "D") => (1, Some(0)),
+            (Self::Mlcp, "C") | (Self::Game, _) => (0, Some(1)),
+            (_, "a" | "b" | "q" | "l" | "u" | "right_hand_side") => (0, None),
+            _ => (0, Some(0)),
+        }
+    }
+
+    /// Whether an array holds bounds, which may be infinite.
+    pub(super) fn is_bound(self, name: &str) -> bool {
+        self == Self::Mcp && matches!(name, "l" | "u")
+    }
+
+    /// Whether a file may leave out the type if it has these names: those of a game may be those of an
+    /// equation without its right-hand side.
+    pub(super) fn is_told_by_names(self) -> bool {
+        self != Self::Game
     }
 
     /// The names of all its arrays.

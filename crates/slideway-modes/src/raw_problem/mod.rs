@@ -2,13 +2,16 @@
 //!
 //! Many questions lead to a system of linear equations in which each unknown switches between two versions of
 //! its coefficients, depending on its sign. Slideway finds *all* solutions of such a system, and says whether
-//! it is proven that there are no others. Four forms are read:
+//! it is proven that there are no others. Seven forms are read:
 //!
 //! | type | arrays | problem | source |
 //! |---|---|---|---|
 //! | `lcp` | `M`, `q` | `w = M z + q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | linear complementarity problem (Cottle, Pang, Stone, The Linear Complementarity Problem, 1992) |
 //! | `ave` | `A`, `B`, `b` | `A x + B abs(x) = b` | absolute value equation (Rohn, 2004; Mangasarian, 2007) |
 //! | `hlcp` | `A`, `B`, `q` | `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | horizontal linear complementarity problem (Sznajder and Gowda, 1995); with `A = I` an LCP with `M = B` |
+//! | `mlcp` | `A`, `B`, `C`, `D`, `a`, `b` | `A u + C z + a = 0`, `w = D u + B z + b`, `w >= 0`, `z >= 0`, `w_k z_k = 0`; `u` free | mixed linear complementarity problem (Cottle, Pang, Stone, 1992) |
+//! | `mcp` | `M`, `q`, `l`, `u` | `w = M z + q`, `l <= z <= u`, `w_k >= 0` where `z_k < u_k`, `w_k <= 0` where `z_k > l_k` | mixed complementarity problem with a linear function (Dirkse and Ferris, 1995) |
+//! | `game` | `A`, and perhaps `B` | all Nash equilibria of a bimatrix game: `x` maximises `x^T A y`, `y` maximises `x^T B y`; without `B`, `B = -A` | Lemke and Howson (1964) |
 //! | `modes` | `columns_positive`, `columns_negative`, `right_hand_side`, and perhaps `jumps_positive`, `jumps_negative` | [`ModeProblem`] | Klepp (2002), eqs. (6), (8) |
 //!
 //! The data flow: bytes -> [`RawProblem`] -> [`solve`] -> [`RawReport`] -> text, JSON or `.npz`.
@@ -35,12 +38,15 @@ mod answer;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod assemble;
 mod continuum;
+mod correspondence;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod fault;
+mod game;
 #[cfg(feature = "json")]
 mod json;
 mod kind;
 mod listing;
+mod mixed;
 mod nearby;
 #[cfg(feature = "npz")]
 mod npy;
@@ -62,8 +68,8 @@ pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
-    BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution,
-    RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
+    BeyondRange, ContinuumPart, Faces, GapShare, NamedRange, RawContinuum, RawGroup, RawReport, RawShares,
+    RawSolution, RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 pub use right_hand_sides::{EveryAnswer, EveryRightHandSide};
 #[cfg(any(feature = "json", feature = "npz"))]
@@ -109,6 +115,34 @@ pub enum RawProblem {
         b: DMatrix<f64>,
         /// The right-hand side.
         q: DVector<f64>,
+    },
+    /// `w = M z + q` with free `z_k` for which `w_k = 0`, and others with `w_k >= 0`, `z_k >= 0`,
+    /// `w_k z_k = 0`: `M = [[A, C], [D, B]]`, `q = (a, b)`, `z = (u, z)`.
+    MixedLinearComplementarity {
+        /// The matrix.
+        m: DMatrix<f64>,
+        /// The constant part.
+        q: DVector<f64>,
+        /// The number of free unknowns, which come first.
+        free: usize,
+    },
+    /// `w = M z + q`, `l <= z <= u`, `w_k >= 0` where `z_k < u_k`, `w_k <= 0` where `z_k > l_k`.
+    MixedComplementarity {
+        /// The matrix.
+        m: DMatrix<f64>,
+        /// The constant part.
+        q: DVector<f64>,
+        /// The lower bounds; minus infinity for none.
+        lower: DVector<f64>,
+        /// The upper bounds, not below the lower ones; infinity for none.
+        upper: DVector<f64>,
+    },
+    /// Nash equilibria in mixed strategies: `x` maximises `x^T A y`, and `y` maximises `x^T B y`.
+    Game {
+        /// The payoffs of the first player, who chooses rows.
+        a: DMatrix<f64>,
+        /// The payoffs of the second player, who chooses columns.
+        b: DMatrix<f64>,
     },
     /// The mode problem itself.
     Modes(ModeProblem),
@@ -196,11 +230,15 @@ impl RawProblem {
             Self::LinearComplementarity { .. } => RawKind::Lcp,
             Self::AbsoluteValue { .. } => RawKind::Ave,
             Self::HorizontalComplementarity { .. } => RawKind::Hlcp,
+            Self::MixedLinearComplementarity { .. } => RawKind::Mlcp,
+            Self::MixedComplementarity { .. } => RawKind::Mcp,
+            Self::Game { .. } => RawKind::Game,
             Self::Modes(_) => RawKind::Modes,
         }
     }
 
-    /// The mode problem with the same solutions. Its signed `N` is `z - w`, or `x`.
+    /// The mode problem with the same solutions. Its signed `N` is `z - w`, or `x`; with bounds, and of a
+    /// game, it has further unknowns.
     ///
     /// # Errors
     /// If shapes do not match, an entry is not finite, or `A + B` overflows.
@@ -213,14 +251,42 @@ impl RawProblem {
             Self::HorizontalComplementarity { a, b, q } => {
                 ModeProblem::from_horizontal_complementarity(a, b, q.clone())
             }
+            Self::MixedLinearComplementarity { m, q, free } => {
+                mixed::Bounds::of_free(*free, q.len()).mode_problem(m, q)
+            }
+            Self::MixedComplementarity { m, q, lower, upper } => {
+                mixed::Bounds::new(lower, upper).mode_problem(m, q)
+            }
+            Self::Game { a, b } => game::mode_problem(a, b),
             Self::Modes(problem) => Ok(problem.clone()),
         }
     }
 
-    /// Whether `A + B` and `B - A`, the columns of an absolute value equation, are finite.
+    /// The problem whose determinants say whether every right-hand side has exactly one solution; `None` for a
+    /// game, which has no right-hand side.
+    fn problem_of_every_right_hand_side(&self) -> Option<Result<ModeProblem, ModeProblemError>> {
+        match self {
+            Self::MixedComplementarity { m, q, lower, upper } => {
+                Some(mixed::Bounds::new(lower, upper).at_zero().mode_problem(m, q))
+            }
+            Self::Game { .. } => None,
+            _ => Some(self.mode_problem()),
+        }
+    }
+
+    /// Whether `A + B` and `B - A`, the columns of an absolute value equation, are finite, and whether there
+    /// are not too many bounds.
     #[cfg(any(feature = "json", feature = "npz"))]
     fn check_range(&self) -> Result<(), RawFault> {
-        let Self::AbsoluteValue { a, b, .. } = self else { return Ok(()) };
+        let (a, b) = match self {
+            Self::AbsoluteValue { a, b, .. } => (a, b),
+            Self::MixedComplementarity { m, q, lower, upper } => {
+                let found = mixed::Bounds::new(lower, upper).unknowns(m, q);
+                let limit = GREATEST_SIZE;
+                return if found > limit { Err(RawFault::TooManyUnknowns { found, limit }) } else { Ok(()) };
+            }
+            _ => return Ok(()),
+        };
         let overflows = |at: &usize| !(a[*at] + b[*at]).is_finite() || !(b[*at] - a[*at]).is_finite();
         match (0..a.len()).find(overflows) {
             Some(at) => Err(RawFault::Overflow { row: at % a.nrows(), column: at / a.nrows() }),

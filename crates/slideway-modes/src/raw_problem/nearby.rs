@@ -11,7 +11,8 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 
 use super::RawProblem;
-use super::report::{Unknowns, WithinRounding, WithinRoundingAnswer};
+use super::correspondence::Correspondence;
+use super::report::{WithinRounding, WithinRoundingAnswer};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, IntervalModeProblem, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
@@ -31,9 +32,10 @@ const VERTICES: usize = 16;
 /// Candidates are tried in exact arithmetic only for up to this many unknowns.
 const LARGEST: usize = 200;
 
-/// What is to be reported; `None` if the right-hand side jumps, or if numbers are too large.
+/// What is to be reported; `None` if the right-hand side jumps, for unknowns between bounds, for games, which
+/// have a solution always, or if numbers are too large.
 pub(super) fn within_rounding(
-    raw: &RawProblem,
+    (raw, correspondence): (&RawProblem, &Correspondence),
     problem: &ModeProblem,
     (options, nodes): (&SearchOptions, u64),
     progress: &mut Callback<'_>,
@@ -57,7 +59,7 @@ pub(super) fn within_rounding(
         None if nothing && result.completeness == Completeness::Proven => WithinRoundingAnswer::None,
         None => WithinRoundingAnswer::Unknown,
     };
-    let unknowns = found.map(|point| Unknowns::new(raw.kind(), point.as_slice()));
+    let unknowns = found.map(|point| correspondence.unknowns(point.as_slice()));
     Some(WithinRounding { relative: TOLD, answer, unknowns })
 }
 
@@ -76,6 +78,13 @@ impl<'a> Nearby<'a> {
             RawProblem::LinearComplementarity { m, .. } => (m.abs(), DMatrix::zeros(size, size)),
             RawProblem::AbsoluteValue { a, b, .. } => (a.abs() + b.abs(), a.abs() + b.abs()),
             RawProblem::HorizontalComplementarity { a, b, .. } => (b.abs(), a.abs()),
+            // A u + C z + a = 0, w = D u + B z + b: the columns of w are not rounded.
+            RawProblem::MixedLinearComplementarity { free, .. } => {
+                let mut negative = problem.columns(Side::Negative).abs();
+                negative.columns_mut(*free, size - free).fill(0.0);
+                (problem.columns(Side::Positive).abs(), negative)
+            }
+            RawProblem::MixedComplementarity { .. } | RawProblem::Game { .. } => return None,
             RawProblem::Modes(_) => {
                 (problem.columns(Side::Positive).abs(), problem.columns(Side::Negative).abs())
             }

@@ -1,9 +1,10 @@
 //! The report of a raw problem: plain data, which are the JSON output.
 
+use std::ops::Range;
+
 use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
-use super::range::in_range;
 use super::right_hand_sides::EveryRightHandSide;
 use crate::status::{Proof, Status};
 
@@ -19,8 +20,13 @@ pub struct RawReport {
     /// Type of the problem.
     #[serde(rename = "type")]
     pub kind: RawKind,
-    /// Number n of unknowns (of pairs of them in a complementarity problem).
+    /// Number n of unknowns (of pairs of them in a complementarity problem; of the pure strategies of both
+    /// players in a game).
     pub size: usize,
+    /// Of these, the free unknowns of a mixed linear complementarity problem, or the first player's strategies;
+    /// they come first. Zero for other types.
+    #[serde(skip)]
+    pub first: usize,
     /// How many solutions there are; if the search ended early, how many were found.
     pub status: Status,
     /// Whether the list of solutions is proven complete.
@@ -82,7 +88,7 @@ pub struct Faces {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Unknowns {
-    /// For a linear or horizontal complementarity problem.
+    /// For a linear or horizontal complementarity problem, or one with bounds.
     Complementary {
         /// `z`.
         #[serde(serialize_with = "known_values")]
@@ -90,6 +96,33 @@ pub enum Unknowns {
         /// `w`.
         #[serde(serialize_with = "known_values")]
         w: Vec<f64>,
+    },
+    /// For a mixed linear complementarity problem.
+    Mixed {
+        /// `u`, the free unknowns.
+        #[serde(serialize_with = "known_values")]
+        u: Vec<f64>,
+        /// `z`.
+        #[serde(serialize_with = "known_values")]
+        z: Vec<f64>,
+        /// `w`.
+        #[serde(serialize_with = "known_values")]
+        w: Vec<f64>,
+    },
+    /// For a game; a part of a continuum is one player's strategy, with the payoff of the other.
+    Strategies {
+        /// `x`; of a game, the probabilities of the rows, the first player's strategies.
+        #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "known_values")]
+        x: Vec<f64>,
+        /// `y_k = |N_k|`; of a game, the probabilities of the columns, the second player's strategies.
+        #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "known_values")]
+        y: Vec<f64>,
+        /// The first player's payoff, which depends on `y`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        payoff_1: Option<f64>,
+        /// The second player's payoff, which depends on `x`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        payoff_2: Option<f64>,
     },
     /// For an absolute value equation.
     AbsoluteValue {
@@ -120,39 +153,42 @@ fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Er
 }
 
 impl Unknowns {
-    /// The unknowns with these signed values `N`, which are `z - w`, or `x`.
-    pub(super) fn new(kind: RawKind, signed: &[f64]) -> Self {
-        // Removes the sign of a zero.
-        let number = |value: f64| if in_range(value) { value + 0.0 } else { f64::NAN };
-        let all = |of: fn(f64) -> f64| signed.iter().map(|&value| number(of(value))).collect();
-        match kind {
-            RawKind::Lcp | RawKind::Hlcp => {
-                Self::Complementary { z: all(|value| value.max(0.0)), w: all(|value| (-value).max(0.0)) }
-            }
-            RawKind::Ave => Self::AbsoluteValue { x: all(|value| value) },
-            RawKind::Modes => Self::Modes { normal_forces: all(|value| value), y: all(f64::abs) },
-        }
-    }
-
-    /// The names of the unknowns to which a nonzero signed value belongs, each with the sign under that name.
-    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(RawUnknown, f64)] {
-        match kind {
-            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[(RawUnknown::Z, 1.0)],
-            RawKind::Lcp | RawKind::Hlcp => &[(RawUnknown::W, 1.0)],
-            RawKind::Ave if signed > 0.0 => &[(RawUnknown::X, 1.0)],
-            RawKind::Ave => &[(RawUnknown::X, -1.0)],
-            RawKind::Modes if signed > 0.0 => &[(RawUnknown::NormalForces, 1.0), (RawUnknown::Y, 1.0)],
-            RawKind::Modes => &[(RawUnknown::NormalForces, -1.0), (RawUnknown::Y, 1.0)],
-        }
-    }
-
-    /// Names and values.
+    /// Names and values, in the order of [`RawReport::names`].
     pub fn named(&self) -> Vec<(&'static str, &[f64])> {
         match self {
             Self::Complementary { z, w } => vec![("z", z), ("w", w)],
+            Self::Mixed { u, z, w } => vec![("u", u), ("z", z), ("w", w)],
+            Self::Strategies { x, y, payoff_1, payoff_2 } => {
+                vec![("x", x), ("y", y), ("payoff_1", payoff_1.as_slice()), ("payoff_2", payoff_2.as_slice())]
+            }
             Self::AbsoluteValue { x } => vec![("x", x)],
             Self::Modes { normal_forces, y } => vec![("normal_forces", normal_forces), ("y", y)],
         }
+    }
+}
+
+/// A name of unknowns, and their indices among all unknowns; none for the payoffs of a game.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedRange {
+    /// The name.
+    pub name: &'static str,
+    /// The indices, which count what has a sign.
+    pub indices: Option<Range<usize>>,
+}
+
+impl RawReport {
+    /// The names of the unknowns, in the order of [`Unknowns::named`].
+    pub fn names(&self) -> Vec<NamedRange> {
+        let (first, size) = (self.first, self.size);
+        let (all, own, others) = (Some(0..size), Some(0..first), Some(first..size));
+        let ranges: &[(&'static str, Option<Range<usize>>)] = match self.kind {
+            RawKind::Lcp | RawKind::Hlcp | RawKind::Mcp => &[("z", all.clone()), ("w", all)],
+            RawKind::Mlcp => &[("u", own), ("z", others.clone()), ("w", others)],
+            RawKind::Game => &[("x", own), ("y", others), ("payoff_1", None), ("payoff_2", None)],
+            RawKind::Ave => &[("x", all)],
+            RawKind::Modes => &[("normal_forces", all.clone()), ("y", all)],
+        };
+        ranges.iter().map(|(name, indices)| NamedRange { name, indices: indices.clone() }).collect()
     }
 }
 
@@ -199,7 +235,10 @@ pub struct RawSolution {
     /// The unknowns.
     #[serde(flatten)]
     pub unknowns: Unknowns,
-    /// Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes.
+    /// Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
+    /// where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a mixed problem, the signs of `u` come
+    /// first. Of a game: for the pure strategies of both players, 1 if it is played, 0 if it is another best
+    /// response, -1 if not.
     pub signs: Vec<i8>,
     /// Whether some sign outside a gap is 0: the solution is on the boundary between patterns.
     pub on_boundary: bool,
@@ -248,25 +287,36 @@ pub enum RawUnknown {
     Z,
     /// `w` of a complementarity problem.
     W,
-    /// `x` of an absolute value equation.
+    /// `u` of a mixed linear complementarity problem.
+    U,
+    /// `x` of an absolute value equation, or of a game.
     X,
     /// The signed normal forces of a mode problem.
     NormalForces,
-    /// `y`, the sizes of the normal forces.
+    /// `y`, the sizes of the normal forces, or of a game.
     Y,
+    /// The first player's payoff.
+    #[serde(rename = "payoff_1")]
+    Payoff1,
+    /// The second player's payoff.
+    #[serde(rename = "payoff_2")]
+    Payoff2,
     /// The share lambda of an unknown in its gap.
     Lambda,
 }
 
 impl RawUnknown {
-    /// "z", "w", "x", "`normal_forces`", "y" or "lambda"
+    /// "z", "w", "u", "x", "`normal_forces`", "y", "`payoff_1`", "`payoff_2`" or "lambda"
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Z => "z",
             Self::W => "w",
+            Self::U => "u",
             Self::X => "x",
             Self::NormalForces => "normal_forces",
             Self::Y => "y",
+            Self::Payoff1 => "payoff_1",
+            Self::Payoff2 => "payoff_2",
             Self::Lambda => "lambda",
         }
     }
@@ -289,7 +339,7 @@ pub struct GapShare {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawContinuum {
-    /// "+", "-" or "0" (in the gap) for every unknown.
+    /// "+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap.
     pub pattern: String,
     /// Whether it is not part of a larger continuum.
     pub maximal: bool,
@@ -302,7 +352,7 @@ pub struct RawContinuum {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContinuumPart {
-    /// The unknowns, from 0; vertices and directions have one entry for each.
+    /// The unknowns, from 0, as `signs` counts them; vertices and directions have one entry for each.
     pub indices: Vec<usize>,
     /// The vertices, up to the requested number: the ends of a segment, or the end of a ray.
     pub vertices: Vec<Unknowns>,

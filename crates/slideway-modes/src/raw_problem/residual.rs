@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::RawProblem;
 use super::range::nearest;
-use crate::problem::Side;
+use crate::problem::{ModeProblem, Side};
 
 /// The factor of a matrix in the equations, for an unknown `N` with share `lambda` of the positive jump.
 #[derive(Clone, Copy)]
@@ -23,14 +23,15 @@ enum Multiplier {
     OtherShare,
 }
 
-/// `sum of matrices times factors = load`, without using the mode problem for types that are not one.
+/// `sum of matrices times factors = load`, without using the mode problem for types whose unknowns have the same
+/// matrices.
 pub(super) struct Equations<'a> {
     terms: Vec<(Cow<'a, DMatrix<f64>>, Multiplier)>,
     load: &'a DVector<f64>,
 }
 
 impl<'a> Equations<'a> {
-    pub(super) fn of(raw: &'a RawProblem) -> Self {
+    pub(super) fn of(raw: &'a RawProblem, problem: &'a ModeProblem) -> Self {
         let given = |matrix: &'a DMatrix<f64>, factor| (Cow::Borrowed(matrix), factor);
         let negated = |matrix: &DMatrix<f64>, factor| (Cow::Owned(-matrix), factor);
         match raw {
@@ -52,7 +53,10 @@ impl<'a> Equations<'a> {
                 load: q,
             },
             // sum c_k y_k - sum d_k = N(0)
-            RawProblem::Modes(problem) => Self {
+            RawProblem::MixedLinearComplementarity { .. }
+            | RawProblem::MixedComplementarity { .. }
+            | RawProblem::Game { .. }
+            | RawProblem::Modes(_) => Self {
                 terms: vec![
                     given(problem.columns(Side::Positive), Multiplier::Positive),
                     given(problem.columns(Side::Negative), Multiplier::Negative),

@@ -84,7 +84,11 @@ impl RawProblem {
         &self,
         progress: &mut Callback<'_>,
     ) -> Result<EveryRightHandSide, ModeProblemError> {
-        let problem = self.mode_problem()?;
+        let Some(problem) = self.problem_of_every_right_hand_side() else {
+            let reason = "a game has no right-hand side".to_owned();
+            return Ok(EveryRightHandSide { answer: EveryAnswer::NotComputed, patterns: Vec::new(), reason });
+        };
+        let problem = problem?;
         let mut limits = UniquenessLimits::default();
         if problem.contacts() > EXACT_UNKNOWNS {
             limits.exact = 0;

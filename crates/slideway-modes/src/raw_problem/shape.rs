@@ -24,6 +24,15 @@ impl Shape {
             deeper => Self::Deeper(deeper.len()),
         }
     }
+
+    /// The number of entries of a vector or matrix.
+    pub(super) fn entries(&self) -> usize {
+        match self {
+            Self::Number | Self::Deeper(_) => 1,
+            Self::Vector(length) => *length,
+            Self::Matrix(rows, columns) => rows * columns,
+        }
+    }
 }
 
 impl fmt::Display for Shape {

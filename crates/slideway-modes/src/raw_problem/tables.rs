@@ -1,6 +1,9 @@
 //! The report as a NumPy archive.
 
-use super::report::{BeyondRange, ContinuumPart, RawReport, RawSolution, Unknowns};
+use std::iter;
+use std::ops::Range;
+
+use super::report::{BeyondRange, ContinuumPart, NamedRange, RawReport, RawSolution, Unknowns};
 use super::{npy, npz};
 
 /// The report as a NumPy archive (`.npz`).
@@ -72,11 +75,9 @@ impl Archive {
         prefix: &str,
         rows: &(impl Iterator<Item = &'r Unknowns> + Clone),
     ) {
-        let names: Vec<&str> =
-            Unknowns::new(report.kind, &[]).named().iter().map(|(name, _)| *name).collect();
-        for (at, name) in names.into_iter().enumerate() {
+        for (at, NamedRange { name, indices }) in report.names().into_iter().enumerate() {
             let values: Vec<f64> = rows.clone().flat_map(|row| row.named()[at].1.to_vec()).collect();
-            let sizes = [values.len() / self.size.max(1), self.size];
+            let sizes = shape(rows.clone().count(), indices.as_ref());
             self.push(&format!("{prefix}{name}"), npy::write_numbers(&sizes, &values));
         }
     }
@@ -172,18 +173,33 @@ impl Archive {
                 rows.extend(of(part).iter().map(|row| (number, part_number, part, row)));
             }
         }
-        let names = Unknowns::new(report.kind, &[]);
-        for (at, (unknown, _)) in names.named().into_iter().enumerate() {
-            let mut values = vec![0.0; rows.len() * self.size];
-            for ((_, _, part, row), values) in rows.iter().zip(values.chunks_exact_mut(self.size.max(1))) {
-                part.indices.iter().zip(row.named()[at].1).for_each(|(&index, &value)| values[index] = value);
+        for (at, NamedRange { name: unknown, indices }) in report.names().into_iter().enumerate() {
+            let sizes = shape(rows.len(), indices.as_ref());
+            let width = sizes.get(1).copied().unwrap_or(1);
+            let mut values = vec![0.0; rows.len() * width];
+            for ((_, _, part, row), values) in rows.iter().zip(values.chunks_exact_mut(width.max(1))) {
+                let places: Vec<usize> = match &indices {
+                    Some(range) => part
+                        .indices
+                        .iter()
+                        .filter(|index| range.contains(index))
+                        .map(|index| index - range.start)
+                        .collect(),
+                    None => vec![0],
+                };
+                places.iter().zip(row.named()[at].1).for_each(|(&place, &value)| values[place] = value);
             }
-            self.push(&format!("{name}_{unknown}"), npy::write_numbers(&[rows.len(), self.size], &values));
+            self.push(&format!("{name}_{unknown}"), npy::write_numbers(&sizes, &values));
         }
         let (continua, parts): (Vec<i64>, Vec<i64>) = rows.iter().map(|row| (row.0, row.1)).unzip();
         self.push(&format!("{name}_continuum"), npy::write_integers(&[rows.len()], &continua));
         self.push(&format!("{name}_part"), npy::write_integers(&[rows.len()], &parts));
     }
+}
+
+/// The sizes of an array with a row for each of several solutions; a payoff, which has no index, is a number.
+fn shape(rows: usize, indices: Option<&Range<usize>>) -> Vec<usize> {
+    iter::once(rows).chain(indices.map(Range::len)).collect()
 }
 
 #[cfg(test)]

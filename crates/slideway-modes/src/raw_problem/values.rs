@@ -2,9 +2,9 @@
 
 use dashu_ratio::RBig;
 
-use super::RawKind;
+use super::correspondence::{Correspondence, Quantity};
 use super::range::{exact_unknown, in_range, nearest, told};
-use super::report::{BeyondRange, GapShare, RawUnknown, Unknowns};
+use super::report::{BeyondRange, GapShare, RawUnknown};
 use super::residual::{Equations, exact};
 use crate::problem::{ContactState, ModeProblem};
 use crate::search::CombinedState;
@@ -31,7 +31,7 @@ impl Values {
     /// values, and reports the unknowns that have no such number.
     pub(super) fn settle(
         &mut self,
-        kind: RawKind,
+        correspondence: &Correspondence,
         problem: &ModeProblem,
         pattern: &[ContactState],
     ) -> Vec<BeyondRange> {
@@ -42,10 +42,11 @@ impl Values {
                 self.signed[at] = value.copysign(self.signed[at]);
                 continue;
             }
-            for &(name, sign) in Unknowns::names(kind, self.signed[at]) {
-                let value = told(sign, self.signed[at], exact.as_ref());
-                told_of.push(BeyondRange { name, index: at, value });
-            }
+            told_of.extend(beyond_range(
+                &correspondence.quantities(at, self.signed[at]),
+                self.signed[at],
+                exact.as_ref(),
+            ));
             self.beyond.push((at, exact));
         }
         for gap in self.gaps.iter_mut().filter(|gap| !in_range(gap.lambda)) {
@@ -86,4 +87,18 @@ impl Values {
         }
         Some(equations.exact_residual(&exact_signed, &exact_shares))
     }
+}
+
+/// The unknowns that have no floating-point number because one of the mode problem has none, given its rounded
+/// and perhaps its exact size.
+fn beyond_range(quantities: &[Quantity], signed: f64, size: Option<&RBig>) -> Vec<BeyondRange> {
+    // A bound and a number too small to matter have a floating-point number near.
+    let is_beyond = |quantity: &&Quantity| quantity.shift == 0.0 || signed.is_infinite();
+    let told_of = |quantity: &Quantity| {
+        let &Quantity { name, index, sign, shift } = quantity;
+        // |shift + sign size|, which has the sign of the second term.
+        let size = size.map(|size| exact(sign * shift) + size);
+        BeyondRange { name, index, value: told(sign, signed, size.as_ref()) }
+    };
+    quantities.iter().filter(is_beyond).map(told_of).collect()
 }

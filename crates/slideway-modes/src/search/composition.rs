@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::count::BigCount;
 use super::group::{GroupAnswer, search_group};
 use super::groups::Groups;
 use super::load::{Load, LoadedProblem};
@@ -11,7 +12,7 @@ use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ProblemView, Side, SolutionSet};
-use crate::solutions::{Certificate, SingularMode, Solutions, UndecidedPattern};
+use crate::solutions::{Certificate, Limits, SingularMode, Solutions, UndecidedPattern};
 
 /// Maximum number of group answers that are kept for reuse with the same right-hand side.
 const MOST_KEPT: usize = 10_000;
@@ -100,7 +101,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         let part_size: usize = part.iter().map(|&group| self.groups.members[group].len()).sum();
         let own = work.share * first.len() as f64 / part_size.max(1) as f64;
         self.monitor.start_group(work.done, own);
-        let answer = self.solve_group(&first, load);
+        let answer = self.solve_group(&first, load, rest.is_empty());
         if rest.is_empty() {
             return Factor { alternatives: answer.alternatives(), contacts: first };
         }
@@ -112,7 +113,8 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         let share = left.share / answer.states.len().max(1) as f64;
         let mut done = left.done;
         let mut alternatives = Vec::new();
-        for state in &answer.states {
+        let mut found = BigCount::default();
+        for (at, state) in answer.states.iter().enumerate() {
             let acting = self.load_with(&first, state, load);
             if !acting.is_finite() {
                 // No floating-point number can represent what acts on the others.
@@ -122,10 +124,16 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             // A state for which the others have no solution is not a solution, and there may be very many of
             // them.
             if !dependents.is_empty() {
+                found = found.plus(&dependents.counts().solutions);
                 alternatives.push(Alternative { state: Arc::clone(state), dependents });
             }
             // All answers may be known already, and combinations are very many.
             if !self.monitor.goes_on() {
+                break;
+            }
+            let enough = found.to_u64().is_none_or(|found| found >= self.options.limits.solutions as u64);
+            if enough && at + 1 < answer.states.len() {
+                self.monitor.have_enough();
                 break;
             }
             done += share;
@@ -139,20 +147,28 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
         contacts.sort_unstable();
         self.monitor.start_group(work.done, work.share);
-        let answer = self.solve_group(&contacts, load);
+        let answer = self.solve_group(&contacts, load, true);
         Factor { alternatives: answer.alternatives(), contacts }
     }
 
     /// The solutions of one group's equations; each right-hand side is solved once.
-    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Arc<SolvedGroup> {
+    ///
+    /// The limit of solutions holds for groups on which no others depend (`is_last`): of others, any solution may
+    /// be one for which those have none.
+    fn solve_group(&mut self, contacts: &[usize], load: &Load, is_last: bool) -> Arc<SolvedGroup> {
         let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
         let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
         if let Some(answer) = self.solved.get(&key) {
             return Arc::clone(answer);
         }
         let restricted = LoadedProblem::restricted(self.problem, contacts, load);
+        let mut options = *self.options;
+        if !is_last {
+            options.limits.solutions = options.limits.solutions.max(Limits::default().solutions);
+        }
         let GroupAnswer { solutions, mut report, depends_on_ancestors } =
-            search_group(&restricted, self.options, self.monitor);
+            search_group(&restricted, &options, self.monitor);
+        self.monitor.end_group();
         self.monitor.count_found(solutions.solutions.len() + solutions.gaps.len());
         report.contacts = contacts.to_vec();
         self.all_examined &= solutions.is_complete();

@@ -139,7 +139,7 @@ pub fn search<'a>(
     let Composition { product, reports: groups, abandoned_nodes, chain_proven, all_examined } =
         alternation::solve(problem, options, &mut monitor);
     let proven = chain_proven && groups.iter().all(|group| group.proven);
-    let completeness = match monitor.stopped() {
+    let completeness = match monitor.reason() {
         Some(reason) => Completeness::Partial(reason),
         None if !all_examined => Completeness::Unexamined,
         None if proven => Completeness::Proven,

@@ -18,6 +18,10 @@ pub(super) struct Monitor<'a> {
     /// The latest report.
     told: Progress,
     stopped: Option<StopReason>,
+    /// Whether the current group has as many solutions as are wanted, and whether this was so of any.
+    group_has_enough: bool,
+    some_had_enough: bool,
+    attempts_before_had_enough: bool,
 }
 
 impl<'a> Monitor<'a> {
@@ -34,6 +38,9 @@ impl<'a> Monitor<'a> {
             share: 1.0,
             told,
             stopped: None,
+            group_has_enough: false,
+            some_had_enough: false,
+            attempts_before_had_enough: false,
         }
     }
 
@@ -50,6 +57,7 @@ impl<'a> Monitor<'a> {
     /// Begins an attempt that may visit so many nodes.
     pub(super) fn begin_attempt(&mut self, budget: u64) {
         self.budget_end = self.nodes.saturating_add(budget);
+        self.attempts_before_had_enough = self.some_had_enough;
     }
 
     /// Ends the present attempt as if its budget were used up; the search goes on with another one.
@@ -63,22 +71,36 @@ impl<'a> Monitor<'a> {
         let given_up = std::mem::take(&mut self.out_of_budget);
         if given_up {
             self.states_found = states_found_before;
+            self.some_had_enough = self.attempts_before_had_enough;
         }
         given_up
     }
 
-    /// Whether the present attempt has ended early.
+    /// Whether the search of the current group, or the present attempt, has ended early.
     pub(super) fn has_ended(&self) -> bool {
-        self.out_of_budget || self.stopped.is_some()
+        self.out_of_budget || self.stopped().is_some()
     }
 
+    /// Why the search of the current group must end.
     pub(super) fn stopped(&self) -> Option<StopReason> {
-        self.stopped
+        self.stopped.or(self.group_has_enough.then_some(StopReason::SolutionLimit))
     }
 
-    /// Ends the search, unless only the present attempt has ended.
+    /// Why the search did not go to its end.
+    pub(super) fn reason(&self) -> Option<StopReason> {
+        self.stopped.or(self.some_had_enough.then_some(StopReason::SolutionLimit))
+    }
+
+    /// Ends the search, unless only the present attempt has ended; the search of the current group alone if it has
+    /// solutions enough, since without those of the others these would be solutions of nothing.
     pub(super) fn stop(&mut self, reason: StopReason) {
-        if !self.out_of_budget {
+        if self.out_of_budget {
+            return;
+        }
+        if reason == StopReason::SolutionLimit {
+            self.group_has_enough = true;
+            self.some_had_enough = true;
+        } else {
             self.stopped.get_or_insert(reason);
         }
     }
@@ -87,6 +109,16 @@ impl<'a> Monitor<'a> {
     pub(super) fn start_group(&mut self, done: f64, share: f64) {
         self.done = done;
         self.share = share;
+    }
+
+    /// The search of the current group is over.
+    pub(super) fn end_group(&mut self) {
+        self.group_has_enough = false;
+    }
+
+    /// Not every combination of solutions is looked for, since there are as many as are wanted.
+    pub(super) fn have_enough(&mut self) {
+        self.some_had_enough = true;
     }
 
     pub(super) fn count_found(&mut self, states: usize) {

@@ -1491,6 +1491,11 @@ def gallery_models() -> dict[str, str]:
     'A drawer pushed off-centre.'
     """
 
+def game(a: ArrayLike, b: ArrayLike | None, options: dict[str, Any]) -> reports.RawReport:
+    """
+    All equilibria of a bimatrix game.
+    """
+
 def hlcp(a: ArrayLike, b: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
     """
     All solutions of `A w - B z = q`.
@@ -1541,6 +1546,11 @@ def lcp(m: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawRepor
     All solutions of `w = M z + q`.
     """
 
+def mcp(m: ArrayLike, q: ArrayLike, bounds: tuple[ArrayLike, ArrayLike], options: dict[str, Any]) -> reports.RawReport:
+    """
+    All solutions of `w = M z + q` within bounds.
+    """
+
 def merge(folder: str | PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None) -> _sweep.Sweep:
     """
     One table of all parts of a sweep in a folder, with numbers of branches.
@@ -1567,6 +1577,11 @@ def merge(folder: str | PathLike[str], *, time_limit: float | None = None, progr
     Examples
     --------
     See `Model.write_shard`.
+    """
+
+def mlcp(matrices: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike], vectors: tuple[ArrayLike, ArrayLike], options: dict[str, Any]) -> reports.RawReport:
+    """
+    All solutions of `A u + C z + a = 0`, `w = D u + B z + b`.
     """
 
 def mode_problem(columns_positive: ArrayLike, columns_negative: ArrayLike, right_hand_side: ArrayLike, jumps: tuple[ArrayLike, ArrayLike] | None, options: dict[str, Any]) -> reports.RawReport:

@@ -1,4 +1,4 @@
-"""All solutions of problems given by matrices: absolute value equations, linear complementarity problems.
+"""All solutions of problems given by matrices: absolute value equations, complementarity problems, games.
 
 >>> import slideway.modes
 >>> answer = slideway.modes.lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, -1.0])
@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from . import _slideway, reports
 
-__all__ = ["hlcp", "lcp", "mode_problem", "solve"]
+__all__ = ["game", "hlcp", "lcp", "mcp", "mlcp", "mode_problem", "solve"]
 
 Progress = Callable[[float | None, int, str], object]
 
@@ -46,11 +46,12 @@ def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.R
     Other Parameters
     ----------------
     max_solutions : int, default 100
-        How many solutions to list; all are counted.
+        How many solutions to list, perhaps none; all are counted.
     max_nodes : int, optional
         After how many nodes the search ends; the answer is then partial.
     max_found : int, optional
-        The search ends once a group of unknowns has so many solutions; the answer is then partial.
+        The search of unknowns that do not depend on others ends once it has more solutions than this; the answer
+        is then partial.
     all_faces : bool, default False
         Whether to list the parts of continua.
     uniqueness : bool, default False
@@ -126,6 +127,91 @@ def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **options: Any) -> reports.Ra
     [[0.5]]
     """
     return _slideway.hlcp(A, B, q, _options(**options))
+
+
+def mlcp(
+    A: ArrayLike, B: ArrayLike, C: ArrayLike, D: ArrayLike, a: ArrayLike, b: ArrayLike, **options: Any
+) -> reports.RawReport:
+    """All solutions of the mixed linear complementarity problem `A u + C z + a = 0`, `w = D u + B z + b`, `w >= 0`,
+    `z >= 0`, `w z = 0`, in which `u` is free.
+
+    Parameters
+    ----------
+    A, B, C, D : array, n by n, m by m, n by m and m by n
+    a, b : array of n and of m
+
+    Other Parameters
+    ----------------
+    **options
+        As for `solve`.
+
+    Returns
+    -------
+    reports.RawReport
+
+    Examples
+    --------
+    >>> answer = mlcp([[0.0]], [[1.0]], [[1.0]], [[-1.0]], [-1.0], [0.0])     # z = 1, w = z - u
+    >>> [(solution.u.tolist(), solution.z.tolist()) for solution in answer]
+    [([1.0], [1.0])]
+    """
+    return _slideway.mlcp((A, B, C, D), (a, b), _options(**options))
+
+
+def mcp(M: ArrayLike, q: ArrayLike, l: ArrayLike, u: ArrayLike, **options: Any) -> reports.RawReport:  # noqa: E741
+    """All solutions of the mixed complementarity problem `w = M z + q`, `l <= z <= u`, with `w >= 0` where `z < u`, and
+    `w <= 0` where `z > l`.
+
+    Parameters
+    ----------
+    M : array, n by n
+    q, l, u : array of n
+        Bounds may be infinite.
+
+    Other Parameters
+    ----------------
+    **options
+        As for `solve`.
+
+    Returns
+    -------
+    reports.RawReport
+
+    Examples
+    --------
+    >>> answer = mcp([[1.0]], [-5.0], [0.0], [3.0])
+    >>> [(solution.z.tolist(), solution.w.tolist()) for solution in answer]
+    [([3.0], [-2.0])]
+    """
+    return _slideway.mcp(M, q, (l, u), _options(**options))
+
+
+def game(A: ArrayLike, B: ArrayLike | None = None, **options: Any) -> reports.RawReport:
+    """All Nash equilibria of a bimatrix game: `x` maximises `x A y`, and `y` maximises `x B y`.
+
+    Parameters
+    ----------
+    A : array, m by n
+        Payoffs of the first player, who chooses a row.
+    B : array, m by n, optional
+        Payoffs of the second player, who chooses a column; by default `-A`.
+
+    Other Parameters
+    ----------------
+    **options
+        As for `solve`.
+
+    Returns
+    -------
+    reports.RawReport
+
+    Examples
+    --------
+    >>> answer = game([[2.0, 0.0], [0.0, 1.0]], [[1.0, 0.0], [0.0, 2.0]])     # battle of the sexes
+    >>> [(solution.x.round(3).tolist(), round(solution.payoff_1, 3)) for solution in answer]
+    [([0.667, 0.333], 0.667), ([1.0, 0.0], 2.0), ([0.0, 1.0], 1.0)]
+    """
+    return _slideway.game(A, B, _options(**options))
 
 
 def mode_problem(

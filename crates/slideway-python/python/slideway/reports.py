@@ -499,22 +499,28 @@ Proof = Literal["proven", "not proven"]
 - `"proven"`: It is proven complete.
 - `"not proven"`: It is not proven complete."""
 
-RawKind = Literal["lcp", "ave", "hlcp", "modes"]
+RawKind = Literal["lcp", "ave", "hlcp", "mlcp", "mcp", "game", "modes"]
 """The type of a raw problem.
 
 - `"lcp"`: Linear complementarity problem.
 - `"ave"`: Absolute value equation.
 - `"hlcp"`: Horizontal linear complementarity problem.
+- `"mlcp"`: Mixed linear complementarity problem: some unknowns are free.
+- `"mcp"`: Mixed complementarity problem with a linear function: every unknown between two bounds.
+- `"game"`: Bimatrix game.
 - `"modes"`: Mode problem."""
 
-RawUnknown = Literal["z", "w", "x", "normal_forces", "y", "lambda"]
+RawUnknown = Literal["z", "w", "u", "x", "normal_forces", "y", "payoff_1", "payoff_2", "lambda"]
 """The names of unknowns.
 
 - `"z"`: `z` of a complementarity problem.
 - `"w"`: `w` of a complementarity problem.
-- `"x"`: `x` of an absolute value equation.
+- `"u"`: `u` of a mixed linear complementarity problem.
+- `"x"`: `x` of an absolute value equation, or of a game.
 - `"normal_forces"`: The signed normal forces of a mode problem.
-- `"y"`: `y`, the sizes of the normal forces.
+- `"y"`: `y`, the sizes of the normal forces, or of a game.
+- `"payoff_1"`: The first player's payoff.
+- `"payoff_2"`: The second player's payoff.
 - `"lambda"`: The share lambda of an unknown in its gap."""
 
 SampleKind = Literal["finite", "infinite", "no_solution", "no_position"]
@@ -960,7 +966,7 @@ class ContinuumPart(Record):
     directions."""
 
     indices: tuple[int, ...]
-    """The unknowns, from 0; vertices and directions have one entry for each."""
+    """The unknowns, from 0, as `signs` counts them; vertices and directions have one entry for each."""
     vertices: tuple[Mapping[str, Any], ...]
     """The vertices, up to the requested number: the ends of a segment, or the end of a ray."""
     directions: tuple[Mapping[str, Any], ...]
@@ -2113,7 +2119,7 @@ class RawContinuum(Record):
     `BeyondRange`; its sign is that of the pattern."""
 
     pattern: str
-    """"+", "-" or "0" (in the gap) for every unknown."""
+    """"+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap."""
     maximal: bool
     """Whether it is not part of a larger continuum."""
     parts: tuple[ContinuumPart, ...]
@@ -2147,7 +2153,8 @@ class RawReport(_mixins.RawReport, Report):
     type: RawKind
     """Type of the problem."""
     size: int
-    """Number n of unknowns (of pairs of them in a complementarity problem)."""
+    """Number n of unknowns (of pairs of them in a complementarity problem; of the pure strategies of both
+    players in a game)."""
     status: Status
     """How many solutions there are; if the search ended early, how many were found."""
     complete: Proof
@@ -2207,7 +2214,10 @@ class RawSolution(Record):
     """One solution, or one state with an unknown in its gap."""
 
     signs: tuple[int, ...]
-    """Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes."""
+    """Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
+    where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a mixed problem, the signs of `u` come
+    first. Of a game: for the pure strategies of both players, 1 if it is played, 0 if it is another best
+    response, -1 if not."""
     on_boundary: bool
     """Whether some sign outside a gap is 0: the solution is on the boundary between patterns."""
     maximal: bool
@@ -2230,12 +2240,18 @@ class RawSolution(Record):
     """`z`."""
     w: NDArray[np.float64] | None = None
     """`w`."""
+    u: NDArray[np.float64] | None = None
+    """`u`, the free unknowns."""
     x: NDArray[np.float64] | None = None
-    """`x`."""
+    """`x`; of a game, the probabilities of the rows, the first player's strategies."""
+    y: NDArray[np.float64] | None = None
+    """`y_k = |N_k|`; of a game, the probabilities of the columns, the second player's strategies."""
+    payoff_1: float | None = None
+    """The first player's payoff, which depends on `y`."""
+    payoff_2: float | None = None
+    """The second player's payoff, which depends on `x`."""
     normal_forces: NDArray[np.float64] | None = None
     """Signed normal forces `N_k = sigma_k y_k`."""
-    y: NDArray[np.float64] | None = None
-    """`y_k = |N_k|`."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2811,12 +2827,18 @@ class WithinRounding(Record):
     """`z`."""
     w: NDArray[np.float64] | None = None
     """`w`."""
+    u: NDArray[np.float64] | None = None
+    """`u`, the free unknowns."""
     x: NDArray[np.float64] | None = None
-    """`x`."""
+    """`x`; of a game, the probabilities of the rows, the first player's strategies."""
+    y: NDArray[np.float64] | None = None
+    """`y_k = |N_k|`; of a game, the probabilities of the columns, the second player's strategies."""
+    payoff_1: float | None = None
+    """The first player's payoff, which depends on `y`."""
+    payoff_2: float | None = None
+    """The second player's payoff, which depends on `x`."""
     normal_forces: NDArray[np.float64] | None = None
     """Signed normal forces `N_k = sigma_k y_k`."""
-    y: NDArray[np.float64] | None = None
-    """`y_k = |N_k|`."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2848,9 +2870,9 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array", "eta_positive": "arrays", "eta_negative": "arrays"},
     "LimitsReport": {"between_faces_at": "array"},
     "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},
-    "RawSolution": {"z": "array", "w": "array", "x": "array", "normal_forces": "array", "y": "array"},
+    "RawSolution": {"z": "array", "w": "array", "u": "array", "x": "array", "y": "array", "normal_forces": "array"},
     "Rejection": {"normal_forces": "array"},
     "UncertainMode": {"normal_force_bounds": "pairs"},
-    "WithinRounding": {"z": "array", "w": "array", "x": "array", "normal_forces": "array", "y": "array"},
+    "WithinRounding": {"z": "array", "w": "array", "u": "array", "x": "array", "y": "array", "normal_forces": "array"},
 }
 """Lists of numbers that are arrays, and classes whose name serialization does not tell, by class and field."""

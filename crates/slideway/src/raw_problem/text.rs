@@ -1,8 +1,8 @@
 //! The report of a raw problem as text for people.
 
 use super::{
-    BeyondRange, ContinuumPart, EveryAnswer, EveryRightHandSide, RawKind, RawReport, RawShares, RawSolution,
-    Unknowns, WithinRounding, WithinRoundingAnswer,
+    BeyondRange, ContinuumPart, EveryAnswer, EveryRightHandSide, NamedRange, RawKind, RawReport, RawShares,
+    RawSolution, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -24,7 +24,8 @@ impl Report for RawReport {
         text.verdict();
         text.within_rounding();
         text.every_right_hand_side();
-        text.solutions("Solution", &self.totals[0], &self.solutions);
+        let title = if self.kind == RawKind::Game { "Equilibrium" } else { "Solution" };
+        text.solutions(title, &self.totals[0], &self.solutions);
         text.solutions("Preload gap", &self.totals[1], &self.gap_states);
         text.continua();
         text.strategy();
@@ -38,21 +39,28 @@ impl Text<'_> {
     fn heading(&mut self) {
         let kind = self.report.kind;
         self.headline(kind.title());
-        self.line(&format!("{},  n = {}", kind.equation(), self.report.size));
+        let (first, others) = (self.report.first, self.report.size - self.report.first);
+        let size = match kind {
+            RawKind::Mlcp => format!("{first} free, {others} complementary"),
+            RawKind::Game => format!("{first} x {others}"),
+            _ => format!("n = {others}"),
+        };
+        self.line(&format!("{},  {size}", kind.equation()));
         self.line("");
     }
 
     fn verdict(&mut self) {
         let report = self.report;
         let found = if report.partial { " found so far" } else { "" };
+        let (one, more) = words(report.kind);
         let single = match report.count.as_str() {
-            "0" => "No single solution".to_owned(),
-            "1" => "One solution".to_owned(),
-            count => format!("{count} solutions"),
+            "0" => format!("No single {one}"),
+            "1" => format!("One {one}"),
+            count => format!("{count} {more}"),
         };
         let single = format!("{single}{found}");
         let verdict = match report.status {
-            Status::None => "No solution.".to_owned(),
+            Status::None => format!("No {one}."),
             Status::Unknown if report.partial => {
                 "Nothing found, but not every sign pattern could be decided.".to_owned()
             }
@@ -62,7 +70,7 @@ impl Text<'_> {
                     "1" => "one continuum".to_owned(),
                     count => format!("{count} continua"),
                 };
-                format!("Infinitely many solutions: {continua}{found}.")
+                format!("Infinitely many {more}: {continua}{found}.")
             }
             Status::PreloadGap => {
                 let none = if report.open.is_empty() { "No solution" } else { "No solution found" };
@@ -96,7 +104,7 @@ impl Text<'_> {
         };
         self.line(&format!("Hint: within {rounding} there is one:"));
         self.line("");
-        self.lines(&rows(self.report.kind, unknowns, &[]));
+        self.unknowns(unknowns, &[]);
     }
 
     /// What is known of all right-hand sides.
@@ -106,7 +114,10 @@ impl Text<'_> {
             return;
         };
         let kind = self.report.kind;
-        let vector = kind.required().last().copied().unwrap_or_default();
+        let vector = match kind.size_vectors() {
+            [] => "right-hand side".to_owned(),
+            vectors => vectors.join(" and "),
+        };
         let shown = patterns.join(" and ");
         let (is, is_not) = match kind {
             RawKind::Lcp => (" (M is a P-matrix)", " (M is not a P-matrix)"),
@@ -160,7 +171,7 @@ impl Text<'_> {
             if let Some(continuum) = solution.end_of_continuum {
                 self.line(&format!("  An end of continuum {}", continuum + 1));
             }
-            self.lines(&rows(self.report.kind, &solution.unknowns, &solution.beyond_range));
+            self.unknowns(&solution.unknowns, &solution.beyond_range);
             for gap in &solution.gaps {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
                 self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
@@ -194,16 +205,38 @@ impl Text<'_> {
             return;
         }
         let in_gap = |at: usize| solution.gaps.iter().any(|gap| gap.index == at);
-        let zero: Vec<String> = (0..solution.signs.len())
-            .filter(|&at| solution.signs[at] == 0 && !in_gap(at))
-            .map(|at| (at + 1).to_string())
-            .collect();
+        let vanishes = |at: &usize| match (self.report.kind, &solution.unknowns) {
+            (RawKind::Mcp, Unknowns::Complementary { w, .. }) => solution.signs[*at] != 0 && w[*at] == 0.0,
+            (RawKind::Mlcp, _) if *at < self.report.first => false,
+            _ => solution.signs[*at] == 0 && !in_gap(*at),
+        };
+        let all: Vec<usize> = (0..solution.signs.len()).filter(vanishes).collect();
+        if self.report.kind == RawKind::Game {
+            return self.other_best_responses(&all);
+        }
+        let first = if self.report.kind == RawKind::Mlcp { self.report.first } else { 0 };
+        let zero: Vec<String> = all.iter().map(|at| (at + 1 - first).to_string()).collect();
         let what = match self.report.kind {
-            RawKind::Lcp | RawKind::Hlcp => "z_k = w_k = 0",
+            RawKind::Lcp | RawKind::Hlcp | RawKind::Mlcp => "z_k = w_k = 0",
+            RawKind::Mcp => "w_k = 0 at a bound",
             RawKind::Ave => "x_k = 0",
-            RawKind::Modes => "N_k = 0",
+            RawKind::Modes | RawKind::Game => "N_k = 0",
         };
         self.line(&format!("  On the boundary between patterns: {what} for k = {}", zero.join(", ")));
+    }
+
+    /// Pure strategies that are not played although none is better.
+    fn other_best_responses(&mut self, all: &[usize]) {
+        let first = self.report.first;
+        let (rows, columns): (Vec<usize>, Vec<usize>) = all.iter().partition(|at| **at < first);
+        let columns: Vec<usize> = columns.iter().map(|at| at - first).collect();
+        let told = [("rows", rows), ("columns", columns)];
+        let words: Vec<String> = told
+            .iter()
+            .filter(|(_, all)| !all.is_empty())
+            .map(|(name, all)| format!("{name} {}", ranges(all)))
+            .collect();
+        self.line(&format!("  Best responses that are not played: {}", words.join(", ")));
     }
 
     fn continua(&mut self) {
@@ -221,7 +254,7 @@ impl Text<'_> {
             let parts = count(continuum.parts.len(), "part", "parts");
             self.headed(&title, &format!("{part_of}   {parts} that do not depend on each other"));
             for part in continuum.parts.iter().take(PARTS) {
-                self.line(&format!("  Of unknowns {}: {}", ranges(&part.indices), shape(part)));
+                self.line(&format!("  {}: {}", self.whose(part), shape(part)));
                 self.part(part);
             }
             if continuum.parts.len() > PARTS {
@@ -233,6 +266,57 @@ impl Text<'_> {
             self.line("");
             let listed = report.continua.len();
             self.line(&format!("Listed: the first {listed} of {all} continua; --max-solutions lists more."));
+        }
+    }
+
+    /// Which unknowns belong to a part of a continuum.
+    fn whose(&self, part: &ContinuumPart) -> String {
+        match part.indices.first() {
+            Some(first) if self.report.kind == RawKind::Game => {
+                let name = if *first < self.report.first { "x" } else { "y" };
+                format!("Strategies {name}")
+            }
+            _ => format!("Of unknowns {}", ranges(&part.indices)),
+        }
+    }
+
+    /// The unknowns of one solution.
+    fn unknowns(&mut self, unknowns: &Unknowns, beyond_range: &[BeyondRange]) {
+        let indices: Vec<usize> = (0..self.report.size).collect();
+        self.tables((&indices, &[unknowns]), &[String::new()], beyond_range);
+    }
+
+    /// Unknowns of several columns: a table for each range of indices, and payoffs.
+    fn tables(
+        &mut self,
+        (indices, columns): (&[usize], &[&Unknowns]),
+        labels: &[String],
+        beyond_range: &[BeyondRange],
+    ) {
+        let names = shown(self.report);
+        for same in names.chunk_by(|(_, one), (_, other)| one.indices == other.indices) {
+            let Some(range) = &same[0].1.indices else {
+                self.payoffs(columns, labels);
+                continue;
+            };
+            let own: Vec<usize> =
+                indices.iter().filter(|at| range.contains(at)).map(|at| at - range.start).collect();
+            if !own.is_empty() {
+                let names: Vec<(usize, &str)> = same.iter().map(|(at, named)| (*at, named.name)).collect();
+                self.lines(&rows(&names, (&own, columns), labels, beyond_range));
+            }
+        }
+    }
+
+    /// The payoffs of a game in one line, or in one for each column.
+    fn payoffs(&mut self, columns: &[&Unknowns], labels: &[String]) {
+        for (column, label) in columns.iter().zip(labels) {
+            let Unknowns::Strategies { payoff_1, payoff_2, .. } = column else { continue };
+            let told = [("player 1", payoff_1), ("player 2", payoff_2)];
+            let told =
+                told.iter().filter_map(|(name, payoff)| Some(format!("{} to {name}", number((**payoff)?))));
+            let of = if label.is_empty() { String::new() } else { format!(" of {label}") };
+            self.line(&format!("  Payoffs{of}: {}", told.collect::<Vec<_>>().join(", ")));
         }
     }
 
@@ -248,7 +332,7 @@ impl Text<'_> {
                 number => format!("direction {}", number - points + 1),
             };
             let labels: Vec<String> = (0..chunk.len()).map(label).collect();
-            self.lines(&labelled_rows(self.report.kind, (&part.indices, chunk), &labels, &[]));
+            self.tables((&part.indices, chunk), &labels, &[]);
         }
         let more = part.vertex_count - points + part.direction_count - part.directions.len();
         if more > 0 {
@@ -300,13 +384,6 @@ fn shape(part: &ContinuumPart) -> String {
     }
 }
 
-/// The unknowns of one solution.
-fn rows(kind: RawKind, unknowns: &Unknowns, beyond_range: &[BeyondRange]) -> String {
-    let size = unknowns.named().first().map_or(0, |(_, values)| values.len());
-    let indices: Vec<usize> = (0..size).collect();
-    labelled_rows(kind, (&indices, &[unknowns]), &[String::new()], beyond_range)
-}
-
 /// A value as text; of an unknown, by name and number, that has none as it is told beside.
 fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
     let is_it = |one: &&BeyondRange| one.name.as_str() == name && one.index == index;
@@ -317,24 +394,26 @@ fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange])
     }
 }
 
-/// One row for each index, with the unknowns of each column.
-fn labelled_rows(
-    kind: RawKind,
+/// One row for each index, with some of the unknowns of each column, given by place and name.
+fn rows(
+    names: &[(usize, &str)],
     (indices, columns): (&[usize], &[&Unknowns]),
     labels: &[String],
     beyond_range: &[BeyondRange],
 ) -> String {
-    let named: Vec<_> = columns.iter().map(|unknowns| shown(kind, unknowns)).collect();
     let mut header = vec!["k".to_owned()];
-    for (column, label) in named.iter().zip(labels) {
-        header.extend(
-            column.iter().map(|(name, _)| format!("{} {label}", shown_as(name)).trim_end().to_owned()),
-        );
+    for label in labels {
+        let titles =
+            names.iter().map(|(_, name)| format!("{} {label}", shown_as(name)).trim_end().to_owned());
+        header.extend(titles);
     }
     let row = |(at, index): (usize, &usize)| {
         let mut row = vec![(index + 1).to_string()];
-        for column in &named {
-            row.extend(column.iter().map(|(name, values)| value(values[at], (name, at), beyond_range)));
+        for column in columns {
+            let named = column.named();
+            row.extend(
+                names.iter().map(|&(place, name)| value(named[place].1[at], (name, *index), beyond_range)),
+            );
         }
         row
     };
@@ -342,10 +421,16 @@ fn labelled_rows(
     table(&header, &indices.iter().enumerate().map(row).collect::<Vec<_>>(), 0)
 }
 
-/// What a person wants to see: of a mode problem the normal forces alone, whose sizes are the `y`.
-fn shown(kind: RawKind, unknowns: &Unknowns) -> Vec<(&'static str, &[f64])> {
-    let named = unknowns.named();
-    if kind == RawKind::Modes { named[..1].to_vec() } else { named }
+/// What a person wants to see, with its place: of a mode problem the normal forces alone, whose sizes are the
+/// `y`.
+fn shown(report: &RawReport) -> Vec<(usize, NamedRange)> {
+    let most = if report.kind == RawKind::Modes { 1 } else { usize::MAX };
+    report.names().into_iter().enumerate().take(most).collect()
+}
+
+/// One solution and several, in the words of the problem.
+fn words(kind: RawKind) -> (&'static str, &'static str) {
+    if kind == RawKind::Game { ("equilibrium", "equilibria") } else { ("solution", "solutions") }
 }
 
 fn shown_as(name: &str) -> &str {

@@ -6,8 +6,17 @@ use serde::Serialize;
 /// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped. All JSON is
 /// written here: a number that is not finite, for which there would be `null`, is refused.
 pub(crate) fn indented<T: Serialize>(report: &T) -> String {
+    written(report, serde_json::to_string_pretty)
+}
+
+/// The same in one line.
+pub(crate) fn in_one_line<T: Serialize>(report: &T) -> String {
+    written(report, serde_json::to_string)
+}
+
+fn written<T: Serialize>(report: &T, write: fn(&T) -> serde_json::Result<String>) -> String {
     let report = super::finite(report).unwrap_or_else(|faults| panic!("{faults}"));
-    let text = serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
+    let text = write(report).expect("a report holds only plain data with text keys");
     let mut text = printable::json(&text).into_owned();
     text.push('\n');
     text

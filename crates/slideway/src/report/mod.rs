@@ -57,6 +57,17 @@ pub trait Report: Serialize {
     {
         json::indented(self)
     }
+
+    /// The same JSON in one line.
+    ///
+    /// # Panics
+    /// As [`Report::json`].
+    fn json_line(&self) -> String
+    where
+        Self: Sized,
+    {
+        json::in_one_line(self)
+    }
 }
 
 /// Version of the layout of a [`SolveReport`]; changes whenever a field is renamed or removed.

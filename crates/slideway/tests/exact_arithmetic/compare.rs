@@ -113,6 +113,7 @@ fn is_told_by(state: &State, solution: &RawSolution) -> bool {
         }
         Unknowns::AbsoluteValue { .. } => vec![state.signed.clone()],
         Unknowns::Modes { .. } => vec![state.signed.clone(), all(&size)],
+        Unknowns::Mixed { .. } | Unknowns::Strategies { .. } => unreachable!("no family has them"),
     };
     let unknowns_fit = solution.unknowns.named().into_iter().zip(&named).all(|((name, told), exact)| {
         told.iter().zip(exact).enumerate().all(|(at, (&told, exact))| fits(solution, (name, at), told, exact))

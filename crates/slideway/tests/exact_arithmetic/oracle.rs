@@ -54,6 +54,10 @@ impl Equations {
                     load: q.iter().map(|&entry| exact(entry)).collect(),
                 }
             }
+            // These have tests of their own, which do not use the mode problem.
+            RawProblem::MixedLinearComplementarity { .. }
+            | RawProblem::MixedComplementarity { .. }
+            | RawProblem::Game { .. } => unreachable!("no family has them"),
             RawProblem::Modes(problem) => Self {
                 columns: Side::BOTH.map(|side| columns(problem.columns(side))),
                 jumps: Side::BOTH.map(|side| columns(problem.jumps(side))),

@@ -1,0 +1,299 @@
+//! Mixed complementarity problems: against elimination in rational numbers, state by state.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+
+use dashu_ratio::RBig;
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use proptest::prelude::*;
+use slideway_modes::raw_problem::{EveryAnswer, RawProblem, RawReport, Unknowns, solve};
+use slideway_modes::{Proof, SearchOptions, Status};
+
+const NONE: f64 = f64::INFINITY;
+
+fn solved(problem: &RawProblem) -> RawReport {
+    solve(problem, &SearchOptions::default(), 10_000, &mut |_| ControlFlow::Continue(())).expect("finite")
+}
+
+fn rational(value: f64) -> RBig {
+    RBig::try_from(value).expect("finite")
+}
+
+/// Where an unknown is: at its lower bound, between its bounds, or at its upper bound.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    Lower,
+    Between,
+    Upper,
+}
+
+/// Solutions `z` and `w` of `w = M z + q` with each unknown in its place, for all places that determine them
+/// uniquely, and whether some places do not.
+fn brute_force(
+    m: &DMatrix<f64>,
+    q: &DVector<f64>,
+    bounds: &[(f64, f64)],
+) -> (BTreeSet<(Vec<RBig>, Vec<RBig>)>, bool) {
+    let n = q.len();
+    let (mut found, mut singular) = (BTreeSet::new(), false);
+    for number in 0..3_usize.pow(u32::try_from(n).expect("few")) {
+        let place = |k: usize| {
+            [Place::Lower, Place::Between, Place::Upper]
+                [number / 3_usize.pow(u32::try_from(k).expect("few")) % 3]
+        };
+        let exists = |k: usize| match place(k) {
+            Place::Lower => bounds[k].0.is_finite(),
+            Place::Upper => bounds[k].1.is_finite(),
+            Place::Between => true,
+        };
+        if !(0..n).all(exists) {
+            continue;
+        }
+        // z at its bound, or w = 0.
+        let rows = (0..n).map(|k| {
+            let unit = |value: f64| {
+                (0..n)
+                    .map(|at| if at == k { RBig::ONE } else { RBig::ZERO })
+                    .chain([rational(value)])
+                    .collect()
+            };
+            match place(k) {
+                Place::Lower => unit(bounds[k].0),
+                Place::Upper => unit(bounds[k].1),
+                Place::Between => {
+                    m.row(k).iter().map(|&entry| rational(entry)).chain([-rational(q[k])]).collect()
+                }
+            }
+        });
+        let Some(z) = unique_solution(rows.collect()) else {
+            singular = true;
+            continue;
+        };
+        let w: Vec<RBig> = (0..n)
+            .map(|k| (0..n).fold(rational(q[k]), |sum, at| sum + rational(m[(k, at)]) * &z[at]))
+            .collect();
+        let holds = |k: usize| {
+            let (lower, upper) = bounds[k];
+            let above = lower.is_infinite() || z[k] >= rational(lower);
+            let below = upper.is_infinite() || z[k] <= rational(upper);
+            let at_lower = lower.is_finite() && z[k] == rational(lower);
+            let at_upper = upper.is_finite() && z[k] == rational(upper);
+            above && below && (w[k] <= RBig::ZERO || at_lower) && (w[k] >= RBig::ZERO || at_upper)
+        };
+        if (0..n).all(holds) {
+            found.insert((z, w));
+        }
+    }
+    (found, singular)
+}
+
+/// The solution of a square system, if there is exactly one.
+fn unique_solution(mut rows: Vec<Vec<RBig>>) -> Option<Vec<RBig>> {
+    let n = rows.len();
+    for column in 0..n {
+        let pivot = (column..n).find(|&row| !rows[row][column].is_zero())?;
+        rows.swap(column, pivot);
+        let leading = rows[column].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(at, _)| *at != column) {
+            let factor = &row[column] / &leading[column];
+            row.iter_mut().zip(&leading).for_each(|(entry, other)| *entry = &*entry - &factor * other);
+        }
+    }
+    Some((0..n).map(|at| &rows[at][n] / &rows[at][at]).collect())
+}
+
+/// All `z` and `w` of a report's solutions, and of the vertices of its continua that have one part.
+fn points(report: &RawReport) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let vertices = report.continua.iter().flat_map(|continuum| {
+        let mut all = vec![(vec![0.0; report.size], vec![0.0; report.size])];
+        for part in &continuum.parts {
+            let with = |(z, w): &(Vec<f64>, Vec<f64>), vertex: &Unknowns| {
+                let (mut z, mut w) = (z.clone(), w.clone());
+                let (own_z, own_w) = pair(vertex);
+                for (place, &index) in part.indices.iter().enumerate() {
+                    (z[index], w[index]) = (own_z[place], own_w[place]);
+                }
+                (z, w)
+            };
+            all = all
+                .iter()
+                .flat_map(|one| part.vertices.iter().map(move |vertex| with(one, vertex)))
+                .collect();
+        }
+        all
+    });
+    report.solutions.iter().map(|solution| pair(&solution.unknowns)).chain(vertices).collect()
+}
+
+/// `z` and `w`; free unknowns come first and have `w = 0`.
+fn pair(unknowns: &Unknowns) -> (Vec<f64>, Vec<f64>) {
+    match unknowns {
+        Unknowns::Complementary { z, w } => (z.clone(), w.clone()),
+        Unknowns::Mixed { u, z, w } => {
+            ([u.clone(), z.clone()].concat(), [vec![0.0; u.len()], w.clone()].concat())
+        }
+        _ => panic!("z and w"),
+    }
+}
+
+/// Compares a report with all places: every solution that is the only one of some places is told, as a solution
+/// or as a vertex; if there are no continua, nothing else is.
+fn check(problem: &RawProblem, m: &DMatrix<f64>, q: &DVector<f64>, bounds: &[(f64, f64)]) {
+    let report = solved(problem);
+    assert_eq!((report.complete, report.partial), (Proof::Proven, false));
+    let (expected, singular) = brute_force(m, q, bounds);
+    let told = points(&report);
+    let context = || format!("{problem:?} {report:#?} {expected:?}");
+    let near = |told: &[f64], exact: &[RBig]| {
+        let size = told.iter().fold(1.0_f64, |size, value| size.max(value.abs()));
+        told.iter().zip(exact).all(|(told, exact)| (told - exact.to_f64().value()).abs() <= 1e-13 * size)
+    };
+    for (z, w) in &expected {
+        assert!(told.iter().any(|(told_z, told_w)| near(told_z, z) && near(told_w, w)), "{}", context());
+    }
+    if report.continua.is_empty() {
+        assert!(singular || report.count == expected.len().to_string(), "{}", context());
+        assert_eq!(report.solutions.len(), expected.len(), "{}", context());
+    } else {
+        assert!(singular, "{}", context());
+    }
+    for solution in &report.solutions {
+        assert!(solution.residual.is_some_and(|residual| residual <= 1e-15), "{}", context());
+        let (z, w) = pair(&solution.unknowns);
+        // w and z are rounded once each.
+        let row = |k: usize| {
+            let terms = (0..q.len()).map(|at| m[(k, at)] * z[at]).chain([q[k], -w[k]]);
+            terms.fold((0.0, 0.0), |(sum, size), term: f64| (sum + term, size + term.abs()))
+        };
+        assert!((0..q.len()).map(row).all(|(left, size)| left.abs() <= 1e-14 * size), "{}", context());
+        for (value, (lower, upper)) in z.iter().zip(bounds) {
+            assert!(lower <= value && value <= upper, "{}", context());
+        }
+    }
+}
+
+/// Bounds of every sort, some of them no sums of few bits.
+fn bound() -> impl Strategy<Value = (f64, f64)> {
+    let (zero, free) = ((0.0, NONE), (-NONE, NONE));
+    let one_sided = [zero, zero, zero, free, free, (-NONE, 1.0), (1.0 / 3.0, 1e17)];
+    let two_sided = [(-1.0, 2.0), (0.1, 0.3), (-0.7, -0.1), (1.0, 1.0), (-0.1, -0.1)];
+    prop::sample::select([&one_sided[..], &two_sided[..]].concat())
+}
+
+type Problem = (DMatrix<f64>, DVector<f64>, Vec<(f64, f64)>);
+
+fn problems(entry: impl Strategy<Value = f64> + Clone + 'static) -> impl Strategy<Value = Problem> {
+    (1_usize..=3).prop_flat_map(move |n| {
+        let entries = |count| prop::collection::vec(entry.clone(), count);
+        let matrix = entries(n * n).prop_map(move |all| DMatrix::from_vec(n, n, all));
+        (matrix, entries(n).prop_map(DVector::from_vec), prop::collection::vec(bound(), n))
+    })
+}
+
+fn mcp((m, q, bounds): &Problem) -> RawProblem {
+    RawProblem::MixedComplementarity {
+        m: m.clone(),
+        q: q.clone(),
+        lower: DVector::from_iterator(q.len(), bounds.iter().map(|bound| bound.0)),
+        upper: DVector::from_iterator(q.len(), bounds.iter().map(|bound| bound.1)),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn all_solutions_within_bounds_are_found(problem in problems(-3.0..3.0_f64)) {
+        check(&mcp(&problem), &problem.0, &problem.1, &problem.2);
+    }
+
+    #[test]
+    fn all_solutions_of_degenerate_problems_are_found(problem in problems((-1..=1_i8).prop_map(f64::from))) {
+        check(&mcp(&problem), &problem.0, &problem.1, &problem.2);
+    }
+
+    /// A mixed linear complementarity problem is one with bounds.
+    #[test]
+    fn all_solutions_with_free_unknowns_are_found((m, q, _) in problems((-1..=1_i8).prop_map(f64::from)), free in 0_usize..3) {
+        let free = free.min(q.len());
+        let bounds: Vec<(f64, f64)> = (0..q.len()).map(|at| (if at < free { -NONE } else { 0.0 }, NONE)).collect();
+        let problem = RawProblem::MixedLinearComplementarity { m: m.clone(), q: q.clone(), free };
+        check(&problem, &m, &q, &bounds);
+    }
+}
+
+/// Minimise (x - 2)^2 / 2 + y^2 / 2 with x + y = 1, x >= 0, y >= 0: its conditions of optimality are
+/// -u + (x - 2) = w_1, -u + y = w_2 and x + y - 1 = 0. By hand x = 1, y = 0, u = -1, w = (0, 1).
+#[test]
+fn the_conditions_of_a_quadratic_program() {
+    let m = dmatrix![0.0, 1.0, 1.0; -1.0, 1.0, 0.0; -1.0, 0.0, 1.0];
+    let problem = RawProblem::MixedLinearComplementarity { m, q: dvector![-1.0, -2.0, 0.0], free: 1 };
+    let report = solved(&problem);
+    assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
+    let expected = Unknowns::Mixed { u: vec![-1.0], z: vec![1.0, 0.0], w: vec![0.0, 1.0] };
+    assert_eq!(report.solutions[0].unknowns, expected);
+}
+
+/// The same constraint twice: only the sum of its multipliers is determined. The line u_1 + u_2 = -1 is told in
+/// three pieces, between whose ends both signs change.
+#[test]
+fn multipliers_of_dependent_constraints_are_a_line() {
+    let m = dmatrix![
+        0.0, 0.0, 1.0, 1.0;
+        0.0, 0.0, 1.0, 1.0;
+        -1.0, -1.0, 1.0, 0.0;
+        -1.0, -1.0, 0.0, 1.0];
+    let problem = RawProblem::MixedLinearComplementarity { m, q: dvector![-1.0, -1.0, -2.0, 0.0], free: 2 };
+    let report = solved(&problem);
+    assert_eq!((report.status, report.complete), (Status::Continuum, Proof::Proven));
+    let mut ends = Vec::new();
+    for continuum in &report.continua {
+        let [part] = continuum.parts.as_slice() else { panic!("one part") };
+        for vertex in &part.vertices {
+            let Unknowns::Mixed { u, z, w } = vertex else { panic!("mixed") };
+            assert_eq!((u[0] + u[1], z.as_slice(), w.as_slice()), (-1.0, &[1.0, 0.0][..], &[0.0, 1.0][..]));
+            ends.push(u[0]);
+        }
+        for direction in &part.directions {
+            let Unknowns::Mixed { u, z, w } = direction else { panic!("mixed") };
+            assert_eq!((u[0] + u[1], z.as_slice(), w.as_slice()), (0.0, &[0.0; 2][..], &[0.0; 2][..]));
+        }
+    }
+    ends.sort_by(f64::total_cmp);
+    assert_eq!(ends, [-1.0, -1.0, 0.0, 0.0]);
+    assert_eq!(report.continuum_count, "3");
+}
+
+/// w = z - 5 on 0 <= z <= 3: at the upper bound, w = -2. On 0.1 <= z <= 0.3, w = z - 0.2 has its zero
+/// between the bounds: the numbers are not rounded, so that z is exactly the number 0.2.
+#[test]
+fn bounds_hold_and_are_not_rounded() {
+    let one = |m: f64, q: f64, bounds: (f64, f64)| solved(&mcp(&(dmatrix![m], dvector![q], vec![bounds])));
+    let report = one(1.0, -5.0, (0.0, 3.0));
+    assert_eq!(report.solutions[0].unknowns, Unknowns::Complementary { z: vec![3.0], w: vec![-2.0] });
+    assert_eq!(report.solutions[0].signs, [1]);
+    let report = one(1.0, -0.2, (0.1, 0.3));
+    assert_eq!(report.solutions[0].unknowns, Unknowns::Complementary { z: vec![0.2], w: vec![0.0] });
+    // 3 (1/3) is 1 only after rounding: w = 3 z - 1 is not zero at the bound.
+    let third = 1.0 / 3.0;
+    let report = one(3.0, -1.0, (third, third));
+    assert_eq!((report.status, report.solutions[0].on_boundary), (Status::One, false));
+    let report = one(3.0, -1.0, (third, NONE));
+    assert!(!report.solutions[0].on_boundary);
+}
+
+/// Principal minors: [[2, 1], [1, 2]] is a P-matrix, [[1, 2], [2, 1]] is not. Without bounds only the whole
+/// determinant counts, and between equal bounds none.
+#[test]
+fn uniqueness_for_every_q_depends_on_which_unknowns_have_bounds() {
+    let answer = |m: DMatrix<f64>, bounds: [(f64, f64); 2]| {
+        let problem = mcp(&(m, dvector![1.0, 1.0], bounds.to_vec()));
+        problem.every_right_hand_side(&mut |_| ControlFlow::Continue(())).expect("finite").answer
+    };
+    let (p, not_p) = (dmatrix![2.0, 1.0; 1.0, 2.0], dmatrix![1.0, 2.0; 2.0, 1.0]);
+    let (boxed, free, fixed) = ((-1.0, 1.0), (-NONE, NONE), (2.0, 2.0));
+    assert_eq!(answer(p, [boxed, (0.0, NONE)]), EveryAnswer::One);
+    assert_eq!(answer(not_p.clone(), [boxed, boxed]), EveryAnswer::NotOne);
+    assert_eq!(answer(not_p.clone(), [free, free]), EveryAnswer::One);
+    assert_eq!(answer(not_p, [boxed, fixed]), EveryAnswer::One);
+}
