@@ -18,10 +18,18 @@ pub(super) struct Monitor<'a> {
     /// The latest report.
     told: Progress,
     stopped: Option<StopReason>,
-    /// Whether the current group has as many solutions as are wanted, and whether this was so of any.
-    group_has_enough: bool,
-    some_had_enough: bool,
-    attempts_before_had_enough: bool,
+    enough: Enough,
+}
+
+/// What has as many solutions as are wanted.
+#[derive(Default)]
+struct Enough {
+    /// The current group.
+    current: bool,
+    /// Any group.
+    some: bool,
+    /// Any group before the present attempt.
+    before_attempt: bool,
 }
 
 impl<'a> Monitor<'a> {
@@ -38,9 +46,7 @@ impl<'a> Monitor<'a> {
             share: 1.0,
             told,
             stopped: None,
-            group_has_enough: false,
-            some_had_enough: false,
-            attempts_before_had_enough: false,
+            enough: Enough::default(),
         }
     }
 
@@ -57,7 +63,7 @@ impl<'a> Monitor<'a> {
     /// Begins an attempt that may visit so many nodes.
     pub(super) fn begin_attempt(&mut self, budget: u64) {
         self.budget_end = self.nodes.saturating_add(budget);
-        self.attempts_before_had_enough = self.some_had_enough;
+        self.enough.before_attempt = self.enough.some;
     }
 
     /// Ends the present attempt as if its budget were used up; the search goes on with another one.
@@ -71,7 +77,7 @@ impl<'a> Monitor<'a> {
         let given_up = std::mem::take(&mut self.out_of_budget);
         if given_up {
             self.states_found = states_found_before;
-            self.some_had_enough = self.attempts_before_had_enough;
+            self.enough.some = self.enough.before_attempt;
         }
         given_up
     }
@@ -83,12 +89,12 @@ impl<'a> Monitor<'a> {
 
     /// Why the search of the current group must end.
     pub(super) fn stopped(&self) -> Option<StopReason> {
-        self.stopped.or(self.group_has_enough.then_some(StopReason::SolutionLimit))
+        self.stopped.or(self.enough.current.then_some(StopReason::SolutionLimit))
     }
 
     /// Why the search did not go to its end.
     pub(super) fn reason(&self) -> Option<StopReason> {
-        self.stopped.or(self.some_had_enough.then_some(StopReason::SolutionLimit))
+        self.stopped.or(self.enough.some.then_some(StopReason::SolutionLimit))
     }
 
     /// Ends the search, unless only the present attempt has ended; the search of the current group alone if it has
@@ -98,8 +104,8 @@ impl<'a> Monitor<'a> {
             return;
         }
         if reason == StopReason::SolutionLimit {
-            self.group_has_enough = true;
-            self.some_had_enough = true;
+            self.enough.current = true;
+            self.enough.some = true;
         } else {
             self.stopped.get_or_insert(reason);
         }
@@ -113,12 +119,12 @@ impl<'a> Monitor<'a> {
 
     /// The search of the current group is over.
     pub(super) fn end_group(&mut self) {
-        self.group_has_enough = false;
+        self.enough.current = false;
     }
 
     /// Not every combination of solutions is looked for, since there are as many as are wanted.
     pub(super) fn have_enough(&mut self) {
-        self.some_had_enough = true;
+        self.enough.some = true;
     }
 
     pub(super) fn count_found(&mut self, states: usize) {
