@@ -170,7 +170,10 @@ def is_semidefinite(rows):
 
 
 class Cell:
-    """A cell: its columns, those that are known to be positive somewhere in it, and its dimension."""
+    """A cell: its columns, those that are known to be positive somewhere in it, and its dimension: exactly, or at most.
+
+    `support` are the columns that are positive somewhere, or all columns where this is not known.
+    """
 
     def __init__(self, problem, columns, generators):
         require(problem.is_complementary(columns), "the cell has a forbidden pair")
@@ -179,7 +182,9 @@ class Cell:
             require(self.columns.issuperset(generator), "a point or direction has columns that the cell does not have")
             self.add(problem, list(dict.fromkeys(generator)), at == 0)
         independent = reduced([problem.columns[j] for j in self.columns], problem.right)[0] if generators else columns
-        self.dimension, self.exact = len(self.columns) - len({*independent}), self.positive == self.columns
+        self.dimension = len(self.columns) - len({*independent})
+        self.exact = self.dimension == 0 or self.positive == self.columns
+        self.support = frozenset(self.positive) if self.exact else self.columns
 
     def add(self, problem, columns, is_first):
         """A point, or a direction, that is determined by some columns."""
@@ -376,9 +381,10 @@ class Tree:
 
     def parts_of_others(self):
         """How many cells are part of another one, or the same as an earlier one."""
-        columns = {cell.columns for cell in self.cells}
-        greater = {cell.columns for cell in self.cells if cell.dimension or not cell.exact}
-        return len(self.cells) - len({cell for cell in columns if not any(cell < other for other in greater)})
+        greater = [cell for cell in self.cells if cell.dimension]
+        inside = [any(cell.support <= other.columns and cell.support != other.support for other in greater)
+                  for cell in self.cells]
+        return len(self.cells) - len({cell.support for cell, known in zip(self.cells, inside) if not known})
 
 
 def restricted_form(problem, allowed, weighted):

@@ -70,8 +70,9 @@ def is_true(tree, equations, truth):
             return False
     for cell in tree.cells:
         if cell.exact:
-            chosen = [equations.columns[j] for j in sorted(cell.columns)]
-            if equations.support(cell.columns) != cell.columns or cell.dimension != len(chosen) - rank(chosen):
+            support = equations.support(cell.columns)
+            chosen = [equations.columns[j] for j in support]
+            if support != cell.support or cell.dimension != len(chosen) - rank(chosen):
                 return False
     return all(any(support <= columns for columns in used) for support in truth)
 
