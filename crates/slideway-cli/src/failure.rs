@@ -46,6 +46,8 @@ pub(crate) enum Failure {
     OutputExists { path: PathBuf },
     /// The folder for several files exists.
     FolderExists { path: PathBuf },
+    /// There is an answer, but no proof file.
+    NoProof { reason: String },
     /// A picture or page could not be made.
     Picture { reason: String },
     /// Two outputs would go to the same file.
@@ -118,6 +120,7 @@ impl Failure {
         match self {
             Self::Halted { halt, .. } | Self::Unswept { halt, .. } => halt.outcome(),
             Self::MotionInterrupted { .. } => Outcome::Interrupted,
+            Self::NoProof { .. } => Outcome::Unknown,
             _ => Outcome::Refused,
         }
     }
@@ -143,6 +146,7 @@ impl Failure {
             }
             Self::OutputExists { path } => format!("`{}` already exists", path.display()),
             Self::FolderExists { path } => format!("`{}` already exists", path.display()),
+            Self::NoProof { reason } => format!("the proof file could not be written: {reason}"),
             Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
             Self::FileFormat { path, .. } => {

@@ -33,6 +33,7 @@ Examples:
   slideway modes problem.json --time-limit 30s --format json
   slideway modes problem.json --uniqueness
   slideway modes problem.json --count-only
+  slideway modes problem.json --proof proof.txt
   slideway modes - < problem.json
   slideway modes - --json-lines < problems.jsonl > answers.jsonl
 
@@ -45,6 +46,7 @@ Exit codes:
 
 /// Arguments of `slideway modes`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "switches of the command line")]
 pub(crate) struct ModesArguments {
     /// The problem (JSON or .npz), or `-` for standard input.
     #[arg(value_name = "PROBLEM")]
@@ -75,6 +77,11 @@ pub(crate) struct ModesArguments {
     /// line that is no problem, its number and what is wrong with it are written. A time limit is for each problem.
     #[arg(long, conflicts_with_all = ["format", "output"])]
     pub(crate) json_lines: bool,
+
+    /// Also write a proof that the solutions are all, which reference/check_proof.py checks in exact arithmetic. For
+    /// problems that it does not read as they are given, FILE.json has the equivalent mode problem.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["json_lines", "any"])]
+    pub(crate) proof: Option<PathBuf>,
 
     #[command(flatten)]
     search: SearchArguments,

@@ -3,6 +3,7 @@
 use super::TimeArguments;
 use clap::Args;
 use slideway::modes::{Limits, SearchOptions};
+use std::num::NonZero;
 
 /// What a search for solutions may cost, and how much of it is told.
 #[derive(Debug, Args)]
@@ -20,18 +21,31 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N", default_value_t = Limits::default().solutions)]
     max_found: usize,
 
+    /// Threads that share a large search; the answer does not depend on their number.
+    #[arg(long, value_name = "N", default_value_t = available_threads(), hide_default_value = true)]
+    threads: NonZero<usize>,
+
     #[command(flatten)]
     pub(crate) time: TimeArguments,
+}
+
+/// One for each processor.
+fn available_threads() -> NonZero<usize> {
+    std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
 }
 
 impl SearchArguments {
     /// The options of the search.
     pub(crate) fn options(&self) -> SearchOptions {
-        SearchOptions::within(self.max_nodes, Some(self.max_found))
+        self.threaded(SearchOptions::within(self.max_nodes, Some(self.max_found)))
     }
 
     /// The same where one solution is enough.
     pub(crate) fn options_for_one(&self) -> SearchOptions {
-        SearchOptions::within(self.max_nodes, Some(1))
+        self.threaded(SearchOptions::within(self.max_nodes, Some(1)))
+    }
+
+    fn threaded(&self, options: SearchOptions) -> SearchOptions {
+        SearchOptions { threads: self.threads.get(), ..options }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Destination, Format, ModelArguments, SearchArguments};
 use clap::Args;
+use std::path::PathBuf;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -28,6 +29,11 @@ pub(crate) struct SolveArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
+
+    /// Also write a proof that the solutions are all, for the numbers of the mode problem as they are in floating
+    /// point. reference/check_proof.py checks it with these numbers, which are written to FILE.json.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) proof: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) search: SearchArguments,

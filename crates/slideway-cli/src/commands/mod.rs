@@ -10,6 +10,7 @@ mod map;
 mod models;
 mod modes;
 mod new;
+mod proof;
 mod report;
 mod simulate;
 mod size;

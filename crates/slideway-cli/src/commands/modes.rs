@@ -2,6 +2,7 @@
 
 mod batch;
 
+use super::proof::ProofFiles;
 use crate::arguments::{ModesArguments, ModesFormat};
 use crate::failure::Failure;
 use crate::input;
@@ -10,7 +11,7 @@ use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;
 use slideway::progress::Callback;
-use slideway::raw_problem::{RawFault, RawProblem, RawReport, SIZE_LIMIT, solve_with, to_npz};
+use slideway::raw_problem::{RawFault, RawKind, RawProblem, RawReport, SIZE_LIMIT, solve_with, to_npz};
 use std::time::Instant;
 
 /// Finds and writes all solutions of a problem given by its matrices.
@@ -22,15 +23,30 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     // A large file takes its part of the time.
     let begun = Instant::now();
     let problem = read(arguments)?;
+    let proof = arguments.proof.as_deref().map(|path| {
+        let given = Some(arguments.file.as_path()).filter(|_| checker_reads(&problem, arguments));
+        ProofFiles::new(path, given, (&arguments.destination, &output))
+    });
+    let proof = proof.transpose()?;
     let mut watch = Watch::since(begun, arguments.time_limit());
     let report = answer(&problem, arguments, &mut |progress| watch.look(progress));
-    let halt = watch.finish();
     match arguments.format() {
         ModesFormat::Text => output.write(&report.text(output.style()))?,
         ModesFormat::Json => output.write(&report.json())?,
         ModesFormat::Npz => output.write_bytes(&to_npz(&report))?,
     }
-    Ok(outcome(halt, report.status.into()))
+    if let Some(proof) = proof {
+        let exact = problem.mode_problem().expect("shapes and values are checked where the problem is read");
+        proof.write(&exact, &arguments.file, &arguments.options(), &mut watch)?;
+    }
+    Ok(outcome(watch.finish(), report.status.into()))
+}
+
+/// Whether the checker of proofs reads the problem as it is given: one of its types, in a file of JSON.
+fn checker_reads(problem: &RawProblem, arguments: &ModesArguments) -> bool {
+    let is_npz = arguments.file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz"));
+    let known = [RawKind::Lcp, RawKind::Ave, RawKind::Hlcp, RawKind::Modes];
+    known.contains(&problem.kind()) && !is_npz && arguments.file.as_os_str() != "-"
 }
 
 /// The answer to a problem.

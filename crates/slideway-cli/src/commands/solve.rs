@@ -1,5 +1,6 @@
 //! `slideway solve`
 
+use super::proof::ProofFiles;
 use crate::arguments::{Format, SolveArguments};
 use crate::failure::Failure;
 use crate::input::Input;
@@ -7,7 +8,7 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;
-use slideway::solve::{SolveOptions, solve_with};
+use slideway::solve::{SolveOptions, exact_mode_problem, solve_with};
 
 /// Finds and writes all solutions of a model.
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -16,14 +17,20 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     let model = input.model_within_bounds()?;
     let search = &arguments.search;
     let options = SolveOptions::default().search(search.options()).most(search.max_solutions);
+    let proof = arguments.proof.as_deref();
+    let proof =
+        proof.map(|path| ProofFiles::new(path, None, (&arguments.destination, &output))).transpose()?;
     let mut watch = Watch::new(arguments.search.time.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
         .map_err(|faults| input.refused(faults))?;
-    let halt = watch.finish();
     output.write(&match arguments.format {
         Format::Text => report.text(output.style()),
         Format::Json => report.json(),
         Format::Csv => report.csv(),
     })?;
-    Ok(outcome(halt, report.status.into()))
+    if let Some(proof) = proof {
+        let problem = exact_mode_problem(&model).map_err(|faults| input.refused(faults))?;
+        proof.write(&problem, &arguments.model.file, &search.options(), &mut watch)?;
+    }
+    Ok(outcome(watch.finish(), report.status.into()))
 }

@@ -39,6 +39,8 @@ mod answer;
 mod assemble;
 mod continuum;
 mod correspondence;
+#[cfg(feature = "json")]
+mod exact_file;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod fault;
 mod game;
@@ -63,6 +65,8 @@ mod tables;
 mod values;
 
 pub use answer::{solve, solve_with};
+#[cfg(feature = "json")]
+pub use exact_file::exact_json;
 #[cfg(any(feature = "json", feature = "npz"))]
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;

@@ -1,6 +1,6 @@
 //! The stages of a model up to the numbers of its mode problem.
 
-use super::mode_problem::{assembled_problem, self_stresses, velocity_signs};
+use super::mode_problem::{assembled_problem, mode_problem, self_stresses, velocity_signs};
 use super::parts::Parts;
 use super::sharing::check_assembly;
 use super::trail::Trail;
@@ -15,6 +15,16 @@ use crate::modes::{ModeProblem, SharedLoad};
 use crate::report::Elasticity;
 use crate::sharing::{elasticity, shared_load};
 use nalgebra::DVector;
+
+/// The mode problem of a model in floating point: a problem with exact numbers, which differ from those of the
+/// mechanism by rounding.
+///
+/// # Errors
+/// Whatever [`solve`](crate::solve::solve) refuses.
+pub fn exact_mode_problem(model: &Model) -> Result<ModeProblem, Faults> {
+    let Stages { mechanism, influence, velocity_signs, .. } = Stages::new(model)?;
+    mode_problem(&mechanism, &influence, &velocity_signs)
+}
 
 /// A model in its state, ready for its mode problem.
 pub(crate) struct Stages {
