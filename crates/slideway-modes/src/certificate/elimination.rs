@@ -6,8 +6,7 @@ use dashu_ratio::RBig;
 use crate::interval::Sign;
 use crate::problem::{ContactState, ModeProblem, ProblemView};
 
-/// Equations `A z = b` as integers, row by row `[A | b]`. Rows are scaled by powers of two. The elimination is
-/// for as many unknowns as equations.
+/// Equations `A z = b` as integers, row by row `[A | b]`. Rows are scaled by powers of two.
 pub(super) struct IntegerSystem {
     rows: Vec<Vec<IBig>>,
 }
@@ -23,38 +22,15 @@ pub(super) struct Echelon {
 impl IntegerSystem {
     /// The equations of one pattern, without rounding.
     pub(super) fn new(problem: &ModeProblem, pattern: &[ContactState]) -> Self {
-        let states: Vec<_> = pattern.iter().copied().enumerate().collect();
-        Self::with_columns(problem, &states, &states)
-    }
-
-    /// The equations with the columns of all contacts on their positive side, then on their negative side, for
-    /// a right-hand side without jumps.
-    pub(super) fn of_both_sides(problem: &ModeProblem) -> Self {
-        let side = |state| (0..problem.contacts()).map(move |contact| (contact, state));
-        let [positive, negative] = ContactState::PRESSED.map(side);
-        let constants: Vec<_> = positive.clone().collect();
-        Self::with_columns(problem, &positive.chain(negative).collect::<Vec<_>>(), &constants)
-    }
-
-    /// The equations with the columns of the given states, and the constant parts `d_k` of others.
-    fn with_columns(
-        problem: &ModeProblem,
-        columns: &[(usize, ContactState)],
-        constants: &[(usize, ContactState)],
-    ) -> Self {
         let view = ProblemView::from(problem);
-        let row = |row| {
-            let mut entries = column_terms(view, columns, row);
-            entries.push(right_hand_side_terms(view, constants, row));
-            integer_row(&entries)
-        };
-        Self { rows: (0..problem.contacts()).map(row).collect() }
+        let rows = (0..pattern.len()).map(|row| integers_of_row(&dyadic_row(view, pattern, row)).0).collect();
+        Self { rows }
     }
 
     /// The columns of `A`, and `b`.
     pub(super) fn columns(&self) -> (Vec<Vec<IBig>>, Vec<IBig>) {
         let column = |at: usize| self.rows.iter().map(|row| row[at].clone()).collect();
-        let unknowns = self.rows.first().map_or(0, |row| row.len() - 1);
+        let unknowns = self.rows.len();
         ((0..unknowns).map(column).collect(), column(unknowns))
     }
 
@@ -170,25 +146,21 @@ fn bit_length(value: &IBig) -> usize {
     value.bit_len()
 }
 
-/// Every entry of a row as a sum of plain numbers.
-fn column_terms(view: ProblemView<'_>, columns: &[(usize, ContactState)], row: usize) -> Vec<Vec<f64>> {
-    let terms = |&(contact, state): &(usize, ContactState)| {
-        view.matrix_terms(contact, state).map(|(term, sign)| sign * term.centre[row]).collect()
-    };
-    columns.iter().map(terms).collect()
-}
-
-/// The right-hand side of a row as a sum of plain numbers.
-fn right_hand_side_terms(view: ProblemView<'_>, states: &[(usize, ContactState)], row: usize) -> Vec<f64> {
-    let jumps = states
+/// Every entry of a row as a sum of plain numbers, with the right-hand side last.
+fn dyadic_row(view: ProblemView<'_>, pattern: &[ContactState], row: usize) -> Vec<Vec<f64>> {
+    let mut entries: Vec<Vec<f64>> = pattern
         .iter()
-        .map(|&(contact, state)| view.jump(contact, ProblemView::constant_jump_side(state)).centre[row]);
-    std::iter::once(view.load().centre[row]).chain(jumps).collect()
-}
-
-/// The row multiplied by the power of two that makes all its numbers integers without a common factor 2.
-fn integer_row(entries: &[Vec<f64>]) -> Vec<IBig> {
-    integers_of_row(entries).0
+        .enumerate()
+        .map(|(contact, &state)| {
+            view.matrix_terms(contact, state).map(|(term, sign)| sign * term.centre[row]).collect()
+        })
+        .collect();
+    let jumps = pattern
+        .iter()
+        .enumerate()
+        .map(|(contact, &state)| view.jump(contact, ProblemView::constant_jump_side(state)).centre[row]);
+    entries.push(std::iter::once(view.load().centre[row]).chain(jumps).collect());
+    entries
 }
 
 /// The row multiplied by the power of two that makes all its numbers integers without a common factor 2, and

@@ -76,6 +76,11 @@ impl LiftedSystem {
         &self.columns[column]
     }
 
+    /// All columns.
+    pub(super) fn columns(&self) -> &[Vec<IBig>] {
+        &self.columns
+    }
+
     /// `b`.
     pub(crate) fn right(&self) -> &[IBig] {
         &self.right

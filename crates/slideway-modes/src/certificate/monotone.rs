@@ -35,6 +35,7 @@ use dashu_ratio::RBig;
 
 use super::cell::{Cell, null_space_of_semidefinite};
 use super::elimination::IntegerSystem;
+use super::lifted::LiftedSystem;
 use crate::problem::{ContactState, ModeProblem};
 
 /// A problem without jumps that is monotone if a pattern is regular.
@@ -47,8 +48,8 @@ pub(crate) struct Monotone<'p> {
 impl<'p> Monotone<'p> {
     /// Proves that `S` has no negative eigenvalue; `None` if it has one, or once `proceed` is `false`.
     pub(crate) fn prove(problem: &'p ModeProblem, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
-        let (columns, _) = IntegerSystem::of_both_sides(problem).columns();
-        let (positive, negative) = columns.split_at(problem.contacts());
+        let system = LiftedSystem::new(problem.into());
+        let (positive, negative) = system.columns().split_at(problem.contacts());
         let null_space = null_space_of_semidefinite(&symmetric_form(positive, negative, proceed)?, proceed)?;
         let change = |multipliers: &Vec<IBig>| {
             negative.iter().chain(positive).map(|column| scalar_product(column, multipliers)).collect()

@@ -1,9 +1,8 @@
 //! The equations of a cell solved for some of its unknowns, in integers.
 
-use std::cmp::Ordering;
-
 use dashu_int::IBig;
-use dashu_int::ops::Gcd;
+
+use crate::certificate::lifted::make_primitive;
 
 /// Equations `D y_i + sum_f t_if y_f = t_i`, one for each basic unknown `y_i`; the unknowns `y_f` are
 /// nonbasic, and `D > 0`. All numbers are minors of the original equations, so each division by the previous
@@ -342,18 +341,6 @@ impl Dictionary {
 
 /// The integers divided by their greatest common divisor.
 pub(super) fn primitive(mut numbers: Vec<IBig>) -> Vec<IBig> {
-    let mut divisor = IBig::ZERO;
-    for number in numbers.iter().filter(|number| !number.is_zero()) {
-        divisor = if divisor.is_zero() { number.clone() } else { IBig::from((&divisor).gcd(number)) };
-        if divisor.is_one() {
-            return numbers;
-        }
-    }
-    if divisor.cmp(&IBig::ZERO) == Ordering::Less {
-        divisor = -divisor;
-    }
-    if !divisor.is_zero() && !divisor.is_one() {
-        numbers.iter_mut().for_each(|number| *number /= &divisor);
-    }
+    make_primitive(&mut numbers);
     numbers
 }

@@ -4,6 +4,10 @@ use dashu_int::IBig;
 
 use super::dictionary::primitive;
 
+/// Comparisons of rays for each ray that may be held: degenerate cones of high dimension need far more than
+/// others, and would take minutes.
+const COMPARISONS: usize = 1 << 16;
+
 /// A ray of the cone `{x >= 0}` of some linear space: its coordinates, without a common divisor, and those of
 /// the inequalities so far for which they vanish.
 #[derive(Clone)]
@@ -39,7 +43,8 @@ impl BitSet {
 }
 
 /// The extreme rays of `{x >= 0}` in the linear space spanned by `start`, as integers without a common
-/// divisor; `None` if more than `most` have to be held at a time, or once `proceed` is `false`.
+/// divisor; `None` if more than `most` have to be held at a time, if that takes more than [`COMPARISONS`] for
+/// each of these, or once `proceed` is `false`.
 ///
 /// The vectors in `start` are independent, and vector `k` is the only one with a nonzero coordinate
 /// `simplex[k]`, which is positive: they are the rays of the cone with these inequalities only. The others
@@ -63,9 +68,15 @@ pub(super) fn extreme_rays(
     let mut rays: Vec<Ray> =
         start.into_iter().zip(simplex).map(|(vector, &own)| first(vector, own)).collect();
     let mut left: Vec<usize> = (0..coordinates).filter(|at| !simplex.contains(at)).collect();
+    let mut comparisons = COMPARISONS.saturating_mul(most);
+    let mut afford = |cost: usize| {
+        let rest = comparisons.checked_sub(cost);
+        comparisons = rest.unwrap_or(0);
+        rest.is_some() && proceed()
+    };
     while !left.is_empty() {
         let at = (0..left.len()).min_by_key(|&at| pairs(&rays, left[at]))?;
-        rays = cut(rays, left.swap_remove(at), (dimension, most), proceed)?;
+        rays = cut(rays, left.swap_remove(at), (dimension, most), &mut afford)?;
     }
     (rays.len() <= most).then(|| rays.into_iter().map(|ray| ray.coordinates).collect())
 }
@@ -77,12 +88,13 @@ fn pairs(rays: &[Ray], inequality: usize) -> usize {
     positive * negative
 }
 
-/// The rays of the cone with one more inequality.
+/// The rays of the cone with one more inequality; `None` if there are more than `most`, or once `afford` is
+/// `false` for some more comparisons.
 fn cut(
     rays: Vec<Ray>,
     inequality: usize,
     (dimension, most): (usize, usize),
-    proceed: &mut dyn FnMut() -> bool,
+    afford: &mut dyn FnMut(usize) -> bool,
 ) -> Option<Vec<Ray>> {
     let side = |ray: &&Ray, positive: bool| {
         let value = &ray.coordinates[inequality];
@@ -93,11 +105,14 @@ fn cut(
     let mut new = Vec::new();
     for one in &inside {
         for other in &outside {
-            if !proceed() || rays.len() - outside.len() + new.len() > most {
+            let common = one.zeros.intersection(&other.zeros);
+            // A face of dimension 2 lies in at least dimension - 2 independent inequalities.
+            let may_be_adjacent = common.len() + 2 >= dimension;
+            let cost = if may_be_adjacent { rays.len() } else { 1 };
+            if !afford(cost) || rays.len() - outside.len() + new.len() > most {
                 return None;
             }
-            let common = one.zeros.intersection(&other.zeros);
-            if are_adjacent(&rays, (one, other), &common, dimension) {
+            if may_be_adjacent && are_adjacent(&rays, (one, other), &common) {
                 new.push(between(one, other, inequality, common));
             }
         }
@@ -112,12 +127,9 @@ fn cut(
 }
 
 /// Whether two rays span a face of dimension 2: no other ray has all the zeros that they have in common.
-fn are_adjacent(rays: &[Ray], (one, other): (&Ray, &Ray), common: &BitSet, dimension: usize) -> bool {
-    // Such a face lies in at least dimension - 2 independent inequalities.
-    common.len() + 2 >= dimension
-        && rays
-            .iter()
-            .all(|ray| std::ptr::eq(ray, one) || std::ptr::eq(ray, other) || !common.is_within(&ray.zeros))
+fn are_adjacent(rays: &[Ray], (one, other): (&Ray, &Ray), common: &BitSet) -> bool {
+    let is_other = |ray: &Ray| !std::ptr::eq(ray, one) && !std::ptr::eq(ray, other);
+    !rays.iter().any(|ray| is_other(ray) && common.is_within(&ray.zeros))
 }
 
 /// The point of the edge between a ray inside and one outside at which the inequality is zero.
