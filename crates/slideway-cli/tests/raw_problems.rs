@@ -352,3 +352,30 @@ fn archives_of_answers_have_the_names_of_the_problem() {
         }
     }
 }
+
+/// The checker of proofs shares nothing with slideway.
+#[test]
+fn proofs_are_accepted_by_the_checker() {
+    let checker = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/check_proof.py");
+    let folder_of_proofs = Path::new(env!("CARGO_TARGET_TMPDIR")).join("proofs");
+    std::fs::create_dir_all(&folder_of_proofs).unwrap();
+    let good = folder("good");
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/klepp-2002.toml");
+    let problems =
+        ["ray.json", "none.json", "game.json", "bounds.json"].map(|name| ("modes", good.join(name)));
+    for (command_name, problem) in problems.into_iter().chain([("solve", model)]) {
+        let name = problem.file_stem().unwrap().to_str().unwrap();
+        let proof = folder_of_proofs.join(format!("{name}.txt"));
+        let arguments =
+            [command_name, problem.to_str().unwrap(), "--force", "--proof", proof.to_str().unwrap()];
+        let output = command(&arguments).output().unwrap();
+        let note = String::from_utf8(output.stderr).unwrap();
+        assert!(note.contains("proof of"), "{name}: {note}");
+        // The note names the problem that the checker reads.
+        let own = folder_of_proofs.join(format!("{name}.txt.json"));
+        let read = if note.contains(".txt.json") { &own } else { &problem };
+        let checked = Command::new("python3").args([&checker, read, &proof]).output().unwrap();
+        let said = String::from_utf8([checked.stdout, checked.stderr].concat()).unwrap();
+        assert!(checked.status.success() && said.contains("are all solutions"), "{name}: {said}");
+    }
+}
