@@ -6,7 +6,7 @@ use crate::work::Watch;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use slideway::modes::SearchOptions;
-use slideway::raw_problem::{Listing, RawFaults, RawKind, RawProblem, solve_with};
+use slideway::raw_problem::{self, RawFaults, RawKind, RawProblem};
 
 /// An array of Python as its name, sizes and entries.
 type Array<'n> = (&'n str, Vec<usize>, Vec<f64>);
@@ -24,7 +24,6 @@ pub(crate) struct Options {
     max_solutions: usize,
     max_nodes: Option<u64>,
     max_found: Option<usize>,
-    all_faces: bool,
     uniqueness: bool,
     time_limit: Option<f64>,
     progress: Option<Py<PyAny>>,
@@ -40,10 +39,9 @@ fn answer<'py>(
     let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());
     let problem = RawProblem::from_arrays(kind, arrays).map_err(refused)?;
     let search = SearchOptions::within(options.max_nodes, options.max_found);
-    let listing = Listing { most: options.max_solutions, all_faces: options.all_faces };
     let watch = Watch::new(options.time_limit, options.progress)?;
     let report = watch.run(py, |callback| {
-        let mut report = solve_with(&problem, &search, listing, callback)?;
+        let mut report = raw_problem::solve(&problem, &search, options.max_solutions, callback)?;
         if options.uniqueness {
             report.every_right_hand_side = problem.every_right_hand_side(callback).ok();
         }

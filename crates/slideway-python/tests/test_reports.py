@@ -105,7 +105,7 @@ def test_a_misfit_is_found() -> None:
 def test_problems_given_by_matrices_are_what_their_class_says() -> None:
     for answer in (
         slideway.modes.lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, -1.0], uniqueness=True),
-        slideway.modes.lcp([[0.0]], [0.0], all_faces=True, uniqueness=True),
+        slideway.modes.lcp([[0.0]], [0.0], uniqueness=True),
         slideway.modes.solve([[1.0]], [[-0.5]], [1.0]),
         slideway.modes.hlcp([[1.0]], [[1.0]], [1.0]),
         slideway.modes.mode_problem([[1.0]], [[1.0]], [1.0], jumps=([[0.5]], [[-0.5]])),

@@ -6,20 +6,13 @@ use proptest::prelude::*;
 use slideway::Report;
 use slideway::modes::{Limits, SearchOptions};
 use slideway::raw_problem::{
-    Listing, RawContinuum, RawProblem, RawReport, RawUnknown, Unknowns, WithinRoundingAnswer, solve,
-    solve_with, to_npz,
+    RawContinuum, RawProblem, RawReport, RawShares, RawUnknown, Unknowns, WithinRoundingAnswer, solve, to_npz,
 };
 use slideway::report::{Proof, Status, Style};
 use std::ops::ControlFlow;
 
 fn solved(problem: &RawProblem) -> RawReport {
     solve(problem, &SearchOptions::default(), 1000, &mut |_| ControlFlow::Continue(())).unwrap()
-}
-
-/// The answer with what is part of larger continua.
-fn with_all_faces(problem: &RawProblem) -> RawReport {
-    let listing = Listing { most: 1000, all_faces: true };
-    solve_with(problem, &SearchOptions::default(), listing, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 fn lcp(m: DMatrix<f64>, q: &[f64]) -> RawProblem {
@@ -62,6 +55,29 @@ fn brute_force(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DVector<f64>) -> usize {
         matrix.full_piv_lu().solve(q).is_some_and(|y| y.iter().all(|&y| y >= 0.0))
     };
     (0..1_usize << n).filter(admits).count()
+}
+
+/// `z - w` of the solutions of `w - M z = q` that are the only one with their positive unknowns: one system of
+/// equations for each choice of these. For small whole numbers: then the determinant is one, too, and what is not zero
+/// is not small.
+fn basic_solutions(m: &DMatrix<f64>, q: &DVector<f64>) -> Vec<DVector<f64>> {
+    let n = q.len();
+    let solution = |choice: u32| {
+        let signs: Vec<f64> = (0..n as u32).map(|k| f64::from(choice / 3_u32.pow(k) % 3) - 1.0).collect();
+        let chosen: Vec<usize> = (0..n).filter(|&k| signs[k] != 0.0).collect();
+        let matrix = DMatrix::from_fn(n, chosen.len(), |row, at| match chosen[at] {
+            k if signs[k] > 0.0 => -m[(row, k)],
+            k => f64::from(u8::from(row == k)),
+        });
+        let gram = matrix.transpose() * &matrix;
+        let inverse = (gram.determinant() > 0.5).then(|| gram.try_inverse()).flatten()?;
+        let sizes = inverse * matrix.transpose() * q;
+        let solves = (&matrix * &sizes - q).amax() <= 1e-9 && sizes.iter().all(|&size| size > 1e-9);
+        let mut signed = DVector::zeros(n);
+        chosen.iter().zip(&sizes).for_each(|(&k, size)| signed[k] = signs[k] * size);
+        solves.then_some(signed)
+    };
+    (0..3_u32.pow(n as u32)).filter_map(solution).collect()
 }
 
 fn text(matrix: &DMatrix<f64>) -> String {
@@ -129,8 +145,8 @@ proptest! {
     fn degenerate_problems_are_told_in_every_form(entries in prop::collection::vec(-1..=1_i8, 12)) {
         let number = |at: usize| f64::from(entries[at]);
         let m = DMatrix::from_fn(3, 3, |row, column| number(3 * row + column));
-        let problem = RawProblem::LinearComplementarity { m: m.clone(), q: DVector::from_fn(3, |row, _| number(9 + row)) };
-        let report = solved(&problem);
+        let q = DVector::from_fn(3, |row, _| number(9 + row));
+        let report = solved(&RawProblem::LinearComplementarity { m: m.clone(), q: q.clone() });
         prop_assert!(!report.partial);
         for solution in &report.solutions {
             prop_assert!(solution.residual.unwrap() <= 1e-14);
@@ -143,27 +159,24 @@ proptest! {
                 prop_assert!((&m * DVector::from_column_slice(z) - DVector::from_column_slice(w)).amax() <= 1e-12);
             }
         }
-        // What is left out is part of what is listed, and nothing else is: told from the signs that patterns
-        // allow.
-        let all = with_all_faces(&problem);
+        // No listed set is part of another one: told from the signs that patterns allow.
         let sets: Vec<(&str, Vec<Vec<f64>>)> =
-            all.continua.iter().map(|one| (one.pattern.as_str(), generators(one))).collect();
-        for (at, (continuum, (_, own))) in all.continua.iter().zip(&sets).enumerate() {
+            report.continua.iter().map(|one| (one.pattern.as_str(), generators(one))).collect();
+        for (at, (_, own)) in sets.iter().enumerate() {
             let within = |(other, (pattern, _)): (usize, &(&str, _))| other != at && own.iter().all(|point| fits(point, pattern));
-            prop_assert_eq!(continuum.maximal, !sets.iter().enumerate().any(within));
+            prop_assert!(!sets.iter().enumerate().any(within));
         }
-        for solution in &all.solutions {
-            let point = signed(&solution.unknowns);
-            prop_assert_eq!(solution.maximal, !sets.iter().any(|(pattern, _)| fits(&point, pattern)));
-            prop_assert_eq!(solution.maximal, solution.end_of_continuum.is_none());
+        let points: Vec<Vec<f64>> = report.solutions.iter().map(|one| signed(&one.unknowns)).collect();
+        prop_assert!(!points.iter().any(|point| sets.iter().any(|(pattern, _)| fits(point, pattern))));
+        // What is left out is part of what is listed.
+        for corner in basic_solutions(&m, &q) {
+            let is_it = |point: &Vec<f64>| (DVector::from_column_slice(point) - &corner).amax() <= 1e-9;
+            let is_listed = points.iter().any(is_it) || sets.iter().any(|(pattern, _)| fits(corner.as_slice(), pattern));
+            prop_assert!(is_listed, "{corner} is part of nothing that is listed");
         }
-        let maximal: Vec<&RawContinuum> = all.continua.iter().filter(|one| one.maximal).collect();
-        prop_assert_eq!(&maximal, &report.continua.iter().collect::<Vec<_>>());
-        prop_assert_eq!(all.continua.len() - maximal.len(), report.faces.continua.parse::<usize>().unwrap());
-        let ends = all.solutions.iter().filter(|one| !one.maximal).count();
-        prop_assert_eq!(ends, report.faces.solutions.parse::<usize>().unwrap());
         prop_assert_eq!(report.solutions.len(), report.count.parse::<usize>().unwrap());
-        prop_assert!(report.json().contains("slideway/modes/2"));
+        prop_assert!(report.groups.iter().all(|group| (sum(&group.patterns) - 1.0).abs() <= 1e-12));
+        prop_assert!(report.json().contains("slideway-modes/2"));
         prop_assert!(report.text(Style::Plain).contains("complete: "));
         prop_assert!(to_npz(&report).starts_with(b"PK"));
     }
@@ -215,9 +228,14 @@ fn continua_among_very_many_solutions_are_listed() {
     assert_eq!(report.status, Status::Continuum);
     // The single solutions are the ends of the rays.
     assert_eq!((report.count.as_str(), report.solutions.len()), ("0", 0));
-    assert_eq!(report.faces.solutions, (1_u128 << 70).to_string());
     assert_eq!(report.continuum_count, (1_u128 << 70).to_string());
     assert_eq!(report.continua.len(), 1000);
+}
+
+/// The fractions of a group's patterns together, each of which the JSON output has.
+fn sum(shares: &RawShares) -> f64 {
+    let shares = serde_json::to_value(shares).unwrap();
+    shares.as_object().unwrap().values().map(|share| share.as_f64().unwrap()).sum()
 }
 
 fn solution_of(json: &str) -> RawReport {
@@ -236,7 +254,6 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
         (report.complete, report.count.as_str(), report.gap_state_count.as_str()),
         (Proof::Proven, "2", "1")
     );
-    assert_eq!((report.faces.solutions.as_str(), report.faces.gap_states.as_str()), ("0", "2"));
     let [state] = report.gap_states.as_slice() else { panic!("one state") };
     let shares: Vec<(usize, f64)> = state.gaps.iter().map(|gap| (gap.index, gap.lambda)).collect();
     assert_eq!(shares, [(0, 0.875), (1, 0.75)]);
@@ -357,19 +374,12 @@ fn without_proofs_nothing_is_proven() {
 /// `w = 0` for every `z >= 0`: one orthant, whose 7 faces are what the other patterns admit.
 #[test]
 fn an_orthant_is_one_continuum() {
-    let problem = lcp(DMatrix::zeros(3, 3), &[0.0; 3]);
-    let report = solved(&problem);
+    let report = solved(&lcp(DMatrix::zeros(3, 3), &[0.0; 3]));
     assert_eq!((report.status, report.complete), (Status::Continuum, Proof::Proven));
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
-    assert_eq!((report.faces.solutions.as_str(), report.faces.continua.as_str()), ("1", "6"));
     assert!(report.solutions.is_empty());
     let [orthant] = report.continua.as_slice() else { panic!("one") };
     assert_eq!((orthant.parts[0].vertex_count, orthant.parts[0].direction_count), (1, 3));
-
-    let all = with_all_faces(&problem);
-    assert_eq!((all.solutions.len(), all.continua.len()), (1, 7));
-    assert_eq!(all.solutions[0].end_of_continuum, Some(0));
-    assert_eq!(all.continua.iter().filter(|continuum| continuum.maximal).count(), 1);
 }
 
 /// Each unknown by itself is a ray; the product of 400 rays is told as such.
@@ -377,10 +387,23 @@ fn an_orthant_is_one_continuum() {
 fn an_orthant_of_many_unknowns_is_told_in_few_words() {
     let report = solved(&lcp(DMatrix::zeros(400, 400), &[0.0; 400]));
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
-    // 2^400 patterns, each with a face; all but the whole one and the end.
-    assert!(report.faces.continua.starts_with("258224987808690858965591917200"));
     assert_eq!(report.continua[0].parts.len(), 400);
     assert!(report.json().len() < 500_000 && report.text(Style::Plain).len() < 5000);
+}
+
+/// Nobody's payoff depends on anything, so that every pair of strategies is an equilibrium: the product of two
+/// simplices. Most patterns are settled without being solved, as their solutions are those of the largest one.
+#[test]
+fn patterns_settled_by_a_face_are_told() {
+    let ones = DMatrix::from_element(5, 5, 1.0);
+    let report = solved(&RawProblem::Game { a: ones.clone(), b: ones });
+    assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
+    assert_eq!(report.continua[0].parts.iter().map(|part| part.vertex_count).collect::<Vec<_>>(), [5, 5]);
+    let [group] = report.groups.as_slice() else { panic!("one group") };
+    assert!(group.patterns.faces > 0.0, "{:?}", group.patterns);
+    assert!((sum(&group.patterns) - 1.0).abs() <= 1e-12, "{:?}", group.patterns);
+    let told = report.text(Style::Plain);
+    assert!(told.contains(" % all of whose solutions are those of another pattern, "), "{told}");
 }
 
 /// What is listed of each part is bounded, too.
@@ -398,13 +421,12 @@ fn a_cube_of_many_corners_lists_those_that_were_asked_for() {
 /// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and
 /// no part of it.
 #[test]
-fn a_solution_close_to_a_continuum_is_no_end_of_it() {
+fn a_solution_close_to_a_continuum_is_no_part_of_it() {
     let json = br#"{"type": "modes", "columns_positive": [[0, 0, 2], [0, 1, 0], [0, 0, 1]],
         "columns_negative": [[1, 0, 1], [0, -1, 0], [0, 0, 1]], "right_hand_side": [2e-10, 1, 1e-10]}"#;
-    let report = with_all_faces(&RawProblem::from_json(json).unwrap());
-    let ends: Vec<(Vec<i8>, Option<usize>)> =
-        report.solutions.iter().map(|one| (one.signs.clone(), one.end_of_continuum)).collect();
-    assert_eq!(ends, [(vec![0, 1, 1], Some(0)), (vec![-1, 1, -1], None)]);
+    let report = solved(&RawProblem::from_json(json).unwrap());
+    assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("1", "1"));
+    assert_eq!(report.solutions[0].signs, [-1, 1, -1]);
 }
 
 /// `z_k` is 0 or 1, and the last two rows ask for `sum a_k z_k = b`: with even `a_k` and odd `b` there is no

@@ -3,7 +3,6 @@
 use super::{Destination, SearchArguments};
 use clap::{Args, ValueEnum};
 use slideway::modes::SearchOptions;
-use slideway::raw_problem::Listing;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -56,10 +55,6 @@ pub(crate) struct ModesArguments {
     #[arg(long, value_enum)]
     format: Option<ModesFormat>,
 
-    /// Also list what is part of a larger continuum: its ends and faces.
-    #[arg(long)]
-    all_faces: bool,
-
     /// Also decide whether there is exactly one solution for every right-hand side (of an LCP: whether M is a
     /// P-matrix).
     #[arg(long)]
@@ -96,10 +91,9 @@ impl ModesArguments {
         if self.any { self.search.options_for_one() } else { self.search.options() }
     }
 
-    /// What is to be listed.
-    pub(crate) fn listing(&self) -> Listing {
-        let most = if self.count_only { 0 } else { self.search.max_solutions };
-        Listing { most, all_faces: self.all_faces }
+    /// The maximum number of entries in each list.
+    pub(crate) fn most_listed(&self) -> usize {
+        if self.count_only { 0 } else { self.search.max_solutions }
     }
 
     /// The time for one problem.

@@ -11,7 +11,7 @@ use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;
 use slideway::progress::Callback;
-use slideway::raw_problem::{RawFault, RawKind, RawProblem, RawReport, SIZE_LIMIT, solve_with, to_npz};
+use slideway::raw_problem::{RawFault, RawKind, RawProblem, RawReport, SIZE_LIMIT, solve, to_npz};
 use std::time::Instant;
 
 /// Finds and writes all solutions of a problem given by its matrices.
@@ -51,7 +51,7 @@ fn checker_reads(problem: &RawProblem, arguments: &ModesArguments) -> bool {
 
 /// The answer to a problem.
 fn answer(problem: &RawProblem, arguments: &ModesArguments, progress: &mut Callback<'_>) -> RawReport {
-    let mut report = solve_with(problem, &arguments.options(), arguments.listing(), progress)
+    let mut report = solve(problem, &arguments.options(), arguments.most_listed(), progress)
         .expect("shapes and values are checked where the problem is read");
     if arguments.uniqueness {
         report.every_right_hand_side = problem.every_right_hand_side(progress).ok();

@@ -1,9 +1,9 @@
 //! From a problem to its report: the search, and what is reported.
 
 use super::correspondence::Correspondence;
-use super::listing::{Counts, Listing, Sort, list};
+use super::listing::{Counts, Sort, list};
 use super::range::in_range;
-use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA};
+use super::report::{RawGroup, RawReport, RawShares, RawSolution, SCHEMA};
 use super::residual::Equations;
 use super::values::Values;
 use super::{RawProblem, continuum, nearby};
@@ -26,38 +26,23 @@ const EXACT_UNKNOWNS: usize = 24;
 
 /// All solutions of a raw problem.
 ///
-/// Searches with `options` and lists up to `listed` solutions, gap states and continua each; the counts
-/// include all of them. Parts of a continuum are not listed separately. `progress` is called at every node
-/// and during long steps, and ends the search by breaking.
+/// Searches with `options` and lists up to `most` solutions, gap states and continua each, and up to as many
+/// vertices and directions of each part of a continuum; the counts include all of them. What is part of a
+/// larger continuum is neither listed nor counted. `progress` is called at every node and during long steps,
+/// and ends the search by breaking.
 ///
 /// # Errors
 /// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
 pub fn solve(
     raw: &RawProblem,
     options: &SearchOptions,
-    listed: usize,
-    progress: &mut Callback<'_>,
-) -> Result<RawReport, ModeProblemError> {
-    solve_with(raw, options, Listing { most: listed, all_faces: false }, progress)
-}
-
-/// [`solve`], with more options for what is listed.
-///
-/// # Errors
-/// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
-pub fn solve_with(
-    raw: &RawProblem,
-    options: &SearchOptions,
-    listing: Listing,
+    most: usize,
     progress: &mut Callback<'_>,
 ) -> Result<RawReport, ModeProblemError> {
     let problem = raw.mode_problem()?;
     let correspondence = Correspondence::of(raw);
     let result = search(&problem, options, progress);
-    let counts = Counts::of(&result.product, false);
-    let all = Counts::of(&result.product, true);
-    let faces = all.minus(&counts);
-    let listed = if listing.all_faces { &all } else { &counts };
+    let counts = Counts::of(&result.product);
     let open = open(&result, options);
     let mut report = RawReport {
         schema: SCHEMA,
@@ -71,15 +56,8 @@ pub fn solve_with(
         count: counts.points.to_string(),
         gap_state_count: counts.gaps.to_string(),
         continuum_count: counts.continua.to_string(),
-        faces: Faces {
-            solutions: faces.points.to_string(),
-            gap_states: faces.gaps.to_string(),
-            continua: faces.continua.to_string(),
-            listed: listing.all_faces,
-        },
         within_rounding: None,
         every_right_hand_side: None,
-        totals: [&listed.points, &listed.gaps, &listed.continua].map(ToString::to_string),
         solutions: Vec::new(),
         gap_states: Vec::new(),
         continua: Vec::new(),
@@ -93,8 +71,8 @@ pub fn solve_with(
         problem: &problem,
         equations: Equations::of(raw, &problem),
     };
-    teller.list(&result.product, listed, listing, &mut report);
-    if report.status == Status::None && listing.most > 0 {
+    teller.list(&result.product, &counts, most, &mut report);
+    if report.status == Status::None && most > 0 {
         let spent = (options, report.nodes);
         let raw = (raw, &correspondence);
         report.within_rounding = nearby::within_rounding(raw, &problem, spent, progress);
@@ -181,6 +159,7 @@ fn group(report: &GroupReport) -> RawGroup {
             cells: shares.cells,
             propagation: shares.propagation,
             relaxation: shares.relaxation,
+            faces: shares.faces,
             examined: shares.examined,
             // An empty sum is -0.
             unexplored: shares.unexplored + 0.0,
@@ -198,25 +177,18 @@ struct Teller<'a> {
 
 impl Teller<'_> {
     /// Fills the lists of the report.
-    fn list(&self, product: &SolutionProduct, counts: &Counts, listing: Listing, report: &mut RawReport) {
+    fn list(&self, product: &SolutionProduct, counts: &Counts, most: usize, report: &mut RawReport) {
         let size = self.problem.contacts();
-        let mut ends = Vec::new();
-        list(product, (counts, Sort::Point), listing, &mut |state| {
+        list(product, (counts, Sort::Point), most, &mut |state| {
             let number = report.solutions.len();
             report.solutions.push(self.point(state, number));
-            ends.push(state.support(size));
         });
-        list(product, (counts, Sort::Gap), listing, &mut |state| {
+        list(product, (counts, Sort::Gap), most, &mut |state| {
             report.gap_states.push(self.point(state, 0));
         });
-        let mut continua = Vec::new();
-        list(product, (counts, Sort::Continuum), listing, &mut |state| {
-            report.continua.push(continuum::told(state, self.correspondence, size, listing.most));
-            continua.push(state.support(size));
+        list(product, (counts, Sort::Continuum), most, &mut |state| {
+            report.continua.push(continuum::told(state, self.correspondence, size, most));
         });
-        for (solution, end) in report.solutions.iter_mut().zip(&ends).filter(|(one, _)| !one.maximal) {
-            solution.end_of_continuum = continua.iter().position(|continuum| end.is_part_of(continuum));
-        }
     }
 
     fn point(&self, state: &CombinedState<'_>, number: usize) -> RawSolution {
@@ -246,13 +218,11 @@ impl Teller<'_> {
             unknowns: self.correspondence.unknowns(&values.signed),
             signs,
             on_boundary,
-            maximal: state.is_maximal(),
             enclosure_radius,
             residual: values.residual(&self.equations, &pattern),
             beyond_range,
             gaps: values.gaps,
             shares_vary: state.shares_vary(),
-            end_of_continuum: None,
         }
     }
 

@@ -16,7 +16,6 @@ pub(super) fn told(
 ) -> RawContinuum {
     RawContinuum {
         pattern: correspondence.pattern(&state.pattern(size)),
-        maximal: state.is_maximal(),
         parts: match correspondence.players() {
             Some(players) => players.map(|player| strategies(state, correspondence, &player, most)).into(),
             None => parts(state, correspondence, most),

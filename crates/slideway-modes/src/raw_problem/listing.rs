@@ -1,17 +1,8 @@
-//! Selects which combinations of the groups' states are listed, and counts those of each sort.
+//! Selects which combinations of the groups' states are listed, and counts those of each sort: those that are not
+//! part of a larger continuum.
 
 use crate::problem::ContactState;
 use crate::search::{BigCount, CombinedState, GroupState, SolutionProduct};
-
-/// How much of the answer is listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Listing {
-    /// The maximum number of entries in each list: solutions, gap states, continua, and the vertices and the
-    /// directions of each part of a continuum.
-    pub most: usize,
-    /// Whether parts of a larger continuum, its ends and faces, are listed, too.
-    pub all_faces: bool,
-}
 
 /// The sort of a combination of the groups' states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,18 +38,10 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// Counts for a product, with or without parts of a larger continuum.
-    pub(super) fn of(product: &SolutionProduct, all_faces: bool) -> Self {
-        let [points, with_gaps, all] = cumulated(product, all_faces);
+    /// Counts for a product.
+    pub(super) fn of(product: &SolutionProduct) -> Self {
+        let [points, with_gaps, all] = cumulated(product);
         Self { gaps: with_gaps.minus(&points), continua: all.minus(&with_gaps), points }
-    }
-
-    pub(super) fn minus(&self, other: &Self) -> Self {
-        Self {
-            points: self.points.minus(&other.points),
-            gaps: self.gaps.minus(&other.gaps),
-            continua: self.continua.minus(&other.continua),
-        }
     }
 
     /// How many combinations of a sort to list.
@@ -73,12 +56,12 @@ impl Counts {
 }
 
 /// Cumulative numbers of combinations: points; with gap states; with continua.
-fn cumulated(product: &SolutionProduct, all_faces: bool) -> [BigCount; 3] {
+fn cumulated(product: &SolutionProduct) -> [BigCount; 3] {
     let mut total = [1, 1, 1].map(BigCount::from);
     for factor in &product.factors {
         let mut sums = <[BigCount; 3]>::default();
-        for alternative in factor.alternatives.iter().filter(|one| all_faces || one.state.is_maximal()) {
-            let dependents = cumulated(&alternative.dependents, all_faces);
+        for alternative in factor.alternatives.iter().filter(|one| one.state.is_maximal()) {
+            let dependents = cumulated(&alternative.dependents);
             for sort in Sort::of_part(&alternative.state) as usize..3 {
                 sums[sort] = sums[sort].plus(&dependents[sort]);
             }
@@ -88,18 +71,18 @@ fn cumulated(product: &SolutionProduct, all_faces: bool) -> [BigCount; 3] {
     total
 }
 
-/// Calls `take` with each combination of a sort to be listed, given how many there are.
+/// Calls `take` with each combination of a sort, `most` at most, given how many there are.
 pub(super) fn list(
     product: &SolutionProduct,
     (counts, sort): (&Counts, Sort),
-    listing: Listing,
+    most: usize,
     take: &mut dyn FnMut(&CombinedState<'_>),
 ) {
-    let wanted = counts.wanted(sort, listing.most);
+    let wanted = counts.wanted(sort, most);
     if wanted > 0 {
         // Those of this sort come first, so that none has to be found among many others.
         let mut product = product.clone();
-        restrict(&mut product, sort, listing.all_faces);
+        restrict(&mut product, sort);
         let states = product.states().filter(|state| Sort::of(state) == sort);
         states.take(wanted).for_each(|state| take(&state));
     }
@@ -107,15 +90,15 @@ pub(super) fn list(
 
 /// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the remaining
 /// combinations; `None` if there are no combinations.
-fn restrict(product: &mut SolutionProduct, most: Sort, all_faces: bool) -> Option<Sort> {
+fn restrict(product: &mut SolutionProduct, most: Sort) -> Option<Sort> {
     let mut greatest = Some(Sort::Point);
     for factor in &mut product.factors {
         let mut sorted = Vec::new();
         for mut alternative in std::mem::take(&mut factor.alternatives) {
             let own = Sort::of_part(&alternative.state);
             if own <= most
-                && (all_faces || alternative.state.is_maximal())
-                && let Some(dependents) = restrict(&mut alternative.dependents, most, all_faces)
+                && alternative.state.is_maximal()
+                && let Some(dependents) = restrict(&mut alternative.dependents, most)
             {
                 sorted.push((own.max(dependents), alternative));
             }

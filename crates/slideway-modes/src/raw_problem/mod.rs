@@ -64,15 +64,14 @@ mod shape;
 mod tables;
 mod values;
 
-pub use answer::{solve, solve_with};
+pub use answer::solve;
 #[cfg(feature = "json")]
 pub use exact_file::exact_json;
 #[cfg(any(feature = "json", feature = "npz"))]
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
-pub use listing::Listing;
 pub use report::{
-    BeyondRange, ContinuumPart, Faces, GapShare, NamedRange, RawContinuum, RawGroup, RawReport, RawShares,
+    BeyondRange, ContinuumPart, GapShare, NamedRange, RawContinuum, RawGroup, RawReport, RawShares,
     RawSolution, RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 pub use right_hand_sides::{EveryAnswer, EveryRightHandSide};

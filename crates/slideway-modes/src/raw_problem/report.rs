@@ -9,7 +9,7 @@ use super::right_hand_sides::EveryRightHandSide;
 use crate::status::{Proof, Status};
 
 /// Version of the layout of a [`RawReport`]; it changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway/modes/2";
+pub const SCHEMA: &str = "slideway-modes/2";
 
 /// All solutions of a raw problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -38,15 +38,11 @@ pub struct RawReport {
     /// Number of solutions found that are not part of a continuum, as decimal text, because it may exceed any
     /// integer type. Gap states are not included.
     pub count: String,
-    /// Number of states with an unknown in its preload gap, as decimal text.
+    /// Number of states with an unknown in its preload gap that are not part of a continuum, nor of gap states
+    /// whose shares vary, as decimal text.
     pub gap_state_count: String,
     /// Number of continua that are not part of larger ones, as decimal text.
     pub continuum_count: String,
-    /// Parts of larger continua.
-    pub faces: Faces,
-    /// How many solutions, gap states and continua there are to list, as decimal text.
-    #[serde(skip)]
-    pub totals: [String; 3],
     /// Whether there is a solution within rounding of the numbers; present only if there is none for the
     /// numbers themselves.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -55,11 +51,11 @@ pub struct RawReport {
     /// [`RawProblem::every_right_hand_side`](super::RawProblem::every_right_hand_side).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub every_right_hand_side: Option<EveryRightHandSide>,
-    /// The solutions, up to the requested number.
+    /// The solutions that are not part of a continuum, up to the requested number.
     pub solutions: Vec<RawSolution>,
     /// States with an unknown in its preload gap, up to the requested number (theory, section 3).
     pub gap_states: Vec<RawSolution>,
-    /// Infinite sets of solutions, up to the requested number.
+    /// Infinite sets of solutions that are not part of larger ones, up to the requested number.
     pub continua: Vec<RawContinuum>,
     /// How they were found: groups of unknowns and methods, in words.
     pub strategy: String,
@@ -67,20 +63,6 @@ pub struct RawReport {
     pub nodes: u64,
     /// The groups of unknowns that were searched separately.
     pub groups: Vec<RawGroup>,
-}
-
-/// Parts of larger continua: their ends and faces, which the search finds as solutions of other patterns.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Faces {
-    /// Number of solutions, as decimal text.
-    pub solutions: String,
-    /// Number of states in preload gaps, as decimal text.
-    pub gap_states: String,
-    /// Number of continua, as decimal text.
-    pub continua: String,
-    /// Whether they are listed together with the others.
-    pub listed: bool,
 }
 
 /// The unknowns, with the names that the problem's type has for them. NaN (`null` in JSON) means no value:
@@ -242,8 +224,6 @@ pub struct RawSolution {
     pub signs: Vec<i8>,
     /// Whether some sign outside a gap is 0: the solution is on the boundary between patterns.
     pub on_boundary: bool,
-    /// Whether it is not part of a continuum.
-    pub maximal: bool,
     /// Maximum distance of the unknowns that have a number from the exact solution for the given numbers;
     /// absent if it was not determined.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -255,9 +235,6 @@ pub struct RawSolution {
     /// Unknowns that exist but have no floating-point number; their value is `null`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beyond_range: Vec<BeyondRange>,
-    /// The first continuum in the list `continua`, from 0, of which this is an end; absent if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub end_of_continuum: Option<usize>,
     /// Unknowns in their gap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<GapShare>,
@@ -341,8 +318,6 @@ pub struct GapShare {
 pub struct RawContinuum {
     /// "+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap.
     pub pattern: String,
-    /// Whether it is not part of a larger continuum.
-    pub maximal: bool,
     /// Its parts: unknowns that vary together and, last, those that are fixed, if any.
     pub parts: Vec<ContinuumPart>,
 }
@@ -380,7 +355,7 @@ pub struct RawGroup {
     pub proven: bool,
 }
 
-/// Fractions of the patterns of a group.
+/// Fractions of the patterns of a group; they add up to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawShares {
@@ -392,6 +367,8 @@ pub struct RawShares {
     pub propagation: f64,
     /// Excluded by a linear relaxation.
     pub relaxation: f64,
+    /// Not solved one by one, because all their solutions are those of another pattern.
+    pub faces: f64,
     /// Solved one by one.
     pub examined: f64,
     /// Not settled.

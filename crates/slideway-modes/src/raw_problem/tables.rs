@@ -9,7 +9,7 @@ use super::{npy, npz};
 /// The report as a NumPy archive (`.npz`).
 ///
 /// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and `y`;
-/// the same applies to `signs`, `on_boundary`, `maximal`, `residual` and `enclosure_radius` (NaN if not
+/// the same applies to `signs`, `on_boundary`, `residual` and `enclosure_radius` (NaN if not
 /// determined). States in preload gaps are in arrays with the prefix `gap_`; `gap_shares` is NaN outside a
 /// gap. The rows of `vertex_...` and `direction_...` belong to the continua and parts whose numbers are in
 /// `vertex_continuum`, `vertex_part`, `direction_continuum` and `direction_part`; they are zero outside their
@@ -17,8 +17,7 @@ use super::{npy, npz};
 /// NaN; if there are any, `beyond_range_row` (of the solution), `beyond_range_index`, `beyond_range_name` and
 /// `beyond_range_value` describe each of them, with the prefix for those of gap states. `status`, `complete`,
 /// `partial`, `open`, `type`, `count`, `gap_state_count`, `continuum_count` and `schema` are those of
-/// [`RawReport`]; `face_solution_count`, `face_gap_state_count` and `face_continuum_count` are those of its
-/// `faces`. If there is no solution, `within_rounding` says whether there is one within rounding of the
+/// [`RawReport`]. If there is no solution, `within_rounding` says whether there is one within rounding of the
 /// numbers, which is then the row of `within_rounding_z`, ... If requested, `every_right_hand_side` is the
 /// answer of [`RawReport::every_right_hand_side`].
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
@@ -33,9 +32,6 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
         ("count", &report.count),
         ("gap_state_count", &report.gap_state_count),
         ("continuum_count", &report.continuum_count),
-        ("face_solution_count", &report.faces.solutions),
-        ("face_gap_state_count", &report.faces.gap_states),
-        ("face_continuum_count", &report.faces.continua),
         ("strategy", &report.strategy),
     ] {
         archive.push(name, npy::write_texts(&[], &[text]));
@@ -88,8 +84,6 @@ impl Archive {
         self.push("signs", self.signs(solutions));
         let on_boundary: Vec<bool> = solutions.iter().map(|solution| solution.on_boundary).collect();
         self.push("on_boundary", npy::write_truths(&[solutions.len()], &on_boundary));
-        let maximal: Vec<bool> = solutions.iter().map(|solution| solution.maximal).collect();
-        self.push("maximal", npy::write_truths(&[solutions.len()], &maximal));
         let column = |value: fn(&RawSolution) -> f64| {
             npy::write_numbers(&[solutions.len()], &solutions.iter().map(value).collect::<Vec<_>>())
         };
@@ -158,8 +152,6 @@ impl Archive {
         }
         self.corners(report, "vertex", |part| &part.vertices);
         self.corners(report, "direction", |part| &part.directions);
-        let maximal: Vec<bool> = continua.iter().map(|continuum| continuum.maximal).collect();
-        self.push("continuum_maximal", npy::write_truths(&[maximal.len()], &maximal));
         let patterns: Vec<&str> = continua.iter().map(|continuum| continuum.pattern.as_str()).collect();
         self.push("continuum_pattern", npy::write_texts(&[patterns.len()], &patterns));
     }

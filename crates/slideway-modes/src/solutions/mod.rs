@@ -130,13 +130,15 @@ pub struct ModeState<S> {
     pub determinant: f64,
     /// Pressed contacts with `y_k = 0` within `tolerance`.
     pub on_boundary: Vec<usize>,
-    /// The patterns that give this state, at most [`Limits::listed`](crate::Limits::listed).
+    /// The patterns that give this state, at most [`Limits::listed`](crate::Limits::listed). A search of a large
+    /// group lists those that it examined: on a boundary there may be others, whose solutions are the same.
     pub patterns: Vec<Vec<S>>,
-    /// Number of patterns that give this state.
+    /// Number of patterns that give this state; of a large group, of those that were examined.
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
-    /// Whether it is not part of a continuum that was also found: exactly, if the data are exact, otherwise
+    /// Whether it is not part of a continuum that was also found (a search of a large group examines few such
+    /// parts): exactly, if the data are exact, otherwise
     /// within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,
@@ -171,9 +173,9 @@ pub struct SingularMode {
     /// The first pattern, in the order of enumeration; including gap states if they were tried.
     pub pattern: Vec<ContactState>,
     /// The singular patterns that admit this set: several only if it is not empty; at most
-    /// [`Limits::listed`](crate::Limits::listed).
+    /// [`Limits::listed`](crate::Limits::listed). A search of a large group lists those that it examined.
     pub patterns: Vec<Vec<ContactState>>,
-    /// Number of singular patterns that admit this set.
+    /// Number of singular patterns that admit this set; of a large group, of those that were examined.
     pub pattern_count: u64,
     /// What the pattern admits. For a pattern with gap states, this is the set of its normal forces; the
     /// shares `lambda` may vary as well.
@@ -186,7 +188,8 @@ pub struct SingularMode {
     /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and are therefore
     /// reported there as well.
     pub contains: Vec<usize>,
-    /// Whether it is not part of a larger continuum that was also found: exactly, if the data are exact,
+    /// Whether it is not part of a larger continuum that was also found (a search of a large group examines few such
+    /// parts): exactly, if the data are exact,
     /// otherwise within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,

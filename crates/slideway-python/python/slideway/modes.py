@@ -27,7 +27,6 @@ def _options(
     max_solutions: int = 100,
     max_nodes: int | None = None,
     max_found: int | None = None,
-    all_faces: bool = False,
     uniqueness: bool = False,
     time_limit: float | None = None,
     progress: Progress | None = None,
@@ -46,14 +45,12 @@ def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.R
     Other Parameters
     ----------------
     max_solutions : int, default 100
-        How many solutions to list, perhaps none; all are counted.
+        How many solutions to list, perhaps none; all are counted. What is part of a continuum is not listed by itself.
     max_nodes : int, optional
         After how many nodes the search ends; the answer is then partial.
     max_found : int, optional
         The search of unknowns that do not depend on others ends once it has more solutions than this; the answer
         is then partial.
-    all_faces : bool, default False
-        Whether to list the parts of continua.
     uniqueness : bool, default False
         Whether to decide if there is exactly one solution for every `b`, too.
     time_limit : float, optional

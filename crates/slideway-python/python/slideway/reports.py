@@ -83,7 +83,6 @@ __all__ = [
     "EventReport",
     "EveryAnswer",
     "EveryRightHandSide",
-    "Faces",
     "Figure",
     "Finding",
     "FlutterDamping",
@@ -1481,20 +1480,6 @@ class EveryRightHandSide(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Faces(Record):
-    """Parts of larger continua: their ends and faces, which the search finds as solutions of other patterns."""
-
-    solutions: str
-    """Number of solutions, as decimal text."""
-    gap_states: str
-    """Number of states in preload gaps, as decimal text."""
-    continua: str
-    """Number of continua, as decimal text."""
-    listed: bool
-    """Whether they are listed together with the others."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
 class Figure(Record):
     """A figure: panels one below the other, each with its legend."""
 
@@ -2120,8 +2105,6 @@ class RawContinuum(Record):
 
     pattern: str
     """"+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap."""
-    maximal: bool
-    """Whether it is not part of a larger continuum."""
     parts: tuple[ContinuumPart, ...]
     """Its parts: unknowns that vary together and, last, those that are fixed, if any."""
 
@@ -2167,22 +2150,21 @@ class RawReport(_mixins.RawReport, Report):
     """Number of solutions found that are not part of a continuum, as decimal text, because it may exceed any
     integer type. Gap states are not included."""
     gap_state_count: str
-    """Number of states with an unknown in its preload gap, as decimal text."""
+    """Number of states with an unknown in its preload gap that are not part of a continuum, nor of gap states
+    whose shares vary, as decimal text."""
     continuum_count: str
     """Number of continua that are not part of larger ones, as decimal text."""
-    faces: Faces
-    """Parts of larger continua."""
     within_rounding: WithinRounding | None
     """Whether there is a solution within rounding of the numbers; present only if there is none for the numbers
     themselves."""
     every_right_hand_side: EveryRightHandSide | None
     """Whether every right-hand side has exactly one solution, if requested: `RawProblem::every_right_hand_side`."""
     solutions: tuple[RawSolution, ...]
-    """The solutions, up to the requested number."""
+    """The solutions that are not part of a continuum, up to the requested number."""
     gap_states: tuple[RawSolution, ...]
     """States with an unknown in its preload gap, up to the requested number (theory, section 3)."""
     continua: tuple[RawContinuum, ...]
-    """Infinite sets of solutions, up to the requested number."""
+    """Infinite sets of solutions that are not part of larger ones, up to the requested number."""
     strategy: str
     """How they were found: groups of unknowns and methods, in words."""
     nodes: int
@@ -2193,7 +2175,7 @@ class RawReport(_mixins.RawReport, Report):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RawShares(Record):
-    """Fractions of the patterns of a group."""
+    """Fractions of the patterns of a group; they add up to 1."""
 
     uniqueness: float
     """Excluded by a proof that there is exactly one solution."""
@@ -2203,6 +2185,8 @@ class RawShares(Record):
     """Excluded by interval propagation."""
     relaxation: float
     """Excluded by a linear relaxation."""
+    faces: float
+    """Not solved one by one, because all their solutions are those of another pattern."""
     examined: float
     """Solved one by one."""
     unexplored: float
@@ -2220,8 +2204,6 @@ class RawSolution(Record):
     response, -1 if not."""
     on_boundary: bool
     """Whether some sign outside a gap is 0: the solution is on the boundary between patterns."""
-    maximal: bool
-    """Whether it is not part of a continuum."""
     enclosure_radius: float | None = None
     """Maximum distance of the unknowns that have a number from the exact solution for the given numbers; absent
     if it was not determined."""
@@ -2230,8 +2212,6 @@ class RawSolution(Record):
     absent if an unknown has no value at all."""
     beyond_range: tuple[BeyondRange, ...] = ()
     """Unknowns that exist but have no floating-point number; their value is `null`."""
-    end_of_continuum: int | None = None
-    """The first continuum in the list `continua`, from 0, of which this is an end; absent if there is none."""
     gaps: tuple[GapShare, ...] = ()
     """Unknowns in their gap."""
     shares_vary: bool = False
@@ -2445,7 +2425,8 @@ class Solution(_mixins.Solution, Record):
     pattern: str
     """Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap."""
     patterns: tuple[str, ...]
-    """All patterns that give this same solution: more than one on a boundary."""
+    """The patterns that were examined and give this same solution: on a boundary more than one, all of them if
+    every pattern was tried (`patterns` of the report)."""
     signs: tuple[int, ...]
     """Sign of each normal force, 0 where it vanishes."""
     on_boundary: bool

@@ -25,8 +25,8 @@ impl Report for RawReport {
         text.within_rounding();
         text.every_right_hand_side();
         let title = if self.kind == RawKind::Game { "Equilibrium" } else { "Solution" };
-        text.solutions(title, &self.totals[0], &self.solutions);
-        text.solutions("Preload gap", &self.totals[1], &self.gap_states);
+        text.solutions(title, &self.count, &self.solutions);
+        text.solutions("Preload gap", &self.gap_state_count, &self.gap_states);
         text.continua();
         text.strategy();
         text.text()
@@ -79,8 +79,8 @@ impl Text<'_> {
             Status::One | Status::Several => format!("{single}."),
         };
         self.status(report.status, &verdict);
-        if report.status == Status::Continuum {
-            self.faces(&single);
+        if report.status == Status::Continuum && report.count != "0" {
+            self.line(&format!("{single} as well."));
         }
         self.line(&format!("complete: {}", report.complete));
         for open in &report.open {
@@ -139,38 +139,12 @@ impl Text<'_> {
         });
     }
 
-    /// What there is besides continua, and what is part of them.
-    fn faces(&mut self, single: &str) {
-        let report = self.report;
-        if report.count != "0" {
-            self.line(&format!("{single} as well."));
-        }
-        let faces = &report.faces;
-        let kinds = [
-            (&faces.solutions, "single solution", "single solutions"),
-            (&faces.gap_states, "gap state", "gap states"),
-            (&faces.continua, "smaller continuum", "smaller continua"),
-        ];
-        let words: Vec<String> = kinds
-            .iter()
-            .filter(|(count, ..)| count.as_str() != "0")
-            .map(|(count, one, more)| format!("{count} {}", if *count == "1" { one } else { more }))
-            .collect();
-        if !words.is_empty() {
-            let listed = if faces.listed { "which are listed, too" } else { "which --all-faces lists" };
-            self.line(&format!("Part of this: {}, {listed}.", words.join(", ")));
-        }
-    }
-
     fn solutions(&mut self, title: &str, all: &str, solutions: &[RawSolution]) {
         for (at, solution) in solutions.iter().enumerate() {
             self.line("");
             let signs = if solution.signs.len() > SIGNS { String::new() } else { signs(solution) };
             self.headed(&format!("{title} {} of {all}", at + 1), format!("   {signs}").trim_end());
             self.boundary(solution);
-            if let Some(continuum) = solution.end_of_continuum {
-                self.line(&format!("  An end of continuum {}", continuum + 1));
-            }
             self.unknowns(&solution.unknowns, &solution.beyond_range);
             for gap in &solution.gaps {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
@@ -241,18 +215,17 @@ impl Text<'_> {
 
     fn continua(&mut self) {
         let report = self.report;
-        let all = &report.totals[2];
+        let all = &report.continuum_count;
         for (at, continuum) in report.continua.iter().enumerate() {
             self.line("");
             let title = format!("Continuum {} of {all}", at + 1);
-            let part_of = if continuum.maximal { "" } else { ", part of a larger one" };
             if let [only] = continuum.parts.as_slice() {
-                self.headed(&title, &format!("{part_of}   {}", shape(only)));
+                self.headed(&title, &format!("   {}", shape(only)));
                 self.part(only);
                 continue;
             }
             let parts = count(continuum.parts.len(), "part", "parts");
-            self.headed(&title, &format!("{part_of}   {parts} that do not depend on each other"));
+            self.headed(&title, &format!("   {parts} that do not depend on each other"));
             for part in continuum.parts.iter().take(PARTS) {
                 self.line(&format!("  {}: {}", self.whose(part), shape(part)));
                 self.part(part);
@@ -444,6 +417,7 @@ fn shares(shares: &RawShares) -> String {
         (shares.cells, "excluded as no cell of an arrangement"),
         (shares.propagation, "excluded by interval propagation"),
         (shares.relaxation, "excluded by linear relaxation"),
+        (shares.faces, "all of whose solutions are those of another pattern"),
         (shares.examined, "solved one by one"),
         (shares.unexplored, "not dealt with"),
     ];

@@ -233,7 +233,8 @@ impl SolveReport {
 pub struct Solution {
     /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
     pub pattern: String,
-    /// All patterns that give this same solution: more than one on a boundary.
+    /// The patterns that were examined and give this same solution: on a boundary more than one, all of them if
+    /// every pattern was tried (`patterns` of the report).
     pub patterns: Vec<String>,
     /// Sign of each normal force, 0 where it vanishes.
     pub signs: Vec<i8>,
