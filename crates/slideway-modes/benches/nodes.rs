@@ -6,6 +6,7 @@
 //! cargo bench -p slideway-modes --bench nodes -- pile     those whose name contains a word
 //! cargo bench -p slideway-modes --bench nodes -- --two    with two threads
 //! cargo bench -p slideway-modes --bench nodes -- --prove  with proof files: their sizes and times
+//! NODES_PROOFS=folder cargo bench ... -- --prove          which are written there, with the problems
 //! ```
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
@@ -17,6 +18,7 @@ use instances::structured::{
     pushed_without_friction, subset_sum, weights_with_subset,
 };
 use instances::{chained_blocks, planted_blocks, planted_complementarity};
+use slideway_modes::raw_problem::exact_json;
 use slideway_modes::{CombinedState, ModeProblem, SearchOptions, prove, search};
 
 mod instances;
@@ -35,7 +37,7 @@ fn main() {
         if words.is_empty() || words.iter().any(|word| name.contains(word.as_str())) {
             println!("{}", line(name, &make(), &options));
             if given("--prove") {
-                println!("{}", proof_line(&make()));
+                println!("{}", proof_line(name, &make()));
             }
         }
     }
@@ -96,7 +98,7 @@ fn line(name: &str, problem: &ModeProblem, options: &SearchOptions) -> String {
 }
 
 /// A further line on the proof file: its cells, nodes and time, and its size.
-fn proof_line(problem: &ModeProblem) -> String {
+fn proof_line(name: &str, problem: &ModeProblem) -> String {
     let start = Instant::now();
     let proof = prove(problem, &SearchOptions::default(), &mut |_| {
         if start.elapsed() < TIME_LIMIT { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
@@ -105,6 +107,11 @@ fn proof_line(problem: &ModeProblem) -> String {
     match proof {
         Ok(proof) => {
             let size = proof.text.len() as f64 / 1e3;
+            if let (Ok(folder), Some(numbers)) = (std::env::var("NODES_PROOFS"), exact_json(problem)) {
+                let file = |ending: &str| format!("{folder}/{}.{ending}", name.replace(' ', "_"));
+                std::fs::write(file("json"), numbers).expect("the folder is there");
+                std::fs::write(file("txt"), &proof.text).expect("the folder is there");
+            }
             format!(
                 "| proof file | | | {:?} | {} | {milliseconds:.1} | {size:.1} kB |",
                 proof.cells, proof.nodes

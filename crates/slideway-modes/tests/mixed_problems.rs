@@ -9,6 +9,9 @@ use proptest::prelude::*;
 use slideway_modes::raw_problem::{EveryAnswer, RawProblem, RawReport, Unknowns, solve};
 use slideway_modes::{Proof, SearchOptions, Status};
 
+/// The free unknowns and `z`.
+type Pair = (Vec<RBig>, Vec<RBig>);
+
 const NONE: f64 = f64::INFINITY;
 
 fn solved(problem: &RawProblem) -> RawReport {
@@ -33,7 +36,7 @@ fn brute_force(
     m: &DMatrix<f64>,
     q: &DVector<f64>,
     bounds: &[(f64, f64)],
-) -> (BTreeSet<(Vec<RBig>, Vec<RBig>)>, bool) {
+) -> (BTreeSet<Pair>, bool) {
     let n = q.len();
     let (mut found, mut singular) = (BTreeSet::new(), false);
     for number in 0..3_usize.pow(u32::try_from(n).expect("few")) {
