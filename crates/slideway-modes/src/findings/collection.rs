@@ -1,8 +1,6 @@
 //! Collects what the tree finds: merges solutions that several patterns share, and counts every pattern.
 
-use std::collections::{BTreeSet, HashMap};
-
-use nalgebra::DVector;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::findings::admitted::Admitted;
 use crate::findings::candidate::{Candidate, determinant, solve_pattern};
@@ -358,7 +356,11 @@ impl<'a> Findings<'a> {
         }
         let (gaps, ordinary): (Vec<Found>, Vec<Found>) =
             std::mem::take(&mut self.found).into_iter().partition(Found::has_gap);
-        let known: Vec<bool> = gaps.iter().map(|gap| self.is_known(gap, &ordinary, &gaps)).collect();
+        let known = if self.exact {
+            self.known_exactly(&gaps, &ordinary)
+        } else {
+            gaps.iter().map(|gap| self.is_known(gap, &ordinary, &gaps)).collect()
+        };
         let mut new_gaps = Vec::new();
         for (gap, known) in gaps.into_iter().zip(known) {
             if known {
@@ -374,7 +376,11 @@ impl<'a> Findings<'a> {
         for mode in &mut singular {
             let vertices = mode.set.vertices();
             let is_vertex = |solution: &ModeSolution| {
-                vertices.iter().any(|vertex| self.is_same_point(vertex, &solution.normal_force))
+                if self.exact {
+                    !vertices.is_empty() && solution.support.is_within(&mode.support)
+                } else {
+                    vertices.iter().any(|vertex| same_point(vertex, &solution.normal_force))
+                }
             };
             let contained = solutions.iter().enumerate().filter(|(_, solution)| is_vertex(solution));
             let contained = contained.map(|(index, _)| index).collect();
@@ -384,10 +390,6 @@ impl<'a> Findings<'a> {
         let closest = if solutions.is_empty() { self.closest_modes() } else { Vec::new() };
         let (counts, gap_counts, undecided) = (self.counts, self.gap_counts, self.undecided);
         Solutions { counts, gap_counts, solutions, gaps, singular, undecided, closest }
-    }
-
-    fn is_same_point(&self, one: &DVector<f64>, other: &DVector<f64>) -> bool {
-        if self.exact { one == other } else { same_point(one, other) }
     }
 
     /// Merges boundary solutions with the solution of a neighbour that was not quite on the boundary within
@@ -433,19 +435,33 @@ impl<'a> Findings<'a> {
         merged
     }
 
-    /// Whether a gap state with a share of 0 or 1 is already reported: as a solution, as a gap state with
-    /// fewer gaps, or as a vertex of what a singular pattern admits.
+    /// Which gap states are already reported: as a solution, as what a singular pattern admits, as a gap state with
+    /// fewer gaps, or, with a share of 0 or 1, as a vertex of a set. Faces with the same support are equal.
+    fn known_exactly(&self, gaps: &[Found], ordinary: &[Found]) -> Vec<bool> {
+        let support = |found: &Found| found.support(&self.problem.has_jump);
+        let sets = || self.singular.iter().map(|mode| &mode.support);
+        let mut reported: HashSet<Support> = ordinary.iter().map(support).chain(sets().cloned()).collect();
+        let mut order: Vec<usize> = (0..gaps.len()).collect();
+        order.sort_by_key(|&at| gaps[at].gaps());
+        let mut known = vec![false; gaps.len()];
+        for at in order {
+            let own = support(&gaps[at]);
+            let is_end = !gaps[at].candidate.at_end.is_empty();
+            known[at] = is_end && sets().any(|set| own.is_part_of(set)) || !reported.insert(own);
+        }
+        known
+    }
+
+    /// Whether a gap state with a share of 0 or 1 is already reported, within tolerances: as a solution, as a gap
+    /// state with fewer gaps, or as a vertex of what a singular pattern admits.
     fn is_known(&self, gap: &Found, ordinary: &[Found], gaps: &[Found]) -> bool {
         if gap.candidate.at_end.is_empty() {
             return false;
         }
         let mut vertices = self.singular.iter().flat_map(|mode| mode.set.vertices());
-        // A state that is exactly at its end solves the equations at that face, which have one solution.
-        let ends_at = |other: &Found| {
-            gap.closes_to(other, &self.problem.has_jump) && (self.exact || gap.agrees_with(other))
-        };
+        let ends_at = |other: &Found| gap.closes_to(other, &self.problem.has_jump) && gap.agrees_with(other);
         ordinary.iter().chain(gaps).any(ends_at)
-            || vertices.any(|vertex| self.is_same_point(vertex, &gap.normal_force))
+            || vertices.any(|vertex| same_point(vertex, &gap.normal_force))
     }
 
     fn closest_modes(&self) -> Vec<ClosestMode> {

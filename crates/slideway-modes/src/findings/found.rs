@@ -31,6 +31,11 @@ impl Found {
         self.pattern().contains(&ContactState::Gap)
     }
 
+    /// The number of contacts in their gaps.
+    pub(crate) fn gaps(&self) -> usize {
+        self.pattern().iter().filter(|state| **state == ContactState::Gap).count()
+    }
+
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {
         let tolerance = self.candidate.tolerance + other.candidate.tolerance;
         (&self.normal_force - &other.normal_force).amax() <= tolerance
@@ -81,7 +86,7 @@ impl Found {
         self.pattern().iter().enumerate().map(sign).collect()
     }
 
-    fn support(&self, has_jump: &[bool]) -> Support {
+    pub(crate) fn support(&self, has_jump: &[bool]) -> Support {
         let Candidate { unknowns, zero, at_end, .. } = &self.candidate;
         Support::of_point(self.pattern(), unknowns, [zero, at_end], has_jump)
     }

@@ -280,11 +280,14 @@ impl SolvedGroup {
     }
 }
 
-/// What a singular pattern admits, unless that is empty or already a solution.
+/// What a singular pattern admits, unless that is empty or already a solution. A set in which only shares vary is more
+/// than the solutions at its ends; within bounds, it need not be one for other values.
 fn singular_state(mode: &SingularMode) -> Option<GroupState> {
+    let within_bounds = matches!(mode.certificate, Certificate::OnBoundaryWithinBounds { .. });
+    let is_one_state = !mode.shares_vary || within_bounds;
     match mode.set {
         SolutionSet::Empty | SolutionSet::NotComputed => None,
-        SolutionSet::Point(_) if !mode.contains.is_empty() => {
+        SolutionSet::Point(_) if is_one_state && !mode.contains.is_empty() => {
             // For other values within bounds it may be another solution.
             let undecided = UndecidedPattern::new(&mode.pattern, None, Vec::new());
             let undecided = UndecidedPattern { patterns: mode.patterns.clone(), ..undecided };

@@ -122,8 +122,13 @@ impl Support {
         self.unknowns.len()
     }
 
+    /// Whether a set with this support is part of one with the other support, or equal to it.
+    pub(crate) fn is_within(&self, other: &Self) -> bool {
+        self.unknowns.is_within(&other.unknowns)
+    }
+
     /// Whether a set with this support is part of a larger one with the other support.
     pub(crate) fn is_part_of(&self, other: &Self) -> bool {
-        self != other && self.unknowns.is_within(&other.unknowns)
+        self != other && self.is_within(other)
     }
 }

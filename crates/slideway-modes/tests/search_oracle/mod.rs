@@ -97,15 +97,7 @@ fn assert_same(family: &Family) {
 
 #[test]
 fn cells_are_those_of_brute_force() {
-    FAMILIES.iter().filter(|family| family.name != "jumps").for_each(assert_same);
-}
-
-/// In 5 of 1000 problems a point with a share of 0 or 1 is listed as a gap state and as the set of a singular pattern,
-/// or a set in which only shares vary is missing while its ends are listed as parts of it.
-#[test]
-#[ignore = "not put right yet: 5 of 1000 problems are answered otherwise"]
-fn cells_with_gap_states_are_those_of_brute_force() {
-    FAMILIES.iter().filter(|family| family.name == "jumps").for_each(assert_same);
+    FAMILIES.iter().for_each(assert_same);
 }
 
 /// `cargo test --release -p slideway-modes --test all -- --ignored --nocapture long_campaign`: minutes, not seconds.
