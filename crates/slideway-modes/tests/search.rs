@@ -3,7 +3,8 @@
 use crate::search_support::{self, Random, assert_same_as_enumeration, run, switches};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::{
-    Completeness, Limits, ModeProblem, ModeProblemError, SearchOptions, StopReason, enumerate, search,
+    Arguments, Completeness, Limits, ModeProblem, ModeProblemError, SearchOptions, StopReason, enumerate,
+    search,
 };
 use std::ops::ControlFlow;
 
@@ -238,4 +239,31 @@ fn any_number_of_threads_visits_the_same_nodes() {
         assert!(limited.nodes() <= nodes);
         assert_eq!(with(3, nodes, 1000), limited);
     }
+}
+
+/// w = -z + 1: each of `z = 0` and `z = 1` is a solution; and `z_1 + z_2 = 1`, of which every point is one. With a limit
+/// of 1, the first solution or set ends the search; what is proven without looking further is complete.
+#[test]
+fn a_limit_of_one_ends_the_search_at_the_first_solution() {
+    let one = SearchOptions::within(None, Some(1));
+    let arguments = Arguments { every_pattern: false, uniqueness: false, ..Arguments::default() };
+    let partial = Completeness::Partial(StopReason::SolutionLimit);
+    let several = ModeProblem::from_linear_complementarity(&dmatrix![-1.0], dvector![1.0]).unwrap();
+    let set = ModeProblem::from_linear_complementarity(&dmatrix![1.0, 1.0; 1.0, 1.0], dvector![-1.0, -1.0])
+        .unwrap();
+    for options in [one, SearchOptions { arguments, ..one }] {
+        let first = run(&several, &options);
+        assert_eq!((first.counts().solutions.to_u64(), first.completeness), (Some(1), partial));
+        let all = run(&several, &SearchOptions::default());
+        assert!(first.nodes() < all.nodes() || options.arguments == arguments, "{}", first.nodes());
+        assert_eq!(run(&set, &options).product.states().count(), 1, "{:?}", run(&set, &options).product);
+        assert_eq!(run(&set, &options).completeness, partial);
+    }
+    let only =
+        ModeProblem::from_linear_complementarity(&DMatrix::identity(9, 9), DVector::from_element(9, -1.0));
+    let result = run(
+        &only.unwrap(),
+        &SearchOptions { arguments: Arguments { groups: false, ..Arguments::default() }, ..one },
+    );
+    assert_eq!((result.counts().solutions.to_u64(), result.completeness), (Some(1), Completeness::Proven));
 }

@@ -64,7 +64,7 @@ pub(crate) struct ModesArguments {
     #[arg(long, conflicts_with = "max_solutions")]
     count_only: bool,
 
-    /// One solution is enough: end the search when there are more than that. The answer is then partial.
+    /// One solution is enough: end the search at the first. Whether there are others is then not known.
     #[arg(long, conflicts_with = "max_found")]
     any: bool,
 

@@ -134,6 +134,14 @@ impl<'a> Findings<'a> {
         self.found.iter().any(|found| !found.has_gap())
     }
 
+    /// Whether one solution is enough and there is one, or a set of them without gaps.
+    pub(crate) fn has_enough(&self) -> bool {
+        let is_set = |mode: &SingularMode| {
+            !mode.set.vertices().is_empty() && !mode.pattern.contains(&ContactState::Gap)
+        };
+        self.limits.solutions == 1 && (self.has_solutions() || self.singular.iter().any(is_set))
+    }
+
     /// Keeps a pattern that was not found to be singular if its determinant is among the smallest.
     pub(crate) fn offer_if_regular(&mut self, pattern: &[ContactState]) {
         let is_it = |other: &Vec<ContactState>| other == pattern;

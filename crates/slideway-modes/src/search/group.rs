@@ -125,7 +125,7 @@ fn by_monotonicity(
         let certain = if strictly {
             leaves.examine_only(&pattern, monitor)
         } else {
-            leaves.examine(&pattern, monitor).map(|()| true)
+            leaves.record(&pattern, monitor).map(|()| true)
         };
         match certain {
             Ok(true) => {}

@@ -45,8 +45,18 @@ impl<'a> Leaves<'a> {
         self.problem
     }
 
-    /// Records what a pattern admits.
+    /// Records what a pattern admits; the search ends if that is enough.
     pub(super) fn examine(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        self.record(pattern, monitor)?;
+        if self.findings.has_enough() { Err(StopReason::SolutionLimit) } else { Ok(()) }
+    }
+
+    /// Records what a pattern admits.
+    pub(super) fn record(
         &mut self,
         pattern: &[ContactState],
         monitor: &mut Monitor<'_>,

@@ -45,8 +45,8 @@ impl Default for SearchOptions {
 }
 
 impl SearchOptions {
-    /// A search that may use so many nodes, and ends once a group of contacts has so many solutions; by default as
-    /// many as without these limits.
+    /// A search that may use so many nodes, and ends once a group of contacts has more solutions than `found`, or, if
+    /// that is 1, at the first one; by default as without these limits.
     #[must_use]
     pub fn within(nodes: Option<u64>, found: Option<usize>) -> Self {
         let Self { nodes: most_nodes, limits, .. } = Self::default();

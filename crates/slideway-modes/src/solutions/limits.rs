@@ -7,7 +7,9 @@ pub struct Limits {
     pub contacts: usize,
     /// Largest number of patterns, `2^(r-j) 3^j` with `j` contacts at which the right-hand side jumps.
     pub patterns: u64,
-    /// Largest number of solutions and gap states; one shared by several patterns counts once.
+    /// Largest number of solutions and gap states; one shared by several patterns counts once. A search goes on until
+    /// it has more, so an answer with exactly so many can be complete. If this is 1, it ends at the first solution:
+    /// whether there are others is then not known.
     pub solutions: usize,
     /// Largest number of patterns listed with one solution or one singular set.
     pub listed: usize,
