@@ -119,7 +119,7 @@ fn same_points(one: &[DVector<f64>], other: &[DVector<f64>]) -> bool {
 fn is_own_set(mode: &SingularMode) -> bool {
     match mode.set {
         SolutionSet::Empty | SolutionSet::NotComputed => false,
-        SolutionSet::Point(_) => mode.contains.is_empty(),
+        SolutionSet::Point(_) => mode.shares_vary || mode.contains.is_empty(),
         _ => true,
     }
 }
