@@ -62,8 +62,9 @@ fn brute_force(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DVector<f64>) -> usize {
 /// is not small.
 fn basic_solutions(m: &DMatrix<f64>, q: &DVector<f64>) -> Vec<DVector<f64>> {
     let n = q.len();
+    let places = u32::try_from(n).expect("few");
     let solution = |choice: u32| {
-        let signs: Vec<f64> = (0..n as u32).map(|k| f64::from(choice / 3_u32.pow(k) % 3) - 1.0).collect();
+        let signs: Vec<f64> = (0..places).map(|k| f64::from(choice / 3_u32.pow(k) % 3) - 1.0).collect();
         let chosen: Vec<usize> = (0..n).filter(|&k| signs[k] != 0.0).collect();
         let matrix = DMatrix::from_fn(n, chosen.len(), |row, at| match chosen[at] {
             k if signs[k] > 0.0 => -m[(row, k)],
@@ -77,7 +78,7 @@ fn basic_solutions(m: &DMatrix<f64>, q: &DVector<f64>) -> Vec<DVector<f64>> {
         chosen.iter().zip(&sizes).for_each(|(&k, size)| signed[k] = signs[k] * size);
         solves.then_some(signed)
     };
-    (0..3_u32.pow(n as u32)).filter_map(solution).collect()
+    (0..3_u32.pow(places)).filter_map(solution).collect()
 }
 
 fn text(matrix: &DMatrix<f64>) -> String {
