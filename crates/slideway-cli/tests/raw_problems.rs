@@ -134,7 +134,7 @@ fn json_has_the_fields_that_are_promised() {
     let (code, report) = json(&["modes", RAY, "--format", "json"]);
     assert_eq!(
         (code, &report["schema"], &report["status"]),
-        (0, &"slideway-modes/2".into(), &"continuum".into())
+        (0, &"slideway/modes/3".into(), &"continuum".into())
     );
     assert_eq!((&report["complete"], &report["count"]), (&"proven".into(), &"0".into()));
     assert_eq!((&report["continuum_count"], &report["solutions"]), (&"1".into(), &serde_json::json!([])));

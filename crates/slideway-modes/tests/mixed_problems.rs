@@ -32,11 +32,7 @@ enum Place {
 
 /// Solutions `z` and `w` of `w = M z + q` with each unknown in its place, for all places that determine them
 /// uniquely, and whether some places do not.
-fn brute_force(
-    m: &DMatrix<f64>,
-    q: &DVector<f64>,
-    bounds: &[(f64, f64)],
-) -> (BTreeSet<Pair>, bool) {
+fn brute_force(m: &DMatrix<f64>, q: &DVector<f64>, bounds: &[(f64, f64)]) -> (BTreeSet<Pair>, bool) {
     let n = q.len();
     let (mut found, mut singular) = (BTreeSet::new(), false);
     for number in 0..3_usize.pow(u32::try_from(n).expect("few")) {

@@ -248,9 +248,10 @@ fn a_limit_of_one_ends_the_search_at_the_first_solution() {
     let one = SearchOptions::within(None, Some(1));
     let arguments = Arguments { every_pattern: false, uniqueness: false, ..Arguments::default() };
     let partial = Completeness::Partial(StopReason::SolutionLimit);
-    let several = ModeProblem::from_linear_complementarity(&dmatrix![-1.0], dvector![1.0]).unwrap();
+    let several =
+        ModeProblem::from_linear_complementarity(&dmatrix![-1.0], dvector![1.0]).expect("a valid problem");
     let set = ModeProblem::from_linear_complementarity(&dmatrix![1.0, 1.0; 1.0, 1.0], dvector![-1.0, -1.0])
-        .unwrap();
+        .expect("a valid problem");
     for options in [one, SearchOptions { arguments, ..one }] {
         let first = run(&several, &options);
         assert_eq!((first.counts().solutions.to_u64(), first.completeness), (Some(1), partial));
@@ -262,7 +263,7 @@ fn a_limit_of_one_ends_the_search_at_the_first_solution() {
     let only =
         ModeProblem::from_linear_complementarity(&DMatrix::identity(9, 9), DVector::from_element(9, -1.0));
     let result = run(
-        &only.unwrap(),
+        &only.expect("a valid problem"),
         &SearchOptions { arguments: Arguments { groups: false, ..Arguments::default() }, ..one },
     );
     assert_eq!((result.counts().solutions.to_u64(), result.completeness), (Some(1), Completeness::Proven));

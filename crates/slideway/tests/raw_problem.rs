@@ -177,7 +177,7 @@ proptest! {
         }
         prop_assert_eq!(report.solutions.len(), report.count.parse::<usize>().unwrap());
         prop_assert!(report.groups.iter().all(|group| (sum(&group.patterns) - 1.0).abs() <= 1e-12));
-        prop_assert!(report.json().contains("slideway-modes/2"));
+        prop_assert!(report.json().contains("slideway/modes/3"));
         prop_assert!(report.text(Style::Plain).contains("complete: "));
         prop_assert!(to_npz(&report).starts_with(b"PK"));
     }

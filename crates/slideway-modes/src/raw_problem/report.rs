@@ -9,7 +9,7 @@ use super::right_hand_sides::EveryRightHandSide;
 use crate::status::{Proof, Status};
 
 /// Version of the layout of a [`RawReport`]; it changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway-modes/2";
+pub const SCHEMA: &str = "slideway/modes/3";
 
 /// All solutions of a raw problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
