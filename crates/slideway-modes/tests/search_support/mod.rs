@@ -147,12 +147,17 @@ pub(crate) fn assert_same_as_enumeration(problem: &ModeProblem, options: &Search
             "{context}\n{:?}\n{solutions:?}",
             points(StateKind::Solution)
         );
-        let gaps: Vec<_> = expected.gaps.iter().map(|gap| gap.normal_force.clone()).collect();
-        assert!(
-            same_points(&points(StateKind::Gap), &gaps),
-            "{context}\n{:?}\n{gaps:?}",
-            points(StateKind::Gap)
-        );
+        // The enumeration also lists a gap state that it lists as the point of a singular pattern.
+        let points_of_sets =
+            expected.singular.iter().filter(|mode| is_own_set(mode)).filter_map(|mode| {
+                if let SolutionSet::Point(point) = &mode.set { Some(point) } else { None }
+            });
+        let points_of_sets: Vec<&DVector<f64>> = points_of_sets.collect();
+        let is_apart = |force: &DVector<f64>| !points_of_sets.iter().any(|point| close(point, force));
+        let gaps = expected.gaps.iter().map(|gap| gap.normal_force.clone());
+        let gaps: Vec<_> = gaps.filter(is_apart).collect();
+        let found_gaps: Vec<_> = points(StateKind::Gap).into_iter().filter(is_apart).collect();
+        assert!(same_points(&found_gaps, &gaps), "{context}\n{:?}\n{gaps:?}", points(StateKind::Gap));
     }
     if split {
         assert_eq!(found.counts().singular.is_zero(), singular == 0, "{context}");

@@ -16,7 +16,7 @@ from . import _display, _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "frozen_array", "gallery_models", "hlcp", "import_dxf", "lcp", "merge", "mode_problem", "png", "printable", "solve", "templates", "theme"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "frozen_array", "gallery_models", "game", "hlcp", "import_dxf", "lcp", "mcp", "merge", "mlcp", "mode_problem", "png", "printable", "solve", "templates", "theme"]
 
 GROUND: Final[str]
 """
