@@ -103,6 +103,7 @@ impl RawKind {
     }
 
     /// Which sizes, by number, are the rows and the columns of an array; no columns of a vector.
+    #[cfg(any(feature = "json", feature = "npz"))]
     pub(super) fn dimensions(self, name: &str) -> (usize, Option<usize>) {
         match (self, name) {
             (Self::Mlcp, "b") => (1, None),
@@ -115,12 +116,14 @@ impl RawKind {
     }
 
     /// Whether an array holds bounds, which may be infinite.
+    #[cfg(any(feature = "json", feature = "npz"))]
     pub(super) fn is_bound(self, name: &str) -> bool {
         self == Self::Mcp && matches!(name, "l" | "u")
     }
 
     /// Whether a file may leave out the type if it has these names: those of a game may be those of an
     /// equation without its right-hand side.
+    #[cfg(any(feature = "json", feature = "npz"))]
     pub(super) fn is_told_by_names(self) -> bool {
         self != Self::Game
     }

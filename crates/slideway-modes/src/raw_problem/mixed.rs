@@ -97,6 +97,7 @@ impl Bounds {
     }
 
     /// The number of unknowns of the mode problem.
+    #[cfg(any(feature = "json", feature = "npz"))]
     pub(super) fn unknowns(&self, m: &DMatrix<f64>, q: &DVector<f64>) -> usize {
         self.layout(m, q).right_hand_side.len()
     }
