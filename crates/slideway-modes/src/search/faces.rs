@@ -20,8 +20,11 @@ use crate::solutions::ContactSet;
 #[derive(Clone)]
 pub(super) struct Faces {
     system: Arc<LiftedSystem>,
-    /// The patterns that are examined, with their columns.
+    /// The patterns that are examined, with the columns that a node may have to be settled by them.
     known: Vec<(ContactSet, Vec<ContactState>)>,
+    /// Whether nodes are settled with the columns of the positive unknowns, not with all of a pattern, if
+    /// possible.
+    to_support: bool,
 }
 
 /// The unknowns of one contact that are positive inside a face: `y^+`, `y^-`, `lambda`, `1 - lambda`.
@@ -50,13 +53,20 @@ pub(super) struct Settled {
     pub(super) pattern: Vec<ContactState>,
     /// Whether the pattern is examined already.
     pub(super) is_known: bool,
-    /// Proves that the unknowns of other states vanish; empty if there are no others.
+    /// Proves that the unknowns of all other columns than those left vanish; empty if there are no others.
     pub(super) vector: Vec<IBig>,
+    /// Columns of the pattern that contain all its solutions in the node.
+    pub(super) left: ContactSet,
 }
 
 impl Faces {
     pub(super) fn new(problem: ProblemView<'_>) -> Self {
-        Self { system: Arc::new(LiftedSystem::new(problem)), known: Vec::new() }
+        Self { system: Arc::new(LiftedSystem::new(problem)), known: Vec::new(), to_support: false }
+    }
+
+    /// The same, with nodes settled by as few columns as possible, for the cells of a proof.
+    pub(super) fn to_support(self) -> Self {
+        Self { to_support: true, ..self }
     }
 
     /// A vector in integers that proves that a node has no solution, if one is found.
@@ -67,6 +77,17 @@ impl Faces {
     ) -> Option<Vec<IBig>> {
         let columns: Vec<usize> = self.allowed(states).iter().collect();
         separate(&self.system, (&columns, &[]), Separated::Infeasible, proceed)
+    }
+
+    /// A vector in integers that proves that only the unknowns of some columns, all of which are positive in
+    /// some solution, are positive where the allowed columns are, if one is found.
+    pub(super) fn reducing(
+        &self,
+        allowed: &ContactSet,
+        support: &ContactSet,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<IBig>> {
+        self.vanish(allowed, support, support, proceed)
     }
 
     /// The lifted equations.
@@ -89,14 +110,20 @@ impl Faces {
         if let Some((columns, pattern)) = known
             && let Some(vector) = self.vanish(&allowed, &support, columns, proceed)
         {
-            return Some(Settled { pattern: pattern.clone(), is_known: true, vector });
+            let left = columns.clone();
+            return Some(Settled { pattern: pattern.clone(), is_known: true, vector, left });
         }
         let pattern = independent_pattern(problem, states, positive)?;
-        let own: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-        let own = self.allowed(&own);
-        let vector = self.vanish(&allowed, &support, &own, proceed)?;
-        self.known.push((own, pattern.clone()));
-        Some(Settled { pattern, is_known: false, vector })
+        let reduced = if self.to_support { self.reducing(&allowed, &support, proceed) } else { None };
+        let (vector, left) = if let Some(vector) = reduced {
+            (vector, support)
+        } else {
+            let own: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
+            let own = self.allowed(&own);
+            (self.vanish(&allowed, &support, &own, proceed)?, own)
+        };
+        self.known.push((left.clone(), pattern.clone()));
+        Some(Settled { pattern, is_known: false, vector, left })
     }
 
     /// A vector which proves that, in all solutions with the allowed columns, the unknowns of all others than
@@ -118,7 +145,7 @@ impl Faces {
     }
 
     /// The columns of all states that a node allows.
-    fn allowed(&self, states: &[StateSet]) -> ContactSet {
+    pub(super) fn allowed(&self, states: &[StateSet]) -> ContactSet {
         let mut allowed = ContactSet::none_of(self.system.width());
         for (contact, set) in states.iter().enumerate() {
             for state in set.iter() {

@@ -40,11 +40,6 @@ impl<'a> Leaves<'a> {
         self.findings.absorb(other.findings).map_err(|_| StopReason::SolutionLimit)
     }
 
-    /// The problem whose patterns are decided.
-    pub(super) fn problem(&self) -> &LoadedProblem<'a> {
-        self.problem
-    }
-
     /// Records what a pattern admits; the search ends if that is enough.
     pub(super) fn examine(
         &mut self,
@@ -52,6 +47,17 @@ impl<'a> Leaves<'a> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
         self.record(pattern, monitor)?;
+        if self.findings.has_enough() { Err(StopReason::SolutionLimit) } else { Ok(()) }
+    }
+
+    /// [`examine`](Self::examine) for a pattern that is decided already, by [`decide`](Self::decide).
+    pub(super) fn examine_decided(
+        &mut self,
+        pattern: &[ContactState],
+        decision: Decision,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        self.record_decided(pattern, decision, monitor)?;
         if self.findings.has_enough() { Err(StopReason::SolutionLimit) } else { Ok(()) }
     }
 
@@ -71,6 +77,15 @@ impl<'a> Leaves<'a> {
             return Ok(());
         }
         let decision = self.decide(pattern, monitor)?;
+        self.record_decided(pattern, decision, monitor)
+    }
+
+    fn record_decided(
+        &mut self,
+        pattern: &[ContactState],
+        decision: Decision,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         if matches!(decision, Decision::Undecided { .. })
             && self.is_infeasible(pattern, &mut || monitor.goes_on())
         {
@@ -100,7 +115,7 @@ impl<'a> Leaves<'a> {
 
     /// Where errors of the right-hand side leave a pattern open although all given numbers are exact, it is
     /// decided together with the contacts that determine the right-hand side.
-    fn decide(
+    pub(super) fn decide(
         &mut self,
         pattern: &[ContactState],
         monitor: &mut Monitor<'_>,

@@ -72,6 +72,7 @@ mod monitor;
 mod monotone;
 mod product;
 mod proof;
+mod proof_cells;
 mod proof_log;
 mod propagation;
 mod relaxation;

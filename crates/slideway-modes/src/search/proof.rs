@@ -68,6 +68,7 @@ pub fn prove(
         uniqueness: false,
         low_rank: false,
         every_pattern: false,
+        faces: true,
         ..options.arguments
     };
     let options = SearchOptions { arguments: only_trees, certify: true, ..*options };
@@ -107,8 +108,10 @@ fn prove_part(
     let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), true);
     let mut log = ProofLog::new(rows);
     let all_solutions = pattern_of_all_solutions(loaded.view(), &scaled, &mut || monitor.goes_on());
-    let left = all_solutions
-        .and_then(|pattern| log.monotone(&LiftedSystem::new(loaded.view()), loaded.view(), &pattern));
+    let left = all_solutions.and_then(|pattern| {
+        let decision = leaves.decide(&pattern, monitor).ok()?;
+        log.monotone(&LiftedSystem::new(loaded.view()), &pattern, &decision)
+    });
     let root = left.unwrap_or_else(|| all_states(&scaled));
     let tree = Tree::new((loaded, &scaled), None, &radius, options).logged(log);
     let (report, log) = tree.run_from(root, (&mut leaves, monitor));

@@ -5,12 +5,14 @@ use std::fmt::Write as _;
 
 use dashu_int::IBig;
 
+use super::proof_cells::{Cell, ProofCells};
 use super::states::StateSet;
-use crate::certificate::{Decision, LiftedSystem, decide_while};
-use crate::problem::{ContactState, ProblemView};
+use crate::certificate::{Decision, LiftedSystem};
+use crate::problem::ContactState;
+use crate::solutions::ContactSet;
 
 /// Vectors that are tried again at later nodes.
-const TRIED_AGAIN: usize = 8;
+const TRIED_AGAIN: usize = 256;
 
 /// The proof of one group, as far as it is written.
 #[derive(Clone)]
@@ -18,9 +20,10 @@ pub(super) struct ProofLog {
     text: String,
     /// The exponents of the powers of two by which the file multiplies the rows.
     rows: Vec<i32>,
-    cells: Vec<Vec<ContactState>>,
+    cells: ProofCells,
     vectors: u64,
-    recent: VecDeque<(u64, Vec<f64>)>,
+    /// The numbers of vectors that exclude nodes, with the columns that they do not exclude.
+    recent: VecDeque<(u64, ContactSet)>,
     /// Whether something could not be written.
     has_gap: bool,
 }
@@ -28,40 +31,53 @@ pub(super) struct ProofLog {
 impl ProofLog {
     /// An empty proof for equations whose rows are multiplied by powers of two with these exponents.
     pub(super) fn new(rows: Vec<i32>) -> Self {
-        let (text, cells, recent) = (String::new(), Vec::new(), VecDeque::new());
+        let (text, cells, recent) = (String::new(), ProofCells::default(), VecDeque::new());
         Self { text, rows, cells, vectors: 0, recent, has_gap: false }
     }
 
     /// The lines, and the number of cells; `None` if some step could not be written.
     pub(super) fn into_text(self) -> Option<(String, usize)> {
-        (!self.has_gap).then_some((self.text, self.cells.len()))
+        (!self.has_gap).then(|| self.cells.into_text(&self.text))
     }
 
-    /// The number of a recent vector that passes a test.
-    pub(super) fn known(&self, test: impl Fn(&[f64]) -> bool) -> Option<u64> {
-        self.recent.iter().rev().find(|(_, vector)| test(vector)).map(|(number, _)| *number)
+    /// `l`: a node is excluded by a vector that is written already. Returns whether there is one.
+    pub(super) fn exclude_again(&mut self, allowed: &ContactSet) -> bool {
+        let known = self.recent.iter().rev().find(|(_, left)| left.is_disjoint(allowed));
+        if let Some((number, _)) = known {
+            let _ = writeln!(self.text, "l {number}");
+        }
+        known.is_some()
     }
 
-    /// `l`: a node is excluded by a vector that is written already.
-    pub(super) fn exclude_again(&mut self, vector: u64) {
-        let _ = writeln!(self.text, "l {vector}");
-    }
-
-    /// `f`: a node is excluded by a vector for the rows of the file.
-    pub(super) fn exclude(&mut self, vector: Vec<f64>) {
+    /// `f`: a node is excluded by a vector for the rows of the file, which leaves some columns.
+    pub(super) fn exclude(&mut self, vector: &[f64], left: ContactSet) {
         let whole: Vec<IBig> =
             vector.iter().map(|&entry| IBig::try_from(entry).unwrap_or_default()).collect();
         self.write_vector('f', &whole);
-        self.recent.push_back((self.vectors - 1, vector));
-        if self.recent.len() > TRIED_AGAIN {
-            self.recent.pop_front();
-        }
+        self.try_again(left);
     }
 
     /// `f`: a node is excluded by a vector for the lifted equations in integers.
     pub(super) fn exclude_exactly(&mut self, system: &LiftedSystem, vector: &[IBig]) {
+        let mut left = ContactSet::none_of(system.width());
+        let entries: Vec<(usize, &IBig)> =
+            vector.iter().enumerate().filter(|(_, entry)| !entry.is_zero()).collect();
+        for column in 0..system.width() {
+            let terms = entries.iter().map(|&(row, entry)| entry * &system.column(column)[row]);
+            if terms.sum::<IBig>() > IBig::ZERO {
+                left.insert(column);
+            }
+        }
         let vector = self.for_rows(system, vector);
         self.write_vector('f', &vector);
+        self.try_again(left);
+    }
+
+    fn try_again(&mut self, left: ContactSet) {
+        self.recent.push_back((self.vectors - 1, left));
+        if self.recent.len() > TRIED_AGAIN {
+            self.recent.pop_front();
+        }
     }
 
     /// `z`: the unknowns of columns with a negative product vanish. Returns whether the node goes on: the vector
@@ -90,29 +106,51 @@ impl ProofLog {
         };
     }
 
-    /// A node that allows only the columns of one pattern: `c` if it has solutions, otherwise `x` or `f`.
-    pub(super) fn pattern(
+    /// Whether a pattern has a cell already.
+    pub(super) fn has_cell(&self, pattern: &[ContactState]) -> bool {
+        self.cells.number_of(pattern).is_some()
+    }
+
+    /// `c`: a node whose allowed columns are those of a pattern that has a cell. `reducing` finds the vector that
+    /// takes away those of the allowed columns that are positive nowhere in the cell.
+    pub(super) fn close(
         &mut self,
         system: &LiftedSystem,
-        problem: ProblemView<'_>,
         pattern: &[ContactState],
-        excluding: &mut dyn FnMut(&[StateSet]) -> Option<Vec<IBig>>,
+        allowed: &ContactSet,
+        reducing: &mut dyn FnMut(&ContactSet) -> Option<Vec<IBig>>,
     ) {
-        if let Some(known) = self.cells.iter().position(|cell| cell == pattern) {
-            let _ = writeln!(self.text, "c {known}");
-            return;
-        }
-        let decision = decide_while(problem, pattern, &mut || true).map(|verdict| verdict.decision);
-        if let Some(Decision::NoSolution { .. }) = decision {
-            self.text.push_str("x\n");
-            return;
-        }
-        match decision.and_then(|decision| corners(pattern, &decision)) {
-            Some(corners) if !corners.is_empty() => {
-                self.cell(system, pattern, &corners);
-                let _ = writeln!(self.text, "c {}", self.cells.len() - 1);
+        let Some(number) = self.cells.number_of(pattern) else { return };
+        let support = self.cells.support(number).clone();
+        if !allowed.is_within(&support) {
+            match reducing(&support) {
+                Some(vector) if !self.remove(system, &vector) => return,
+                Some(_) => {}
+                None => self.cells.keep_pattern(number),
             }
-            Some(_) => {
+        }
+        self.cells.refer('c', number, self.text.len());
+    }
+
+    /// A pattern that is decided, for a node that allows only its columns: `x` or `f` if it has no solutions.
+    /// Returns whether it has a cell now, for [`close`](Self::close).
+    pub(super) fn decided(
+        &mut self,
+        system: &LiftedSystem,
+        pattern: &[ContactState],
+        decision: &Decision,
+        excluding: &mut dyn FnMut(&[StateSet]) -> Option<Vec<IBig>>,
+    ) -> bool {
+        if let Decision::NoSolution { .. } = decision {
+            self.text.push_str("x\n");
+            return false;
+        }
+        match Cell::of(system, pattern, decision) {
+            Some(Some(cell)) => {
+                self.cells.add(pattern, cell);
+                return true;
+            }
+            Some(None) => {
                 let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
                 match excluding(&states) {
                     Some(vector) => self.exclude_exactly(system, &vector),
@@ -121,62 +159,28 @@ impl ProofLog {
             }
             None => self.has_gap = true,
         }
+        false
     }
 
-    /// `cell` and `m`: all solutions of a monotone problem are those of a pattern. Returns the states that are
-    /// left; `None`, with nothing written, if the solutions have too many corners.
+    /// `m`: all solutions of a monotone problem are those of a pattern. Returns the states that are left;
+    /// `None`, with nothing written, if the solutions have too many corners.
     pub(super) fn monotone(
         &mut self,
         system: &LiftedSystem,
-        problem: ProblemView<'_>,
         pattern: &[ContactState],
+        decision: &Decision,
     ) -> Option<Vec<StateSet>> {
-        let decision = decide_while(problem, pattern, &mut || true)?.decision;
-        let corners = corners(pattern, &decision).filter(|corners| !corners.is_empty())?;
-        let positive = self.cell(system, pattern, &corners);
-        let _ = writeln!(self.text, "m {}", self.cells.len() - 1);
-        let left = |(&state, positive): (&ContactState, &[bool; 2])| {
-            if positive[0] { StateSet::only(state) } else { StateSet::undecided(false) }
+        let cell = Cell::of(system, pattern, decision)??;
+        let is_positive = |contact: usize, state: ContactState| {
+            system.columns_of(contact, state).next().is_some_and(|column| cell.support.contains(column))
         };
-        Some(pattern.iter().zip(&positive).map(left).collect())
-    }
-
-    /// `cell`: a pattern and the unknowns that are positive at some of its points and directions. Returns which
-    /// are positive at one of those that are written.
-    fn cell(
-        &mut self,
-        system: &LiftedSystem,
-        pattern: &[ContactState],
-        corners: &[Vec<[bool; 2]>],
-    ) -> Vec<[bool; 2]> {
-        self.text.push_str("cell");
-        let columns = |keep: &dyn Fn(usize, usize) -> bool| -> String {
-            let contacts = pattern.iter().enumerate().flat_map(|(contact, &state)| {
-                let columns = system.columns_of(contact, state).enumerate();
-                columns.filter(move |&(at, _)| keep(contact, at)).map(|(_, column)| column)
-            });
-            contacts.fold(String::new(), |mut line, column| {
-                let _ = write!(line, " {column}");
-                line
-            })
-        };
-        self.text.push_str(&columns(&|_, _| true));
-        let mut covered = vec![[false; 2]; pattern.len()];
-        for corner in corners {
-            // More than what shows all columns and one point of the cell is not needed.
-            let is_new = covered.iter().zip(corner).any(|(all, own)| (0..2).any(|at| own[at] && !all[at]));
-            if is_new || corner == &corners[0] {
-                self.text.push_str(" /");
-                self.text.push_str(&columns(&|contact, at| corner[contact][at]));
-                covered
-                    .iter_mut()
-                    .zip(corner)
-                    .for_each(|(all, own)| (0..2).for_each(|at| all[at] |= own[at]));
-            }
-        }
-        self.text.push('\n');
-        self.cells.push(pattern.to_vec());
-        covered
+        let left = pattern.iter().enumerate().map(|(contact, &state)| {
+            if is_positive(contact, state) { StateSet::only(state) } else { StateSet::undecided(false) }
+        });
+        let left = left.collect();
+        let number = self.cells.add(pattern, cell);
+        self.cells.refer('m', number, self.text.len());
+        Some(left)
     }
 
     /// A vector for the lifted equations as one for the rows of the file, in integers.
@@ -201,34 +205,5 @@ impl ProofLog {
         }
         self.text.push('\n');
         self.vectors += 1;
-    }
-}
-
-/// The unknowns of each contact (`y`, or `lambda` in a gap, and then the share of its jump, or `1 - lambda`)
-/// that are positive at the points and directions of a decided pattern, points first; `None` if unknown.
-fn corners(pattern: &[ContactState], decision: &Decision) -> Option<Vec<Vec<[bool; 2]>>> {
-    let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;
-    match decision {
-        Decision::NoSolution { .. } => Some(Vec::new()),
-        Decision::Solution { .. } => Some(vec![vec![[true; 2]; pattern.len()]]),
-        Decision::Boundary { zero, full_share, .. } => {
-            let positive = |contact| [!zero.contains(&contact), !full_share.contains(&contact)];
-            Some(vec![(0..pattern.len()).map(positive).collect()])
-        }
-        Decision::Singular { set } => {
-            if *set == crate::certificate::ExactSet::NotComputed {
-                return None;
-            }
-            let at = |point: &Vec<dashu_ratio::RBig>, is_point: bool| {
-                let one = |(contact, value): (usize, &dashu_ratio::RBig)| {
-                    let rest = if in_gap(contact) { !value.is_one() } else { true };
-                    [!value.is_zero(), is_point && rest]
-                };
-                point.iter().enumerate().map(one).collect()
-            };
-            let points = set.vertices().into_iter().map(|point| at(point, true));
-            Some(points.chain(set.directions().into_iter().map(|point| at(point, false))).collect())
-        }
-        Decision::Undecided { .. } => None,
     }
 }

@@ -16,6 +16,7 @@ use super::faces::Positive;
 use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
+use crate::solutions::ContactSet;
 
 /// A Farkas vector must exclude by this fraction of the size of its terms, which is the tolerance for
 /// solutions on a boundary.
@@ -202,9 +203,43 @@ impl Relaxation {
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
 
-    /// Whether a vector excludes a node as it is, with rounding errors accounted for.
-    pub(super) fn excludes_with(&self, farkas: &[f64], states: &[StateSet]) -> bool {
-        self.verified(farkas.to_vec(), &self.bounds(states), None).is_some()
+    /// The columns of the lifted equations (`k` for the positive and `n + k` for the negative side of contact
+    /// `k`) without which a vector excludes every node, with rounding errors accounted for. `None` if it
+    /// excludes none. For problems without jumps, with unbounded unknowns.
+    pub(super) fn not_excluded_by(&self, vector: &[f64]) -> Option<ContactSet> {
+        let vector = of_size_one(vector.to_vec())?;
+        let sizes: Vec<f64> = vector.iter().map(|entry| entry.abs()).collect();
+        if !self.excludes(&vector, &sizes, 0.0, 0.0) {
+            return None;
+        }
+        let mut combined = Vec::new();
+        self.program.row_combination(&vector, &mut combined);
+        let mut left = ContactSet::none_of(2 * self.first.len());
+        for column in 0..2 * self.first.len() {
+            let variable = self.variable_of(column);
+            let high = combined[variable] + self.error_of_product(variable, &sizes);
+            if high > 0.0 || high.is_nan() {
+                left.insert(column);
+            }
+        }
+        Some(left)
+    }
+
+    /// The unknown of a column of the lifted equations, for a side of a contact.
+    pub(super) fn variable_of(&self, column: usize) -> usize {
+        let contacts = self.first.len();
+        self.first[column % contacts] + column / contacts
+    }
+
+    /// Relative rounding error of sums over all rows.
+    fn rounding(&self) -> f64 {
+        (self.first.len() + 4) as f64 * f64::EPSILON
+    }
+
+    /// The maximum error of the product of a column with a vector whose entries have these sizes.
+    fn error_of_product(&self, variable: usize, sizes: &[f64]) -> f64 {
+        self.rounding() * size_of_terms(self.program.column(variable), sizes)
+            + 1.01 * size_of_terms(&self.spread[variable], sizes)
     }
 
     /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of basic
@@ -215,7 +250,6 @@ impl Relaxation {
             farkas = of_size_one(farkas)?;
             self.program.row_combination(&farkas, &mut combined);
             let sizes: Vec<f64> = farkas.iter().map(|entry| entry.abs()).collect();
-            let rounding = (self.first.len() + 4) as f64 * f64::EPSILON;
             let mut shifted = false;
             let (mut most, mut size) = (0.0, 0.0);
             let mut shift = vec![0.0; farkas.len()];
@@ -223,8 +257,7 @@ impl Relaxation {
                 if bounds.lower[variable] == 0.0 && bounds.upper[variable] == 0.0 {
                     continue;
                 }
-                let error = rounding * size_of_terms(self.program.column(variable), &sizes)
-                    + 1.01 * size_of_terms(&self.spread[variable], &sizes);
+                let error = self.error_of_product(variable, &sizes);
                 let (low, high) = (entry - error, entry + error);
                 if high.is_nan() {
                     return None;
@@ -242,7 +275,7 @@ impl Relaxation {
                 }
             }
             if !shifted {
-                return self.excludes(&farkas, &sizes, most, size, rounding).then_some(farkas);
+                return self.excludes(&farkas, &sizes, most, size).then_some(farkas);
             }
             super::simplex::add_multiple(&mut farkas, 1.0, &shift);
         }
@@ -250,11 +283,11 @@ impl Relaxation {
     }
 
     /// `v . b` exceeds what the left side can reach.
-    fn excludes(&self, farkas: &[f64], sizes: &[f64], most: f64, size: f64, rounding: f64) -> bool {
+    fn excludes(&self, farkas: &[f64], sizes: &[f64], most: f64, size: f64) -> bool {
         let load = super::simplex::dot(farkas, self.program.right_hand_side());
         let terms = size_of_terms(&self.load_size, sizes);
         let error = size_of_terms(&self.load_error, sizes);
-        let slack = 2.0 * error + (rounding + MARGIN) * (terms + size + most.abs());
+        let slack = 2.0 * error + (self.rounding() + MARGIN) * (terms + size + most.abs());
         load - most > slack + UNDERFLOW
     }
 }

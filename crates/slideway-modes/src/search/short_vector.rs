@@ -2,7 +2,7 @@
 
 use super::relaxation::Relaxation;
 use super::simplex::{Basis, add_multiple, dot};
-use super::states::StateSet;
+use crate::solutions::ContactSet;
 
 /// Rounding to multiples of the unit changes products by at most half the sum of sizes of a column's entries;
 /// slightly more, for the rounding of the estimate.
@@ -12,15 +12,20 @@ const GREATEST_ENTRY: f64 = 9.0e15;
 
 impl Relaxation {
     /// A vector in integers that excludes a node, from one in floating point and the basis that led to it, for
-    /// problems without jumps. `None` if the products with some columns leave no room for rounding.
+    /// problems without jumps, and the columns that it does not exclude. `None` if the products with some of
+    /// the allowed columns leave no room for rounding.
     ///
     /// At the basis most products `v . C_j` are zero. Moving `v` by a multiple of `-sum_i B^-T e_i` makes all
     /// those of basic columns negative at once; how far is limited by the other columns and by `v . b`. The
     /// larger the resulting margin, the fewer digits are needed.
-    pub(super) fn short(&self, farkas: &[f64], states: &[StateSet], basis: &Basis) -> Option<Vec<f64>> {
-        let bounds = self.bounds(states);
-        let allowed: Vec<usize> =
-            (0..self.program.columns()).filter(|&variable| bounds.upper[variable] > 0.0).collect();
+    pub(super) fn short(
+        &self,
+        farkas: &[f64],
+        allowed: &ContactSet,
+        basis: &Basis,
+    ) -> Option<(Vec<f64>, ContactSet)> {
+        let allowed_variables: Vec<usize> = allowed.iter().map(|column| self.variable_of(column)).collect();
+        let is_basic = basis.basic_variables(&self.program);
         let shift = basis.sum_of_inverse_rows(&self.program);
         let (mut products, mut shifts) = (Vec::new(), Vec::new());
         self.program.row_combination(farkas, &mut products);
@@ -28,7 +33,7 @@ impl Relaxation {
         let right = self.program.right_hand_side();
         let load_size = right.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         let mut step = dot(farkas, right) / (dot(&shift, right) + load_size).max(f64::MIN_POSITIVE);
-        for &variable in allowed.iter().filter(|&&variable| !basis.is_basic(variable)) {
+        for &variable in allowed_variables.iter().filter(|&&variable| !is_basic[variable]) {
             let slope = 1.0 - shifts[variable];
             if slope > 0.0 {
                 step = step.min(-products[variable] / slope);
@@ -40,11 +45,14 @@ impl Relaxation {
         let mut moved = farkas.to_vec();
         add_multiple(&mut moved, -step, &shift);
         let sum = |entries: &[f64]| entries.iter().map(|entry| entry.abs()).sum::<f64>();
-        let columns = allowed.iter().map(|&variable| sum(self.program.column(variable)));
+        let columns = allowed_variables.iter().map(|&variable| sum(self.program.column(variable)));
         let largest = columns.fold(sum(right) / load_size.max(f64::MIN_POSITIVE), f64::max);
         let scale = HALF_AND_MORE * largest / step;
         let rounded: Vec<f64> = moved.iter().map(|entry| (entry * scale).round()).collect();
-        let fits = rounded.iter().all(|entry| entry.abs() <= GREATEST_ENTRY);
-        (fits && self.excludes_with(&rounded, states)).then_some(rounded)
+        if !rounded.iter().all(|entry| entry.abs() <= GREATEST_ENTRY) {
+            return None;
+        }
+        let left = self.not_excluded_by(&rounded)?;
+        left.is_disjoint(allowed).then_some((rounded, left))
     }
 }

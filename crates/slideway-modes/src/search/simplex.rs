@@ -235,15 +235,25 @@ impl Basis {
         row.map_or(0.0, |row| self.value[row] * self.longest_step(row, 1.0, 0.0))
     }
 
-    pub(super) fn is_basic(&self, variable: usize) -> bool {
-        self.basic.contains(&variable)
+    /// Which variables of the program are in the basis.
+    pub(super) fn basic_variables(&self, program: &LinearProgram) -> Vec<bool> {
+        let mut is_basic = vec![false; program.columns];
+        self.basic.iter().filter(|&&basic| basic < program.columns).for_each(|&basic| is_basic[basic] = true);
+        is_basic
     }
 
     /// The sum of the rows of `B^-1` that belong to variables of the program.
     pub(super) fn sum_of_inverse_rows(&self, program: &LinearProgram) -> Vec<f64> {
+        let mut total = vec![0.0; self.nonbasic.len()];
+        for (_, row) in self.basic.iter().zip(self.rows()).filter(|(basic, _)| **basic < program.columns) {
+            add_multiple(&mut total, 1.0, row);
+        }
+        // The columns of artificial variables in the basis are those of a unit matrix, in other rows.
         let mut sum = vec![0.0; program.rows];
-        for row in (0..self.basic.len()).filter(|&row| self.basic[row] < program.columns) {
-            add_multiple(&mut sum, 1.0, &self.inverse_row(program, row));
+        for (nonbasic, total) in self.nonbasic.iter().zip(total) {
+            if let Some(artificial) = nonbasic.variable.checked_sub(program.columns) {
+                sum[artificial] = total;
+            }
         }
         sum
     }

@@ -16,6 +16,7 @@ use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
 use super::subtrees;
 use crate::problem::{ContactState, ScaledProblem};
+use crate::solutions::ContactSet;
 
 /// Relaxed solutions that violate complementarity by at most this fraction of the largest unknown (or of 1)
 /// are examined as solutions.
@@ -88,7 +89,7 @@ impl<'a> Tree<'a> {
 
     /// The same tree, which also writes its steps.
     pub(super) fn logged(self, log: ProofLog) -> Self {
-        Self { log: Some(log), ..self }
+        Self { log: Some(log), faces: self.faces.map(Faces::to_support), ..self }
     }
 
     /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
@@ -215,7 +216,6 @@ impl<'a> Tree<'a> {
             Relaxed::Excluded(_) | Relaxed::Undecided => None,
         };
         if let Some(pattern) = decided(&node.states) {
-            self.log_pattern(leaves, &pattern, monitor);
             return self.examine(&pattern, leaves, monitor);
         }
         let inside = match &relaxed {
@@ -229,8 +229,7 @@ impl<'a> Tree<'a> {
             && contradictions(&node.states, inside).next().is_none()
             && let Some(settled) = self.settle(&node.states, inside, monitor)
         {
-            self.log_settled(leaves, &settled, monitor);
-            return if settled.is_known { Ok(()) } else { leaves.examine(&settled.pattern, monitor) };
+            return self.close_settled(&settled, leaves, monitor);
         }
         let contradicting: Option<Vec<usize>> =
             inside.map(|inside| contradictions(&node.states, &inside).collect());
@@ -271,15 +270,15 @@ impl<'a> Tree<'a> {
         monitor: &mut Monitor<'_>,
     ) -> bool {
         let (Some(log), Some(faces)) = (&mut self.log, &self.faces) else { return true };
-        if self.problem.has_jump.iter().all(|jump| !jump) {
-            if let Some(known) = log.known(|vector| self.relaxation.excludes_with(vector, states)) {
-                log.exclude_again(known);
-                return true;
-            }
-            if let Some(short) = self.relaxation.short(farkas, states, basis) {
-                log.exclude(short);
-                return true;
-            }
+        let allowed = faces.allowed(states);
+        if log.exclude_again(&allowed) {
+            return true;
+        }
+        if self.problem.has_jump.iter().all(|jump| !jump)
+            && let Some((short, left)) = self.relaxation.short(farkas, &allowed, basis)
+        {
+            log.exclude(&short, left);
+            return true;
         }
         let vector = faces.excluding(states, &mut || monitor.goes_on());
         if let Some(vector) = &vector {
@@ -288,23 +287,45 @@ impl<'a> Tree<'a> {
         vector.is_some()
     }
 
-    /// Writes that a node has the solutions of a pattern, and why it has no others.
-    fn log_settled(&mut self, leaves: &Leaves<'_>, settled: &Settled, monitor: &mut Monitor<'_>) {
+    /// Examines the pattern that has all solutions of a node, and writes why it has them all.
+    fn close_settled(
+        &mut self,
+        settled: &Settled,
+        leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        let Settled { pattern, is_known, vector, left } = settled;
         if let (Some(log), Some(faces)) = (&mut self.log, &self.faces)
-            && !settled.vector.is_empty()
-            && !log.remove(faces.system(), &settled.vector)
+            && (vector.is_empty() || log.remove(faces.system(), vector))
         {
-            return;
+            return self.decide_and_write(pattern, left, leaves, monitor);
         }
-        self.log_pattern(leaves, &settled.pattern, monitor);
+        if *is_known { Ok(()) } else { leaves.examine(pattern, monitor) }
     }
 
-    /// Writes what a pattern admits.
-    fn log_pattern(&mut self, leaves: &Leaves<'_>, pattern: &[ContactState], monitor: &mut Monitor<'_>) {
-        if let (Some(log), Some(faces)) = (&mut self.log, &self.faces) {
+    /// Examines a pattern unless it has a cell already, and closes a node that allows only some of its columns.
+    fn decide_and_write(
+        &mut self,
+        pattern: &[ContactState],
+        allowed: &ContactSet,
+        leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        let (Some(log), Some(faces)) = (&mut self.log, &self.faces) else { return Ok(()) };
+        let mut examined = Ok(());
+        if !log.has_cell(pattern) {
+            let decision = leaves.decide(pattern, monitor)?;
             let excluding = &mut |states: &[StateSet]| faces.excluding(states, &mut || monitor.goes_on());
-            log.pattern(faces.system(), leaves.problem().view(), pattern, excluding);
+            let has_cell = log.decided(faces.system(), pattern, &decision, excluding);
+            examined = leaves.examine_decided(pattern, decision, monitor);
+            if !has_cell {
+                return examined;
+            }
         }
+        let reducing =
+            &mut |support: &ContactSet| faces.reducing(allowed, support, &mut || monitor.goes_on());
+        log.close(faces.system(), pattern, allowed, reducing);
+        examined
     }
 
     /// Settles a node whose solutions are those of one pattern.
@@ -341,7 +362,13 @@ impl<'a> Tree<'a> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-        let examined = leaves.examine(pattern, monitor);
+        let examined = match self.faces.as_ref().filter(|_| self.log.is_some()) {
+            Some(faces) => {
+                let allowed = faces.allowed(&states);
+                self.decide_and_write(pattern, &allowed, leaves, monitor)
+            }
+            None => leaves.examine(pattern, monitor),
+        };
         let shares = &mut self.report.shares;
         let share = if examined == Err(StopReason::Cancelled) {
             &mut shares.unexplored

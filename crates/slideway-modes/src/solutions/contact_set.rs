@@ -38,6 +38,11 @@ impl ContactSet {
         self.words.iter().zip(&other.words).all(|(own, others)| own & !others == 0)
     }
 
+    /// Whether no contact is in both sets, which are for the same number of contacts.
+    pub(crate) fn is_disjoint(&self, other: &Self) -> bool {
+        self.words.iter().zip(&other.words).all(|(own, others)| own & others == 0)
+    }
+
     /// The contacts of the set in increasing order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = usize> {
         (0..64 * self.words.len()).filter(|&contact| self.contains(contact))
@@ -62,5 +67,8 @@ mod tests {
         let mut more = set.clone();
         more.insert(70);
         assert!(set.is_within(&more) && set.is_within(&set) && !more.is_within(&set));
+        more.remove(0);
+        more.remove(129);
+        assert!(more.is_disjoint(&set) && !set.is_disjoint(&set));
     }
 }
