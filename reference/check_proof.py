@@ -128,28 +128,41 @@ def integers(entries):
     return [int(entry * 2**shift) for entry in entries], shift
 
 
+def sparse_first(chosen, columns):
+    """Different columns in an order in which few entries fill up while they are eliminated."""
+    return sorted({*chosen}, key=lambda j: (sum(map(bool, columns[j])), j))
+
+
 def reduced(columns, right, rows=None):
-    """Gauss-Jordan elimination without fractions (Bareiss 1968) of some rows of the equations.
+    """Elimination without fractions (Bareiss 1968) of some rows of the equations.
 
     The pivot columns, the rows with the right-hand side last, and the positive pivot that the first rows share.
     """
     rows = range(len(right)) if rows is None else rows
     rows = [row for row in ([column[i] for column in columns] + [right[i]] for i in rows) if any(row)]
-    pivots, last = [], 1
-    for column in range(len(columns)):
+    width, pivots, last = len(columns) + 1, [], 1
+    for column in range(width - 1):
         rank = len(pivots)
         at = min((at for at in range(rank, len(rows)) if rows[at][column]),
                  key=lambda at: abs(rows[at][column]), default=None)
         if at is None:
             continue
         rows[rank], rows[at] = rows[at], rows[rank]
-        pivot_row, pivot = rows[rank], rows[rank][column]
-        for other, row in enumerate(rows):
-            factor = row[column]
-            if other != rank and (factor or pivot != last):
-                rows[other] = [(pivot * x - factor * y) // last for x, y in zip(row, pivot_row)]
+        pivot_row, pivot = rows[rank][column:], rows[rank][column]
+        for other in range(rank + 1, len(rows)):
+            row = rows[other][column:]
+            if row[0] or pivot != last:
+                rows[other][column:] = [(pivot * x - row[0] * y) // last for x, y in zip(row, pivot_row)]
         pivots.append(column)
         last = pivot
+    free = sorted({*range(width)} - {*pivots})
+    for at in reversed(range(len(pivots))):
+        above, row = rows[at], [0] * width
+        row[pivots[at]] = last
+        for j in free:
+            known = sum(above[pivots[other]] * rows[other][j] for other in range(at + 1, len(pivots)))
+            row[j] = (last * above[j] - known) // above[pivots[at]]
+        rows[at] = row
     return pivots, rows if last > 0 else [[-x for x in row] for row in rows], abs(last)
 
 
@@ -180,8 +193,11 @@ class Cell:
         self.columns, self.positive = frozenset(columns), set()
         for at, generator in enumerate(generators or [columns]):
             require(self.columns.issuperset(generator), "a point or direction has columns that the cell does not have")
-            self.add(problem, list(dict.fromkeys(generator)), at == 0)
-        independent = reduced([problem.columns[j] for j in self.columns], problem.right)[0] if generators else columns
+            self.add(problem, sparse_first(generator, problem.columns), at == 0)
+        independent = columns
+        if generators:
+            order = sparse_first(columns, problem.columns)
+            independent = reduced([problem.columns[j] for j in order], problem.right)[0]
         self.dimension = len(self.columns) - len({*independent})
         self.exact = self.dimension == 0 or self.positive == self.columns
         self.support = frozenset(self.positive) if self.exact else self.columns
@@ -288,7 +304,7 @@ class Tree:
 
     def solve(self, fields, allowed, columns, right):
         require(not fields, "`x` stands alone")
-        for *entries, load in reduced([columns[j] for j in allowed], right)[1]:
+        for *entries, load in reduced([columns[j] for j in sparse_first(allowed, columns)], right)[1]:
             if load and all(entry * load <= 0 for entry in entries):
                 return []
         raise Fails("no equation contradicts the signs of the unknowns")
@@ -343,7 +359,7 @@ class Tree:
             group = group_of.get(problem.contact_of[j])
             reached = {group_of.get(problem.row_of[row]) for row, entry in enumerate(problem.columns[j]) if entry}
             require(group is None or reached <= {group}, "a group acts on other equations")
-        rest = [j for j in allowed if problem.contact_of[j] not in group_of]
+        rest = sparse_first((j for j in allowed if problem.contact_of[j] not in group_of), problem.columns)
         rows = [row for row, contact in enumerate(problem.row_of) if contact not in group_of]
         pivots, rows, factor = reduced([problem.columns[j] for j in rest], problem.right, rows)
         require(len(pivots) == len(rest), "the other contacts are not determined")
@@ -389,7 +405,7 @@ class Tree:
 
 def restricted_form(problem, allowed, weighted):
     """The matrix of the sum of weight u_j u_k in a basis of the solutions of C u = 0 in the allowed columns."""
-    allowed = sorted(allowed, key=lambda j: (sum(map(bool, problem.columns[j])), j))
+    allowed = sparse_first(allowed, problem.columns)
     pivots, rows, pivot = reduced([problem.columns[j] for j in allowed], problem.right)
     free = [at for at in range(len(allowed)) if at not in set(pivots)]
     basis = {allowed[at]: [-row[other] for other in free] for at, row in zip(pivots, rows)}
