@@ -297,9 +297,9 @@ class Tree:
             products = [sum(map(mul, vector, column)) for column in self.problem.columns]
             signs = [{j for j, product in enumerate(products) if sign * product > 0} for sign in (1, -1)]
             self.vectors[index] = *signs, sum(map(mul, vector, self.problem.right))
+        # v . b was found to be positive or zero when the vector was stored.
         positive, negative, load = self.vectors[index]
         require(not positive & allowed, "the product with an allowed column is positive")
-        require(load >= 0, "the product with the right-hand side is negative")
         return [] if load else [(allowed - negative, *equations)]
 
     def solve(self, fields, allowed, columns, right):

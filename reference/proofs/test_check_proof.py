@@ -130,6 +130,22 @@ def check_examples():
             assert run(ROOT / problem, proof) == (0, blocks[at + 1]), problem
 
 
+def check_refusals():
+    """Every condition of the checker has a proof that only it refuses: `refused.txt` gives reason, problem and proof."""
+    blocks = (Path(__file__).parent / "refused.txt").read_text(encoding="utf-8").split("\n\n")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "problem.json"
+        for block in blocks:
+            reason, problem, proof = block.split("\n", 2)
+            path.write_text(problem)
+            try:
+                check_proof.read_proof(check_proof.read_problem(path), check_proof.Lines(io.StringIO(proof)))
+            except check_proof.Fails as refusal:
+                assert str(refusal) == reason, (block, refusal)
+            else:
+                raise AssertionError(block)
+
+
 def check_files():
     """Files that are no problems are refused, and those that slideway reads are read as it reads them."""
     proof = "slideway proof 1\nproblem 1 0\ncell 0\nb 0\nc 0\nf -1\n"
@@ -155,6 +171,7 @@ def check_files():
 
 def main(problems=200, mutants=25, seed=1):
     check_examples()
+    check_refusals()
     check_files()
     rng = random.Random(seed)
     steps, outcomes = Counter(), Counter()

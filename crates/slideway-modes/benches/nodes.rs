@@ -17,7 +17,7 @@ use instances::structured::{
     clamped_without_friction, game_with_two_costs, market, one_cell_of_low_rank, ones, pile,
     pushed_without_friction, subset_sum, weights_with_subset,
 };
-use instances::{chained_blocks, planted_blocks, planted_complementarity};
+use instances::{chained_blocks, low_rank, planted_blocks, planted_complementarity};
 use slideway_modes::raw_problem::exact_json;
 use slideway_modes::{CombinedState, ModeProblem, SearchOptions, prove, search};
 
@@ -71,6 +71,10 @@ fn table() -> Vec<(&'static str, Make)> {
         ("planted 36", || planted_complementarity(36, 1)),
         ("ave 1 28", || planted_blocks(28, 28, 1.0, 1)),
         ("ave 1 36", || planted_blocks(36, 36, 1.0, 1)),
+        ("low rank 1 of 60", || low_rank(60, 1)),
+        ("low rank 2 of 40", || low_rank(40, 2)),
+        ("low rank 2 of 60", || low_rank(60, 2)),
+        ("low rank 3 of 40", || low_rank(40, 3)),
         ("ave 1 56", || planted_blocks(56, 56, 1.0, 1)),
     ]
 }
