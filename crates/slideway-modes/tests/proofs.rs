@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use nalgebra::{DMatrix, DVector};
-use slideway_modes::{ModeProblem, NoProof, SearchOptions, Side, prove};
+use slideway_modes::{CombinedState, ModeProblem, NoProof, SearchOptions, Side, prove};
 
+use super::instances::structured::{game_with_two_costs, ones, pile};
 use super::search_support::{Random, low_rank, run};
 
 const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/check_proof.py");
@@ -50,6 +51,7 @@ fn proven(problem: &ModeProblem, name: &str) -> String {
     std::fs::write(&path, json(problem)).expect("the folder of tests is writable");
     let (accepted, said) = checked(&path, &proof.text);
     assert!(accepted, "{name}: {said}\n{}\n{}", proof.text, json(problem));
+    assert!(!said.contains("part of others") && !said.contains("or less"), "{said}\n{}", proof.text);
     proof.text
 }
 
@@ -115,6 +117,19 @@ fn a_cell_of_many_dimensions_and_a_point_of_many_patterns_take_few_lines() {
         let problem = ModeProblem::from_linear_complementarity(&m, DVector::from_element(size, load));
         let text = proven(&problem.expect("shapes fit"), "ones");
         assert!(text.lines().count() < 5 * size, "{text}");
+    }
+}
+
+#[test]
+fn the_listed_cells_are_the_largest_ones() {
+    let market = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
+    let market = ModeProblem::from_linear_complementarity(&market, DVector::zeros(2));
+    let problems = [pile(1), pile(2), game_with_two_costs(5, 1), ones(6, 0.0), market.expect("shapes fit")];
+    for problem in problems {
+        let text = proven(&problem, "largest");
+        let listed = text.lines().filter(|line| line.starts_with("cell")).count();
+        let result = run(&problem, &SearchOptions::default());
+        assert_eq!(listed, result.product.states().filter(CombinedState::is_maximal).count(), "{text}");
     }
 }
 

@@ -65,7 +65,7 @@ impl Faces {
     }
 
     /// The same, with nodes settled by as few columns as possible, for the cells of a proof.
-    pub(super) fn to_support(self) -> Self {
+    pub(super) fn with_supports(self) -> Self {
         Self { to_support: true, ..self }
     }
 

@@ -7,6 +7,10 @@ use crate::certificate::{Decision, ExactSet, LiftedSystem};
 use crate::problem::ContactState;
 use crate::solutions::ContactSet;
 
+/// Which unknowns of each contact are positive at a point or in a direction: `y`, or `lambda` in a gap, and then the
+/// share of its jump, or `1 - lambda`.
+pub(super) type Corner = Vec<[bool; 2]>;
+
 /// All solutions of one pattern.
 #[derive(Clone)]
 pub(super) struct Cell {
@@ -41,13 +45,8 @@ struct Reference {
 }
 
 impl Cell {
-    /// The cell of a decided pattern: `None` if its corners are unknown, `Some(None)` if it has no solution.
-    pub(super) fn of(
-        system: &LiftedSystem,
-        pattern: &[ContactState],
-        decision: &Decision,
-    ) -> Option<Option<Self>> {
-        let corners = corners(pattern, decision)?;
+    /// The cell of a pattern with these corners; `None` if there are none.
+    pub(super) fn of(system: &LiftedSystem, pattern: &[ContactState], corners: &[Corner]) -> Option<Self> {
         let columns = |keep: &dyn Fn(usize, usize) -> bool| {
             let mut columns = ContactSet::none_of(system.width());
             for (contact, &state) in pattern.iter().enumerate() {
@@ -57,7 +56,7 @@ impl Cell {
             columns
         };
         let (mut support, mut generators) = (ContactSet::none_of(system.width()), Vec::new());
-        for corner in &corners {
+        for corner in corners {
             let generator = columns(&|contact, at| corner[contact][at]);
             // More than what shows all columns and one point of the cell is not needed.
             if generators.is_empty() || !generator.is_within(&support) {
@@ -67,8 +66,8 @@ impl Cell {
         }
         let columns = columns(&|_, _| true);
         let is_continuum = corners.len() > 1;
-        let cell = || Self { support, columns, generators, is_continuum, keeps_pattern: false };
-        Some((!corners.is_empty()).then(cell))
+        let cell = Self { support, columns, generators, is_continuum, keeps_pattern: false };
+        (!corners.is_empty()).then_some(cell)
     }
 
     /// Adds `cell`, the columns and those of each generator.
@@ -141,7 +140,8 @@ impl ProofCells {
     /// The cell that takes the place of each: the cell itself, or a largest one that contains it.
     fn wholes(&self) -> Vec<usize> {
         let mut first = HashMap::new();
-        let mut continua: Vec<usize> = (0..self.cells.len()).filter(|&at| self.cells[at].is_continuum).collect();
+        let mut continua: Vec<usize> =
+            (0..self.cells.len()).filter(|&at| self.cells[at].is_continuum).collect();
         continua.sort_by_key(|&at| std::cmp::Reverse(self.cells[at].support.len()));
         let whole = |at: usize| {
             let own = &self.cells[at];
@@ -160,9 +160,8 @@ impl ProofCells {
     }
 }
 
-/// The unknowns of each contact (`y`, or `lambda` in a gap, and then the share of its jump, or `1 - lambda`)
-/// that are positive at the points and directions of a decided pattern, points first; `None` if unknown.
-fn corners(pattern: &[ContactState], decision: &Decision) -> Option<Vec<Vec<[bool; 2]>>> {
+/// The points and directions of a decided pattern, points first; `None` if they are unknown.
+pub(super) fn corners(pattern: &[ContactState], decision: &Decision) -> Option<Vec<Corner>> {
     let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;
     match decision {
         Decision::NoSolution { .. } => Some(Vec::new()),

@@ -1,11 +1,11 @@
 //! Writes the steps of a tree as lines of a proof file (book, "Proof files").
 
 use std::collections::VecDeque;
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 use dashu_int::IBig;
 
-use super::proof_cells::{Cell, ProofCells};
+use super::proof_cells::{Cell, ProofCells, corners};
 use super::states::StateSet;
 use crate::certificate::{Decision, LiftedSystem};
 use crate::problem::ContactState;
@@ -49,11 +49,9 @@ impl ProofLog {
         known.is_some()
     }
 
-    /// `f`: a node is excluded by a vector for the rows of the file, which leaves some columns.
+    /// `f`: a node is excluded by a vector of integers for the rows of the file, which leaves some columns.
     pub(super) fn exclude(&mut self, vector: &[f64], left: ContactSet) {
-        let whole: Vec<IBig> =
-            vector.iter().map(|&entry| IBig::try_from(entry).unwrap_or_default()).collect();
-        self.write_vector('f', &whole);
+        self.write_vector('f', vector);
         self.try_again(left);
     }
 
@@ -145,18 +143,17 @@ impl ProofLog {
             self.text.push_str("x\n");
             return false;
         }
-        match Cell::of(system, pattern, decision) {
-            Some(Some(cell)) => {
-                self.cells.add(pattern, cell);
-                return true;
-            }
-            Some(None) => {
-                let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-                match excluding(&states) {
-                    Some(vector) => self.exclude_exactly(system, &vector),
-                    None => self.has_gap = true,
-                }
-            }
+        let Some(corners) = corners(pattern, decision) else {
+            self.has_gap = true;
+            return false;
+        };
+        if let Some(cell) = Cell::of(system, pattern, &corners) {
+            self.cells.add(pattern, cell);
+            return true;
+        }
+        let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
+        match excluding(&states) {
+            Some(vector) => self.exclude_exactly(system, &vector),
             None => self.has_gap = true,
         }
         false
@@ -170,7 +167,7 @@ impl ProofLog {
         pattern: &[ContactState],
         decision: &Decision,
     ) -> Option<Vec<StateSet>> {
-        let cell = Cell::of(system, pattern, decision)??;
+        let cell = Cell::of(system, pattern, &corners(pattern, decision)?)?;
         let is_positive = |contact: usize, state: ContactState| {
             system.columns_of(contact, state).next().is_some_and(|column| cell.support.contains(column))
         };
@@ -197,9 +194,10 @@ impl ProofLog {
         moved
     }
 
-    fn write_vector(&mut self, step: char, vector: &[IBig]) {
+    /// A vector of integers.
+    fn write_vector<T: Display + Default + PartialEq>(&mut self, step: char, vector: &[T]) {
         self.text.push(step);
-        let end = vector.iter().rposition(|entry| !entry.is_zero()).map_or(0, |last| last + 1);
+        let end = vector.iter().rposition(|entry| *entry != T::default()).map_or(0, |last| last + 1);
         for entry in &vector[..end] {
             let _ = write!(self.text, " {entry}");
         }

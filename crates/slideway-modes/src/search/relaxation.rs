@@ -41,6 +41,8 @@ pub(super) struct Relaxation {
     load_error: Vec<f64>,
     /// Maximum error of each column of the program, row by row; empty if it is exact.
     spread: Vec<Vec<f64>>,
+    /// The sums of sizes of the entries of each column, and of their maximum errors.
+    column_sums: Vec<[f64; 2]>,
     /// Bounds on `y_k` that hold for every solution.
     largest: Vec<f64>,
 }
@@ -97,6 +99,9 @@ impl Relaxation {
                 cost.push(uneven_cost(cost.len()) * if state == ContactState::Gap { 0.01 } else { 1.0 });
             }
         }
+        let both_sums =
+            |(column, spread): (&Vec<f64>, &Vec<f64>)| [sum_of_sizes(column), sum_of_sizes(spread)];
+        let column_sums = columns.iter().zip(&spread).map(both_sums).collect();
         let load_size = problem.load_size().as_slice().to_vec();
         let load_error = load_error(problem, load_radius).as_slice().to_vec();
         Self {
@@ -107,6 +112,7 @@ impl Relaxation {
             load_size,
             load_error,
             spread,
+            column_sums,
             largest,
         }
     }
@@ -212,12 +218,13 @@ impl Relaxation {
         if !self.excludes(&vector, &sizes, 0.0, 0.0) {
             return None;
         }
+        let largest = sizes.iter().fold(0.0, |most: f64, &size| most.max(size));
         let mut combined = Vec::new();
         self.program.row_combination(&vector, &mut combined);
         let mut left = ContactSet::none_of(2 * self.first.len());
         for column in 0..2 * self.first.len() {
             let variable = self.variable_of(column);
-            let high = combined[variable] + self.error_of_product(variable, &sizes);
+            let high = combined[variable] + largest * self.largest_error(variable);
             if high > 0.0 || high.is_nan() {
                 left.insert(column);
             }
@@ -231,15 +238,20 @@ impl Relaxation {
         self.first[column % contacts] + column / contacts
     }
 
+    /// The sum of the sizes of the entries of a column.
+    pub(super) fn column_sum(&self, variable: usize) -> f64 {
+        self.column_sums[variable][0]
+    }
+
+    /// The maximum error of the product of a column with a vector whose entries have at most size 1.
+    fn largest_error(&self, variable: usize) -> f64 {
+        let [sizes, spread] = self.column_sums[variable];
+        self.rounding() * sizes + 1.01 * spread
+    }
+
     /// Relative rounding error of sums over all rows.
     fn rounding(&self) -> f64 {
         (self.first.len() + 4) as f64 * f64::EPSILON
-    }
-
-    /// The maximum error of the product of a column with a vector whose entries have these sizes.
-    fn error_of_product(&self, variable: usize, sizes: &[f64]) -> f64 {
-        self.rounding() * size_of_terms(self.program.column(variable), sizes)
-            + 1.01 * size_of_terms(&self.spread[variable], sizes)
     }
 
     /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of basic
@@ -250,6 +262,7 @@ impl Relaxation {
             farkas = of_size_one(farkas)?;
             self.program.row_combination(&farkas, &mut combined);
             let sizes: Vec<f64> = farkas.iter().map(|entry| entry.abs()).collect();
+            let rounding = self.rounding();
             let mut shifted = false;
             let (mut most, mut size) = (0.0, 0.0);
             let mut shift = vec![0.0; farkas.len()];
@@ -257,7 +270,8 @@ impl Relaxation {
                 if bounds.lower[variable] == 0.0 && bounds.upper[variable] == 0.0 {
                     continue;
                 }
-                let error = self.error_of_product(variable, &sizes);
+                let error = rounding * size_of_terms(self.program.column(variable), &sizes)
+                    + 1.01 * size_of_terms(&self.spread[variable], &sizes);
                 let (low, high) = (entry - error, entry + error);
                 if high.is_nan() {
                     return None;
@@ -307,6 +321,11 @@ fn of_size_one(mut vector: Vec<f64>) -> Option<Vec<f64>> {
         }
     }
     Some(vector)
+}
+
+/// `sum |a_i|`.
+pub(super) fn sum_of_sizes(values: &[f64]) -> f64 {
+    values.iter().map(|value| value.abs()).sum()
 }
 
 /// `sum |a_i| s_i` with sizes `s_i >= 0`.

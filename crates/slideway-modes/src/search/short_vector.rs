@@ -1,6 +1,6 @@
 //! Farkas vectors with short integer entries, for proof files.
 
-use super::relaxation::Relaxation;
+use super::relaxation::{Relaxation, sum_of_sizes};
 use super::simplex::{Basis, add_multiple, dot};
 use crate::solutions::ContactSet;
 
@@ -25,17 +25,14 @@ impl Relaxation {
         basis: &Basis,
     ) -> Option<(Vec<f64>, ContactSet)> {
         let allowed_variables: Vec<usize> = allowed.iter().map(|column| self.variable_of(column)).collect();
-        let is_basic = basis.basic_variables(&self.program);
-        let shift = basis.sum_of_inverse_rows(&self.program);
-        let (mut products, mut shifts) = (Vec::new(), Vec::new());
+        let (shift, shifts) = basis.sum_of_inverse_rows(&self.program);
+        let mut products = Vec::new();
         self.program.row_combination(farkas, &mut products);
-        self.program.row_combination(&shift, &mut shifts);
         let right = self.program.right_hand_side();
         let load_size = right.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         let mut step = dot(farkas, right) / (dot(&shift, right) + load_size).max(f64::MIN_POSITIVE);
-        for &variable in allowed_variables.iter().filter(|&&variable| !is_basic[variable]) {
-            let slope = 1.0 - shifts[variable];
-            if slope > 0.0 {
+        for &variable in &allowed_variables {
+            if let Some(slope) = shifts[variable].map(|shift| 1.0 - shift).filter(|&slope| slope > 0.0) {
                 step = step.min(-products[variable] / slope);
             }
         }
@@ -44,11 +41,11 @@ impl Relaxation {
         }
         let mut moved = farkas.to_vec();
         add_multiple(&mut moved, -step, &shift);
-        let sum = |entries: &[f64]| entries.iter().map(|entry| entry.abs()).sum::<f64>();
-        let columns = allowed_variables.iter().map(|&variable| sum(self.program.column(variable)));
-        let largest = columns.fold(sum(right) / load_size.max(f64::MIN_POSITIVE), f64::max);
+        let columns = allowed_variables.iter().map(|&variable| self.column_sum(variable));
+        let largest = columns.fold(sum_of_sizes(right) / load_size.max(f64::MIN_POSITIVE), f64::max);
         let scale = HALF_AND_MORE * largest / step;
-        let rounded: Vec<f64> = moved.iter().map(|entry| (entry * scale).round()).collect();
+        // No negative zeros.
+        let rounded: Vec<f64> = moved.iter().map(|entry| (entry * scale).round() + 0.0).collect();
         if !rounded.iter().all(|entry| entry.abs() <= GREATEST_ENTRY) {
             return None;
         }

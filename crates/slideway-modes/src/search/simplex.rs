@@ -235,27 +235,22 @@ impl Basis {
         row.map_or(0.0, |row| self.value[row] * self.longest_step(row, 1.0, 0.0))
     }
 
-    /// Which variables of the program are in the basis.
-    pub(super) fn basic_variables(&self, program: &LinearProgram) -> Vec<bool> {
-        let mut is_basic = vec![false; program.columns];
-        self.basic.iter().filter(|&&basic| basic < program.columns).for_each(|&basic| is_basic[basic] = true);
-        is_basic
-    }
-
-    /// The sum of the rows of `B^-1` that belong to variables of the program.
-    pub(super) fn sum_of_inverse_rows(&self, program: &LinearProgram) -> Vec<f64> {
+    /// The sum of the rows of `B^-1` that belong to variables of the program, and its products with the columns of
+    /// the nonbasic variables; `None` for all others that the bounds do not fix to zero, for which it is 1.
+    pub(super) fn sum_of_inverse_rows(&self, program: &LinearProgram) -> (Vec<f64>, Vec<Option<f64>>) {
         let mut total = vec![0.0; self.nonbasic.len()];
         for (_, row) in self.basic.iter().zip(self.rows()).filter(|(basic, _)| **basic < program.columns) {
             add_multiple(&mut total, 1.0, row);
         }
-        // The columns of artificial variables in the basis are those of a unit matrix, in other rows.
-        let mut sum = vec![0.0; program.rows];
+        let (mut sum, mut products) = (vec![0.0; program.rows], vec![None; program.columns]);
         for (nonbasic, total) in self.nonbasic.iter().zip(total) {
-            if let Some(artificial) = nonbasic.variable.checked_sub(program.columns) {
-                sum[artificial] = total;
+            match nonbasic.variable.checked_sub(program.columns) {
+                // Those in the basis have a column of the unit matrix, in a row that is left out.
+                Some(artificial) => sum[artificial] = total,
+                None => products[nonbasic.variable] = Some(total),
             }
         }
-        sum
+        (sum, products)
     }
 
     /// The multipliers of the equations: the dual solution, if the program is solved.

@@ -89,7 +89,7 @@ impl<'a> Tree<'a> {
 
     /// The same tree, which also writes its steps.
     pub(super) fn logged(self, log: ProofLog) -> Self {
-        Self { log: Some(log), faces: self.faces.map(Faces::to_support), ..self }
+        Self { log: Some(log), faces: self.faces.map(Faces::with_supports), ..self }
     }
 
     /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
