@@ -17,7 +17,7 @@ use instances::structured::{
     clamped_without_friction, game_with_two_costs, market, one_cell_of_low_rank, ones, pile,
     pushed_without_friction, subset_sum, weights_with_subset,
 };
-use instances::{chained_blocks, low_rank, planted_blocks, planted_complementarity};
+use instances::{chained_blocks, low_rank, planted_blocks, planted_complementarity, random_with_jumps};
 use slideway_modes::raw_problem::exact_json;
 use slideway_modes::{CombinedState, ModeProblem, SearchOptions, prove, search};
 
@@ -62,6 +62,7 @@ fn table() -> Vec<(&'static str, Make)> {
         ("market 40", || market(40, 1)),
         ("market 60", || market(60, 1)),
         ("game 6 x 6", || game_with_two_costs(6, 1)),
+        ("game 9 x 9", || game_with_two_costs(9, 1)),
         ("subset 14", || subset(14)),
         ("subset 18", || subset(18)),
         ("subset 20", || subset(20)),
@@ -69,6 +70,8 @@ fn table() -> Vec<(&'static str, Make)> {
         ("chained 60, strength 1.5", || chained_blocks(60, 1.5)),
         ("planted 24", || planted_complementarity(24, 1)),
         ("planted 36", || planted_complementarity(36, 1)),
+        ("jumps 10", || random_with_jumps(10, 1)),
+        ("jumps 14", || random_with_jumps(14, 1)),
         ("ave 1 28", || planted_blocks(28, 28, 1.0, 1)),
         ("ave 1 36", || planted_blocks(36, 36, 1.0, 1)),
         ("low rank 1 of 60", || low_rank(60, 1)),

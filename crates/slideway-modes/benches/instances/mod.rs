@@ -55,6 +55,19 @@ pub(crate) fn planted_complementarity(contacts: usize, seed: u64) -> ModeProblem
     ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit")
 }
 
+/// Random columns close to those of contacts without coupling, with jumps of every contact.
+pub(crate) fn random_with_jumps(contacts: usize, seed: u64) -> ModeProblem {
+    let mut random = random_numbers(seed);
+    let mut matrix = |diagonal: f64| {
+        DMatrix::from_fn(contacts, contacts, |row, column| {
+            random() + if row == column { diagonal } else { 0.0 }
+        })
+    };
+    let (positive, negative, up, down) = (matrix(2.0), matrix(-2.0), matrix(0.0), matrix(0.0));
+    let load = DVector::from_fn(contacts, |_, _| random());
+    ModeProblem::new(positive, negative, up, down, load).expect("shapes fit")
+}
+
 /// A diagonal and a coupling of low rank; two column versions.
 pub(crate) fn low_rank(contacts: usize, rank: usize) -> ModeProblem {
     let mut random = random_numbers(2);

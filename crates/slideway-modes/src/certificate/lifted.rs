@@ -61,6 +61,11 @@ impl LiftedSystem {
         Self { contacts, rows: right.len(), columns, right, exponents, share }
     }
 
+    /// The number of contacts.
+    pub(crate) fn contacts(&self) -> usize {
+        self.contacts
+    }
+
     /// The number of columns.
     pub(crate) fn width(&self) -> usize {
         self.columns.len()

@@ -79,6 +79,7 @@ mod relaxation;
 mod report;
 mod result;
 mod separation;
+mod share_entries;
 mod short_vector;
 mod sieve;
 mod simplex;

@@ -106,11 +106,12 @@ fn prove_part(
     let radius = scaled.scaled_load_radius(&loaded.right_hand_side_radius());
     let rows = exponents.add(&scaled, contacts);
     let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), true);
-    let mut log = ProofLog::new(rows);
+    let system = LiftedSystem::new(loaded.view());
+    let mut log = ProofLog::new(&system, rows);
     let all_solutions = pattern_of_all_solutions(loaded.view(), &scaled, &mut || monitor.goes_on());
     let left = all_solutions.and_then(|pattern| {
         let decision = leaves.decide(&pattern, monitor).ok()?;
-        log.monotone(&LiftedSystem::new(loaded.view()), &pattern, &decision)
+        log.monotone(&system, &pattern, &decision)
     });
     let root = left.unwrap_or_else(|| all_states(&scaled));
     let tree = Tree::new((loaded, &scaled), None, &radius, options).logged(log);

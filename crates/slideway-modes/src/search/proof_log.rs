@@ -6,6 +6,7 @@ use std::fmt::{Display, Write as _};
 use dashu_int::IBig;
 
 use super::proof_cells::{Cell, ProofCells, corners};
+use super::share_entries::ShareEntries;
 use super::states::StateSet;
 use crate::certificate::{Decision, LiftedSystem};
 use crate::problem::ContactState;
@@ -24,15 +25,18 @@ pub(super) struct ProofLog {
     vectors: u64,
     /// The numbers of vectors that exclude nodes, with the columns that they do not exclude.
     recent: VecDeque<(u64, ContactSet)>,
+    /// For vectors of problems with jumps; `None` if their numbers are too long.
+    shares: Option<ShareEntries>,
     /// Whether something could not be written.
     has_gap: bool,
 }
 
 impl ProofLog {
     /// An empty proof for equations whose rows are multiplied by powers of two with these exponents.
-    pub(super) fn new(rows: Vec<i32>) -> Self {
+    pub(super) fn new(system: &LiftedSystem, rows: Vec<i32>) -> Self {
+        let shares = ShareEntries::new(system, &rows);
         let (text, cells, recent) = (String::new(), ProofCells::default(), VecDeque::new());
-        Self { text, rows, cells, vectors: 0, recent, has_gap: false }
+        Self { text, rows, cells, vectors: 0, recent, shares, has_gap: false }
     }
 
     /// The lines, and the number of cells; `None` if some step could not be written.
@@ -49,10 +53,28 @@ impl ProofLog {
         known.is_some()
     }
 
-    /// `f`: a node is excluded by a vector of integers for the rows of the file, which leaves some columns.
-    pub(super) fn exclude(&mut self, vector: &[f64], left: ContactSet) {
-        self.write_vector('f', vector);
+    /// `f`: a node is excluded by a vector of integers for the rows of the file that do not belong to shares. It is
+    /// known to exclude the allowed sides, and others except those left. Returns whether it could be written:
+    /// with jumps, entries for the rows of shares have to be found.
+    pub(super) fn exclude(
+        &mut self,
+        system: &LiftedSystem,
+        vector: &[f64],
+        mut left: ContactSet,
+        allowed: &ContactSet,
+    ) -> bool {
+        if system.rows() == vector.len() {
+            self.write_vector('f', vector);
+        } else if let Some(shares) = &self.shares
+            && let Some(vector) = shares.completed(vector, allowed, &mut left)
+        {
+            let vector = self.for_rows(system, &vector);
+            self.write_vector('f', &vector);
+        } else {
+            return false;
+        }
         self.try_again(left);
+        true
     }
 
     /// `f`: a node is excluded by a vector for the lifted equations in integers.

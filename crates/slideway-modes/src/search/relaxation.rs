@@ -164,11 +164,10 @@ impl Relaxation {
                     bounds.upper[at + offset] = most.max(f64::MIN_POSITIVE);
                 }
             }
-            if self.has_jump[contact] {
-                let (least, most) = set.share();
-                bounds.lower[at + 2] = least / self.column_scale[at + 2];
-                bounds.upper[at + 2] = most / self.column_scale[at + 2];
-            }
+        }
+        for (variable, least, most) in self.shares(states) {
+            bounds.lower[variable] = least;
+            bounds.upper[variable] = most;
         }
         bounds
     }
@@ -209,33 +208,47 @@ impl Relaxation {
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
 
-    /// The columns of the lifted equations (`k` for the positive and `n + k` for the negative side of contact
-    /// `k`) without which a vector excludes every node, with rounding errors accounted for. `None` if it
-    /// excludes none. For problems without jumps, with unbounded unknowns.
+    /// The columns of the lifted equations (`k` for the positive and `n + k` for the negative side of contact `k`)
+    /// without which a vector excludes every node, with rounding errors accounted for, as long as the unknowns
+    /// are unbounded; with jumps, as far as sides are concerned. `None` if it excludes none.
     pub(super) fn not_excluded_by(&self, vector: &[f64]) -> Option<ContactSet> {
         let vector = of_size_one(vector.to_vec())?;
         let sizes: Vec<f64> = vector.iter().map(|entry| entry.abs()).collect();
-        if !self.excludes(&vector, &sizes, 0.0, 0.0) {
+        let jumps = self.has_jump.iter().filter(|jump| **jump).count();
+        if jumps == 0 && !self.excludes(&vector, &sizes, 0.0, 0.0) {
             return None;
         }
         let largest = sizes.iter().fold(0.0, |most: f64, &size| most.max(size));
         let mut combined = Vec::new();
         self.program.row_combination(&vector, &mut combined);
-        let mut left = ContactSet::none_of(2 * self.first.len());
-        for column in 0..2 * self.first.len() {
-            let variable = self.variable_of(column);
-            let high = combined[variable] + largest * self.largest_error(variable);
-            if high > 0.0 || high.is_nan() {
-                left.insert(column);
+        let contacts = self.first.len();
+        let mut left = ContactSet::none_of(2 * (contacts + jumps));
+        for (contact, &first) in self.first.iter().enumerate() {
+            for side in [0, 1] {
+                let high = combined[first + side] + largest * self.largest_error(first + side);
+                if high > 0.0 || high.is_nan() {
+                    left.insert(side * contacts + contact);
+                }
             }
         }
         Some(left)
     }
 
-    /// The unknown of a column of the lifted equations, for a side of a contact.
-    pub(super) fn variable_of(&self, column: usize) -> usize {
+    /// The unknowns of those columns of the lifted equations that are sides of contacts.
+    pub(super) fn variables_of_sides(&self, columns: &ContactSet) -> impl Iterator<Item = usize> {
         let contacts = self.first.len();
-        self.first[column % contacts] + column / contacts
+        let sides = columns.iter().take_while(move |&column| column < 2 * contacts);
+        sides.map(move |column| self.first[column % contacts] + column / contacts)
+    }
+
+    /// The unknown of each share, with its bounds.
+    pub(super) fn shares(&self, states: &[StateSet]) -> Vec<(usize, f64, f64)> {
+        let share = |(contact, &first): (usize, &usize)| {
+            let ((least, most), scale) = (states[contact].share(), self.column_scale[first + 2]);
+            (first + 2, least / scale, most / scale)
+        };
+        let jumping = self.first.iter().enumerate().filter(|&(contact, _)| self.has_jump[contact]);
+        jumping.map(share).collect()
     }
 
     /// The sum of the sizes of the entries of a column.

@@ -2,6 +2,7 @@
 
 use super::relaxation::{Relaxation, sum_of_sizes};
 use super::simplex::{Basis, add_multiple, dot};
+use super::states::StateSet;
 use crate::solutions::ContactSet;
 
 /// Rounding to multiples of the unit changes products by at most half the sum of sizes of a column's entries;
@@ -11,27 +12,37 @@ const HALF_AND_MORE: f64 = 0.51;
 const GREATEST_ENTRY: f64 = 9.0e15;
 
 impl Relaxation {
-    /// A vector in integers that excludes a node, from one in floating point and the basis that led to it, for
-    /// problems without jumps, and the columns that it does not exclude. `None` if the products with some of
-    /// the allowed columns leave no room for rounding.
+    /// A vector in integers that excludes a node, from one in floating point and the basis that led to it, and the
+    /// columns of sides that it does not exclude. `None` if the products with some of the allowed columns leave no
+    /// room for rounding. With jumps, entries for the equations of shares are still to be added.
     ///
     /// At the basis most products `v . C_j` are zero. Moving `v` by a multiple of `-sum_i B^-T e_i` makes all
-    /// those of basic columns negative at once; how far is limited by the other columns and by `v . b`. The
-    /// larger the resulting margin, the fewer digits are needed.
+    /// those of basic columns negative at once; how far is limited by the other columns and by what `v . b` exceeds.
+    /// The larger the resulting margin, the fewer digits are needed.
     pub(super) fn short(
         &self,
         farkas: &[f64],
+        states: &[StateSet],
         allowed: &ContactSet,
         basis: &Basis,
     ) -> Option<(Vec<f64>, ContactSet)> {
-        let allowed_variables: Vec<usize> = allowed.iter().map(|column| self.variable_of(column)).collect();
         let (shift, shifts) = basis.sum_of_inverse_rows(&self.program);
         let mut products = Vec::new();
         self.program.row_combination(farkas, &mut products);
-        let right = self.program.right_hand_side();
-        let load_size = right.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
-        let mut step = dot(farkas, right) / (dot(&shift, right) + load_size).max(f64::MIN_POSITIVE);
-        for &variable in &allowed_variables {
+        let sides: Vec<usize> = self.variables_of_sides(allowed).collect();
+        let (right, shares) = (self.program.right_hand_side(), self.shares(states));
+        let load_size = right.iter().fold(f64::MIN_POSITIVE, |most: f64, entry| most.max(entry.abs()));
+        // What the shares take of `v . b` at most, for `v` and for the shift, and the sum of all terms.
+        let (mut excess, mut loss) = (dot(farkas, right), dot(&shift, right) + load_size);
+        let mut terms = sum_of_sizes(right);
+        for &(variable, least, most) in &shares {
+            let (product, shift) = (products[variable], shifts[variable].unwrap_or(1.0));
+            excess -= (least * product).max(most * product);
+            loss += (-least * shift).max(-most * shift);
+            terms += most * self.column_sum(variable);
+        }
+        let mut step = excess / loss.max(f64::MIN_POSITIVE);
+        for &variable in &sides {
             if let Some(slope) = shifts[variable].map(|shift| 1.0 - shift).filter(|&slope| slope > 0.0) {
                 step = step.min(-products[variable] / slope);
             }
@@ -41,8 +52,8 @@ impl Relaxation {
         }
         let mut moved = farkas.to_vec();
         add_multiple(&mut moved, -step, &shift);
-        let columns = allowed_variables.iter().map(|&variable| self.column_sum(variable));
-        let largest = columns.fold(sum_of_sizes(right) / load_size.max(f64::MIN_POSITIVE), f64::max);
+        let columns = sides.iter().map(|&variable| self.column_sum(variable));
+        let largest = columns.fold(terms / load_size, f64::max);
         let scale = HALF_AND_MORE * largest / step;
         // No negative zeros.
         let rounded: Vec<f64> = moved.iter().map(|entry| (entry * scale).round() + 0.0).collect();

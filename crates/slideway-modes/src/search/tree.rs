@@ -274,10 +274,9 @@ impl<'a> Tree<'a> {
         if log.exclude_again(&allowed) {
             return true;
         }
-        if self.problem.has_jump.iter().all(|jump| !jump)
-            && let Some((short, left)) = self.relaxation.short(farkas, &allowed, basis)
+        if let Some((short, left)) = self.relaxation.short(farkas, states, &allowed, basis)
+            && log.exclude(faces.system(), &short, left, &allowed)
         {
-            log.exclude(&short, left);
             return true;
         }
         let vector = faces.excluding(states, &mut || monitor.goes_on());
