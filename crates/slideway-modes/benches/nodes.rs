@@ -75,9 +75,10 @@ fn table() -> Vec<(&'static str, Make)> {
         ("ave 1 28", || planted_blocks(28, 28, 1.0, 1)),
         ("ave 1 36", || planted_blocks(36, 36, 1.0, 1)),
         ("low rank 1 of 60", || low_rank(60, 1)),
+        ("low rank 2 of 16", || low_rank(16, 2)),
+        ("low rank 2 of 20", || low_rank(20, 2)),
+        ("low rank 2 of 24", || low_rank(24, 2)),
         ("low rank 2 of 40", || low_rank(40, 2)),
-        ("low rank 2 of 60", || low_rank(60, 2)),
-        ("low rank 3 of 40", || low_rank(40, 3)),
         ("ave 1 56", || planted_blocks(56, 56, 1.0, 1)),
     ]
 }
