@@ -298,6 +298,49 @@ fn a_batch_answers_a_line_before_the_next_one() {
     assert!(child.wait().unwrap().success());
 }
 
+/// Each solution in a line of its own, and then what is known: the counts of the list.
+#[test]
+fn a_stream_writes_each_solution_and_then_a_conclusion() {
+    let run = slideway(&["modes", EIGHT, "--stream"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let mut lines: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let last = lines.pop().unwrap();
+    let (_, report) = json(&["modes", EIGHT, "--format", "json"]);
+    let solutions: Vec<Value> = lines.iter().map(|line| line["solution"].clone()).collect();
+    let listed = report["solutions"].as_array().unwrap();
+    assert!(solutions.len() == listed.len() && listed.iter().all(|one| solutions.contains(one)), "{lines:?}");
+    let conclusion = &last["conclusion"];
+    for field in ["schema", "type", "status", "complete", "count", "nodes"] {
+        assert_eq!(conclusion[field], report[field], "{field}");
+    }
+    assert_eq!(conclusion["lines"], lines.len());
+    assert_eq!(
+        (&conclusion["all_written"], &conclusion["part_of_others"]),
+        (&true.into(), &serde_json::json!([]))
+    );
+    assert!(conclusion["seconds"].as_f64().unwrap() > 0.0);
+}
+
+/// 2^100 combinations: the first comes without the others, and time ends the rest.
+#[test]
+fn a_stream_ends_in_time_and_with_its_reader() {
+    use std::io::{BufRead, BufReader, Write};
+    let m: Vec<Vec<f64>> =
+        (0..100).map(|row| (0..100).map(|k| if k == row { -1.0 } else { 0.0 }).collect()).collect();
+    let problem = serde_json::json!({"M": m, "q": vec![1.0; 100]}).to_string();
+    let run = slideway_reading(&["modes", "-", "--stream", "--time-limit", "500ms"], problem.as_bytes());
+    let last: Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
+    assert_eq!((run.code, &last["conclusion"]["all_written"]), (0, &false.into()));
+    assert_eq!(last["conclusion"]["lines"], run.stdout.lines().count() - 1);
+    let mut child =
+        command(&["modes", "-", "--stream"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(problem.as_bytes()).unwrap();
+    let mut first = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+    assert!(first.starts_with("{\"solution\""), "{first}");
+    assert!(child.wait().unwrap().success());
+}
+
 #[test]
 fn a_count_needs_no_list() {
     let (code, report) = json(&["modes", EIGHT, "--format", "json", "--count-only"]);

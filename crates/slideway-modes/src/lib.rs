@@ -122,7 +122,8 @@ pub use problem::{
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
     GroupReport, GroupState, Method, NoProof, PatternOutcomes, PatternShares, ProofFile, SearchOptions,
-    SearchResult, SolutionProduct, StateCounts, StateKind, StateLists, StateSet, StopReason, prove, search,
+    SearchResult, SolutionProduct, StateCallback, StateCounts, StateKind, StateLists, StateSet, StopReason,
+    prove, search, search_telling,
 };
 pub use solutions::{
     Certificate, ClosestMode, GapShare, GapState, Limits, ModeSolution, ModeState, PatternCounts,

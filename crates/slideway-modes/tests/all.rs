@@ -28,4 +28,5 @@ mod search_proofs;
 mod search_rules;
 mod search_support;
 mod search_within_bounds;
+mod streams;
 mod versoft;

@@ -33,6 +33,7 @@ Examples:
   slideway modes problem.json --uniqueness
   slideway modes problem.json --count-only
   slideway modes problem.json --proof proof.txt
+  slideway modes problem.json --stream | head -n 1
   slideway modes - < problem.json
   slideway modes - --json-lines < problems.jsonl > answers.jsonl
 
@@ -73,6 +74,14 @@ pub(crate) struct ModesArguments {
     #[arg(long, conflicts_with_all = ["format", "output"])]
     pub(crate) json_lines: bool,
 
+    /// Write each solution as JSON in one line as soon as it is certain, and at last a line with the counts and whether
+    /// they are complete. What is written stays true, whatever ends the search. A set of solutions may contain what
+    /// was written before it; the last line tells which lines these are. If the unknowns are searched in several
+    /// groups, their combinations are written after the search; once time is up, at most as many as --max-solutions
+    /// says.
+    #[arg(long, conflicts_with_all = ["format", "output", "json_lines", "count_only", "proof"])]
+    pub(crate) stream: bool,
+
     /// Also write a proof that the solutions are all, which reference/check_proof.py checks in exact arithmetic. For
     /// problems that it does not read as they are given, FILE.json has the equivalent mode problem.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["json_lines", "any"])]
@@ -91,7 +100,7 @@ impl ModesArguments {
         if self.any { self.search.options_for_one() } else { self.search.options() }
     }
 
-    /// The maximum number of entries in each list.
+    /// The maximum number of entries in each list; of a stream, of vertices and directions.
     pub(crate) fn most_listed(&self) -> usize {
         if self.count_only { 0 } else { self.search.max_solutions }
     }

@@ -1,6 +1,7 @@
 //! `slideway modes`
 
 mod batch;
+mod stream;
 
 use super::proof::ProofFiles;
 use crate::arguments::{ModesArguments, ModesFormat};
@@ -18,6 +19,9 @@ use std::time::Instant;
 pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
     if arguments.json_lines {
         return batch::batch(arguments, output);
+    }
+    if arguments.stream {
+        return stream::stream(arguments, output);
     }
     let output = output.to(&arguments.destination, Some(&arguments.file))?;
     // A large file takes its part of the time.

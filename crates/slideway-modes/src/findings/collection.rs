@@ -103,6 +103,11 @@ impl<'a> Findings<'a> {
         solve_pattern(self.problem, pattern, proceed).is_none_or(|found| found.condition >= SUSPECT_CONDITION)
     }
 
+    /// Whether findings are exact apart from rounding.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.exact
+    }
+
     /// Everything recorded is proven for exact data: nothing is merged within tolerances.
     pub(crate) fn exact(self) -> Self {
         Self { exact: true, ..self }
@@ -115,6 +120,12 @@ impl<'a> Findings<'a> {
     /// Number of solutions, gap states and singular sets found so far.
     pub(crate) fn found(&self) -> usize {
         self.found.len() + self.singular.len() + self.undecided.len()
+    }
+
+    /// The solutions and gap states, and the singular sets, after the first so many of each, in the order in which they
+    /// were found.
+    pub(crate) fn after(&self, (found, singular): (usize, usize)) -> (&[Found], &[SingularMode]) {
+        (&self.found[found.min(self.found.len())..], &self.singular[singular.min(self.singular.len())..])
     }
 
     /// Sorts the findings into the order of enumeration, whatever the order in which they were found.

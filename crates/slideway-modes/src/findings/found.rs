@@ -7,6 +7,7 @@ use crate::problem::{ContactState, Side};
 use crate::solutions::{Certificate, GapShare, GapState, ModeSolution, ModeState, Support, UndecidedPattern};
 
 /// A solution or gap state with the patterns that give it.
+#[derive(Clone)]
 pub(crate) struct Found {
     pub(crate) candidate: Candidate,
     pub(crate) normal_force: DVector<f64>,

@@ -14,3 +14,4 @@ mod found;
 
 pub(crate) use collection::{Findings, TooManySolutions};
 pub(crate) use decided::Filed;
+pub(crate) use found::Found;

@@ -3,7 +3,7 @@
 use super::correspondence::Correspondence;
 use super::listing::{Counts, Sort, list};
 use super::range::in_range;
-use super::report::{RawGroup, RawReport, RawShares, RawSolution, SCHEMA};
+use super::report::{RawContinuum, RawGroup, RawLine, RawReport, RawShares, RawSolution, SCHEMA};
 use super::residual::Equations;
 use super::values::Values;
 use super::{RawProblem, continuum, nearby};
@@ -43,13 +43,29 @@ pub fn solve(
     let correspondence = Correspondence::of(raw);
     let result = search(&problem, options, progress);
     let counts = Counts::of(&result.product);
-    let open = open(&result, options);
-    let mut report = RawReport {
+    let mut report = without_lists(raw, &correspondence, (&result, &counts), options);
+    Teller::new(raw, &correspondence, &problem).list(&result.product, &counts, most, &mut report);
+    if report.status == Status::None && most > 0 {
+        let spent = (options, report.nodes);
+        report.within_rounding = nearby::within_rounding((raw, &correspondence), &problem, spent, progress);
+    }
+    Ok(report)
+}
+
+/// The report of a search without its solutions.
+pub(super) fn without_lists(
+    raw: &RawProblem,
+    correspondence: &Correspondence,
+    (result, counts): (&SearchResult, &Counts),
+    options: &SearchOptions,
+) -> RawReport {
+    let open = open(result, options);
+    RawReport {
         schema: SCHEMA,
         kind: raw.kind(),
         size: correspondence.size(),
         first: correspondence.first(),
-        status: status(&result, &counts),
+        status: status(result, counts),
         complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
         partial: is_partial(result.completeness),
         open,
@@ -65,19 +81,7 @@ pub fn solve(
         strategy: result.strategy().replace("contacts", "unknowns"),
         nodes: result.nodes(),
         groups: result.groups.iter().map(group).collect(),
-    };
-    let teller = Teller {
-        correspondence: &correspondence,
-        problem: &problem,
-        equations: Equations::of(raw, &problem),
-    };
-    teller.list(&result.product, &counts, most, &mut report);
-    if report.status == Status::None && most > 0 {
-        let spent = (options, report.nodes);
-        let raw = (raw, &correspondence);
-        report.within_rounding = nearby::within_rounding(raw, &problem, spent, progress);
     }
-    Ok(report)
 }
 
 fn is_partial(completeness: Completeness) -> bool {
@@ -169,16 +173,32 @@ fn group(report: &GroupReport) -> RawGroup {
 }
 
 /// Describes states of the search in the terms of the problem.
-struct Teller<'a> {
+pub(super) struct Teller<'a> {
     correspondence: &'a Correspondence,
     problem: &'a ModeProblem,
     equations: Equations<'a>,
 }
 
-impl Teller<'_> {
+impl<'a> Teller<'a> {
+    pub(super) fn new(
+        raw: &'a RawProblem,
+        correspondence: &'a Correspondence,
+        problem: &'a ModeProblem,
+    ) -> Self {
+        Self { correspondence, problem, equations: Equations::of(raw, problem) }
+    }
+
+    /// A state as a line of a stream, given how many solutions were told before.
+    pub(super) fn told(&self, state: &CombinedState<'_>, number: usize, most: usize) -> RawLine {
+        match Sort::of(state) {
+            Sort::Point => RawLine::Solution(self.point(state, number)),
+            Sort::Gap => RawLine::GapState(self.point(state, number)),
+            Sort::Continuum => RawLine::Continuum(self.continuum(state, most)),
+        }
+    }
+
     /// Fills the lists of the report.
     fn list(&self, product: &SolutionProduct, counts: &Counts, most: usize, report: &mut RawReport) {
-        let size = self.problem.contacts();
         list(product, (counts, Sort::Point), most, &mut |state| {
             let number = report.solutions.len();
             report.solutions.push(self.point(state, number));
@@ -187,8 +207,12 @@ impl Teller<'_> {
             report.gap_states.push(self.point(state, 0));
         });
         list(product, (counts, Sort::Continuum), most, &mut |state| {
-            report.continua.push(continuum::told(state, self.correspondence, size, most));
+            report.continua.push(self.continuum(state, most));
         });
+    }
+
+    fn continuum(&self, state: &CombinedState<'_>, most: usize) -> RawContinuum {
+        continuum::told(state, self.correspondence, self.problem.contacts(), most)
     }
 
     fn point(&self, state: &CombinedState<'_>, number: usize) -> RawSolution {

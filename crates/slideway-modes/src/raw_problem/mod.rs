@@ -60,6 +60,7 @@ mod residual;
 mod right_hand_sides;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod shape;
+mod stream;
 #[cfg(feature = "npz")]
 mod tables;
 mod values;
@@ -71,12 +72,13 @@ pub use exact_file::exact_json;
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
 pub use report::{
-    BeyondRange, ContinuumPart, GapShare, NamedRange, RawContinuum, RawGroup, RawReport, RawShares,
-    RawSolution, RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
+    BeyondRange, ContinuumPart, GapShare, NamedRange, RawConclusion, RawContinuum, RawGroup, RawLine,
+    RawReport, RawShares, RawSolution, RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 pub use right_hand_sides::{EveryAnswer, EveryRightHandSide};
 #[cfg(any(feature = "json", feature = "npz"))]
 pub use shape::Shape;
+pub use stream::solve_streaming;
 #[cfg(feature = "npz")]
 pub use tables::to_npz;
 

@@ -65,6 +65,39 @@ pub struct RawReport {
     pub groups: Vec<RawGroup>,
 }
 
+/// A line of an answer that is told state by state: [`solve_streaming`](super::solve_streaming).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum RawLine {
+    /// A solution.
+    Solution(RawSolution),
+    /// A state with an unknown in its preload gap.
+    GapState(RawSolution),
+    /// An infinite set of solutions.
+    Continuum(RawContinuum),
+    /// The last line.
+    Conclusion(Box<RawConclusion>),
+}
+
+/// What is known when an answer has been told state by state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RawConclusion {
+    /// Counts, how they were found, and whether they are complete; the lists are empty.
+    #[serde(flatten)]
+    pub report: RawReport,
+    /// The number of lines before this one.
+    pub lines: u64,
+    /// Whether every state that the report counts is in one of them.
+    pub all_written: bool,
+    /// Lines, from 1, with a state that is part of a larger set in another line; the report counts the others.
+    pub part_of_others: Vec<u64>,
+    /// Seconds since the start, if the caller measures them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+}
+
 /// The unknowns, with the names that the problem's type has for them. NaN (`null` in JSON) means no value:
 /// see [`BeyondRange`].
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -56,6 +56,9 @@ pub(super) fn solve(
         chain_proven: true,
         all_examined: true,
     };
+    if groups.members.len() > 1 {
+        monitor.tell_no_states();
+    }
     let load = Load::of(problem);
     let mut done = 0.0;
     for part in groups.independent_parts(&(0..groups.members.len()).collect::<Vec<_>>()) {

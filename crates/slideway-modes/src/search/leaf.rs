@@ -2,12 +2,14 @@
 
 use super::load::LoadedProblem;
 use super::monitor::Monitor;
+use super::product::{CombinedState, GroupState};
 use super::relaxation::Relaxation;
 use super::report::StopReason;
 use super::states::StateSet;
 use crate::certificate::{Decision, decide_while, proves_empty_while};
-use crate::findings::{Filed, Findings};
-use crate::problem::ContactState;
+use crate::findings::{Filed, Findings, Found};
+use crate::problem::{ContactState, SolutionSet};
+use crate::solutions::Certificate;
 
 /// Decides patterns one by one.
 pub(super) struct Leaves<'a> {
@@ -17,6 +19,8 @@ pub(super) struct Leaves<'a> {
     /// Patterns whose outcome is not proven.
     unproven: u64,
     decided_jointly: bool,
+    /// How many states, and how many singular sets, the caller knows.
+    told: (usize, usize),
 }
 
 impl<'a> Leaves<'a> {
@@ -24,20 +28,46 @@ impl<'a> Leaves<'a> {
     pub(super) fn new(problem: &'a LoadedProblem<'a>, findings: Findings<'a>, certify: bool) -> Self {
         let exact = certify && problem.is_part_of_exact_problem();
         let findings = if exact { findings.exact() } else { findings };
-        Self { problem, findings, certify, unproven: 0, decided_jointly: false }
+        Self { problem, findings, certify, unproven: 0, decided_jointly: false, told: (0, 0) }
     }
 
     /// Nothing yet, for the same problem.
     pub(super) fn another(&self) -> Self {
         let findings = self.findings.another();
-        Self { findings, unproven: 0, decided_jointly: false, ..*self }
+        Self { findings, unproven: 0, decided_jointly: false, told: (0, 0), ..*self }
     }
 
-    /// Adds what was found elsewhere.
+    /// Adds what was found elsewhere, and told there.
     pub(super) fn absorb(&mut self, other: Self) -> Result<(), StopReason> {
         self.unproven += other.unproven;
         self.decided_jointly |= other.decided_jointly;
-        self.findings.absorb(other.findings).map_err(|_| StopReason::SolutionLimit)
+        let absorbed = self.findings.absorb(other.findings).map_err(|_| StopReason::SolutionLimit);
+        self.count_as_told();
+        absorbed
+    }
+
+    /// Tells the states that are proven and new, if the caller wants them.
+    pub(super) fn tell(&mut self, monitor: &mut Monitor<'_>) {
+        if !monitor.wants_states() || !self.findings.is_exact() {
+            return;
+        }
+        let contacts: Vec<usize> = (0..self.findings.problem.contacts()).collect();
+        let (found, singular) = self.findings.after(self.told);
+        let has_jump = &self.findings.problem.has_jump;
+        let found = found.iter().filter(|found| found.certificate != Certificate::NotProven);
+        let sets = singular
+            .iter()
+            .filter(|mode| mode.certificate != Certificate::NotProven && mode.set != SolutionSet::Empty);
+        let states = found.map(|found| state_of(found, has_jump));
+        for state in states.chain(sets.map(|mode| GroupState::Singular(mode.clone()))) {
+            monitor.tell_state(&CombinedState { parts: vec![(&contacts, &state)] });
+        }
+        self.count_as_told();
+    }
+
+    fn count_as_told(&mut self) {
+        let (found, singular) = self.findings.after((0, 0));
+        self.told = (found.len(), singular.len());
     }
 
     /// Records what a pattern admits; the search ends if that is enough.
@@ -148,6 +178,7 @@ impl<'a> Leaves<'a> {
         let filed = self.findings.file_decision(pattern, decision, &mut || monitor.goes_on());
         let filed = filed.map_err(|_| StopReason::SolutionLimit)?;
         self.unproven += u64::from(filed == Filed::NotProven);
+        self.tell(monitor);
         Ok(())
     }
 
@@ -207,5 +238,14 @@ impl<'a> Leaves<'a> {
 
     pub(super) fn into_findings(self) -> Findings<'a> {
         self.findings
+    }
+}
+
+/// A state while it is being collected.
+fn state_of(found: &Found, has_jump: &[bool]) -> GroupState {
+    if found.has_gap() {
+        GroupState::Gap(found.clone().into_gap_state(has_jump))
+    } else {
+        GroupState::Solution(found.clone().into_mode_solution(has_jump))
     }
 }

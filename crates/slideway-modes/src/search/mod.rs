@@ -103,6 +103,7 @@ use crate::problem::ProblemView;
 use crate::progress::Callback;
 use alternation::Composition;
 use monitor::Monitor;
+pub use monitor::StateCallback;
 
 /// Bound on the loss by underflow in bounds and sums of products, far above the least number and far below
 /// any admitted number; loads have size 1.
@@ -136,10 +137,28 @@ pub fn search<'a>(
     options: &SearchOptions,
     progress: &mut Callback<'_>,
 ) -> SearchResult {
-    let problem = problem.into().without_zero_radii();
-    let mut monitor = Monitor::new(options.nodes, progress);
+    solve(problem.into(), options, &mut Monitor::new(options.nodes, progress))
+}
+
+/// [`search`], with `states` called for states as soon as they are proven.
+///
+/// This is possible for an exact problem whose contacts are one group: the states of several groups are
+/// combinations, which [`SearchResult::product`] has at the end. A state that is told is one whatever happens
+/// afterwards. The same may be told again if other patterns have it, and a set that is told later may contain it.
+/// The order does not depend on the number of threads. The search ends if `states` breaks.
+pub fn search_telling<'a>(
+    problem: impl Into<ProblemView<'a>>,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+    states: &mut StateCallback<'_>,
+) -> SearchResult {
+    solve(problem.into(), options, &mut Monitor::new(options.nodes, progress).telling(states))
+}
+
+fn solve(problem: ProblemView<'_>, options: &SearchOptions, monitor: &mut Monitor<'_>) -> SearchResult {
+    let problem = problem.without_zero_radii();
     let Composition { product, reports: groups, abandoned_nodes, chain_proven, all_examined } =
-        alternation::solve(problem, options, &mut monitor);
+        alternation::solve(problem, options, monitor);
     let proven = chain_proven && groups.iter().all(|group| group.proven);
     let completeness = match monitor.reason() {
         Some(reason) => Completeness::Partial(reason),

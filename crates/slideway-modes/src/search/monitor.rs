@@ -1,7 +1,12 @@
 //! Limits, progress and cancellation of a search.
 
+use super::product::CombinedState;
 use super::report::StopReason;
 use crate::progress::{Callback, Progress};
+use std::ops::ControlFlow;
+
+/// Receives states as they are found; breaks to end the search.
+pub type StateCallback<'c> = dyn FnMut(&CombinedState<'_>) -> ControlFlow<()> + 'c;
 
 /// Counts nodes, reports to the caller, and records why the search, or the present attempt, ends early.
 pub(super) struct Monitor<'a> {
@@ -19,6 +24,8 @@ pub(super) struct Monitor<'a> {
     told: Progress,
     stopped: Option<StopReason>,
     enough: Enough,
+    /// Only if states are to be told as they are found.
+    states: Option<&'a mut StateCallback<'a>>,
 }
 
 /// What has as many solutions as are wanted.
@@ -47,6 +54,29 @@ impl<'a> Monitor<'a> {
             told,
             stopped: None,
             enough: Enough::default(),
+            states: None,
+        }
+    }
+
+    /// The same, telling states as they are found.
+    pub(super) fn telling(self, states: &'a mut StateCallback<'a>) -> Self {
+        Self { states: Some(states), ..self }
+    }
+
+    /// Whether states are to be told as they are found.
+    pub(super) fn wants_states(&self) -> bool {
+        self.states.is_some()
+    }
+
+    /// From now on, states are those of groups, which are not told.
+    pub(super) fn tell_no_states(&mut self) {
+        self.states = None;
+    }
+
+    /// Tells a state that is proven.
+    pub(super) fn tell_state(&mut self, state: &CombinedState<'_>) {
+        if self.states.as_mut().is_some_and(|tell| tell(state).is_break()) {
+            self.stop(StopReason::Cancelled);
         }
     }
 

@@ -3,7 +3,8 @@
 //! The first nodes are visited one after the other. What is still open then is divided into a fixed number of
 //! subtrees, each of which knows what was found before the division, and nothing of the others. So neither
 //! nodes nor results depend on the number of threads. The subtrees are visited in rounds, each with twice as
-//! many nodes for every subtree as the one before: limits of nodes and solutions are shared between rounds.
+//! many nodes for every subtree as the one before, up to a maximum: limits of nodes and solutions are shared, and
+//! solutions are told, between rounds.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -22,8 +23,10 @@ pub(super) const ALONE: u64 = 1024;
 pub(super) const SUBTREES: usize = 64;
 /// A thread tells how it proceeds once in so many calls: each time another thread wakes up.
 const CALLS: u64 = 64;
-/// Nodes of each subtree in the first round.
+/// Nodes of each subtree in the first round, ...
 const FIRST_ROUND: u64 = 64;
+/// ... and in the longest: about a second of one thread, after which solutions are told.
+const LONGEST_ROUND: u64 = 1024;
 
 struct Subtree<'t, 'l> {
     tree: Tree<'t>,
@@ -65,7 +68,8 @@ pub(super) fn solve<'t, 'l>(
         }
         let known = (tree.report().shares.done(), leaves.found() as u64);
         round(&mut unfinished, share.min(most), tree.threads(), (known, monitor));
-        most = most.saturating_mul(2);
+        most = (2 * most).min(LONGEST_ROUND);
+        unfinished.iter_mut().for_each(|subtree| subtree.leaves.tell(monitor));
         let reason = unfinished.iter().find_map(|subtree| subtree.stopped);
         reason.into_iter().for_each(|reason| monitor.stop(reason));
     }

@@ -1,6 +1,7 @@
 //! Problems given as matrices, told as text and JSON: see [`slideway_modes::raw_problem`].
 
 mod faulty_line;
+mod line;
 mod text;
 
 pub use faulty_line::FaultyLine;
