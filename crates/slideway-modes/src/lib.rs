@@ -117,7 +117,7 @@ pub use enumeration::{EnumerationError, enumerate};
 pub use nalgebra;
 pub use problem::{
     BySide, ContactState, InfluenceCoefficients, ModeProblem, ModeProblemError, OpenContacts, ProblemPart,
-    SharedLoad, Side, SolutionSet,
+    SetPart, SharedLoad, Side, SolutionSet,
 };
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,

@@ -11,6 +11,7 @@ mod games;
 mod instances;
 mod interval_functions;
 mod klepp_example;
+mod large_cells;
 mod mixed_problems;
 mod modes;
 mod modes_batch;

@@ -28,7 +28,7 @@ pub enum ExactOutcome {
 ///
 /// `unknowns` are in the order of the contacts. If the pattern is singular, its set of admissible solutions
 /// (`y >= 0`, `0 <= lambda <= 1`) is described by up to `most` vertices and extreme directions; if it has
-/// more, or more have to be held in between, it is [`ExactSet::NotComputed`]. Numbers grow to about `53 r`
+/// more, or more have to be held in between, it is an [`ExactSet::Product`]. Numbers grow to about `53 r`
 /// bits, and the work for a regular pattern grows about like `r^4` to `r^5`.
 ///
 /// # Panics

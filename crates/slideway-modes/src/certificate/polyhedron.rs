@@ -9,7 +9,7 @@ use nalgebra::DVector;
 use super::cell::Cell;
 use super::elimination::IntegerSystem;
 use crate::interval::Interval;
-use crate::problem::{ContactState, SolutionSet};
+use crate::problem::{ContactState, SetPart, SolutionSet};
 
 /// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1` for a
 /// contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
@@ -22,21 +22,26 @@ impl ExactSet {
     /// For a pattern with several contacts in their gaps, the vertices may include points that are not
     /// corners once the shares are omitted.
     pub fn normal_forces(&self, pattern: &[ContactState]) -> SolutionSet {
-        if *self == Self::NotComputed {
-            return SolutionSet::NotComputed;
+        match self {
+            Self::NotComputed => return SolutionSet::NotComputed,
+            Self::Product(parts) => {
+                return SolutionSet::Product(
+                    parts.iter().map(|part| forces_of_part(part, pattern)).collect(),
+                );
+            }
+            _ => {}
         }
         let vertices = distinct(self.vertices().into_iter().map(|point| signed_forces(point, pattern)));
         let directions = distinct(self.directions().into_iter().filter_map(|direction| {
             let forces = signed_forces(direction, pattern);
             scaled_to_one(forces)
         }));
-        SolutionSet::from_corners(vertices, directions)
-            .map(|point| DVector::from_iterator(point.len(), point.iter().map(nearest)))
+        SolutionSet::from_corners(vertices, directions).map(&rounded)
     }
 
     /// The admissible solutions of a pattern's equations, which are a [`Cell`]: each share has a complement
-    /// `1 - lambda_k >= 0`. They are not computed if there are more than `most` vertices and extreme
-    /// directions; `None` once `proceed` is `false`.
+    /// `1 - lambda_k >= 0`. With more than `most` vertices and extreme directions, it is a product; `None` once
+    /// `proceed` is `false`.
     pub(super) fn of_system(
         system: &IntegerSystem,
         pattern: &[ContactState],
@@ -54,9 +59,49 @@ impl ExactSet {
             columns.push(complement);
             right.push(IBig::ONE);
         }
-        let set = Cell::of_columns(&columns, &right, most, proceed)?.set(most);
-        Some(set.map(|point| point[..pattern.len()].to_vec()))
+        let cell = Cell::of_columns(&columns, &right, most, proceed)?;
+        Some(match cell.set(most) {
+            Self::NotComputed => Self::product(&cell, pattern.len()),
+            set => set.map(&|point| point[..pattern.len()].to_vec()),
+        })
     }
+
+    /// A cell by its parts; those that are the same everywhere are one. The first unknowns are those of the contacts, and
+    /// complements depend on them.
+    fn product(cell: &Cell, contacts: usize) -> Self {
+        let Some(inside) = cell.inside() else { return Self::Empty };
+        let part = |contacts: Vec<usize>, dimension: usize, set: Self| {
+            let inside: Vec<RBig> = contacts.iter().map(|&contact| inside[contact].clone()).collect();
+            let set = if dimension == 0 { Self::Point(inside.clone()) } else { set };
+            SetPart { contacts, inside, dimension: Some(dimension), set }
+        };
+        let varying = cell.parts().iter().filter(|part| part.dimension > 0);
+        let varying = varying.map(|own| part(own.unknowns.clone(), own.dimension, own.set.clone()));
+        let mut parts: Vec<SetPart<Vec<RBig>>> =
+            varying.filter_map(|part| part.restricted(&|unknown| unknown < contacts)).collect();
+        let varies = |contact: &usize| parts.iter().any(|part| part.contacts.contains(contact));
+        let fixed: Vec<usize> = (0..contacts).filter(|contact| !varies(contact)).collect();
+        if !fixed.is_empty() {
+            parts.push(part(fixed, 0, Self::Empty));
+        }
+        Self::Product(parts)
+    }
+}
+
+/// A part of a set with the signed normal forces, rounded.
+fn forces_of_part(part: &SetPart<Vec<RBig>>, pattern: &[ContactState]) -> SetPart<DVector<f64>> {
+    let states: Vec<ContactState> = part.contacts.iter().map(|&contact| pattern[contact]).collect();
+    SetPart {
+        contacts: part.contacts.clone(),
+        inside: rounded(signed_forces(&part.inside, &states)),
+        dimension: part.dimension,
+        set: part.set.normal_forces(&states),
+    }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "the image of a point that is mapped")]
+fn rounded(point: Vec<RBig>) -> DVector<f64> {
+    DVector::from_iterator(point.len(), point.iter().map(nearest))
 }
 
 fn signed_forces(point: &[RBig], pattern: &[ContactState]) -> Vec<RBig> {

@@ -147,9 +147,8 @@ impl<'a> Findings<'a> {
 
     /// Whether one solution is enough and there is one, or a set of them without gaps.
     pub(crate) fn has_enough(&self) -> bool {
-        let is_set = |mode: &SingularMode| {
-            !mode.set.vertices().is_empty() && !mode.pattern.contains(&ContactState::Gap)
-        };
+        let is_set =
+            |mode: &SingularMode| mode.set.has_points() && !mode.pattern.contains(&ContactState::Gap);
         self.limits.solutions == 1 && (self.has_solutions() || self.singular.iter().any(is_set))
     }
 
@@ -356,7 +355,7 @@ impl<'a> Findings<'a> {
 
     /// Records a singular pattern, or those that admit the same set.
     fn add_singular(&mut self, new: SingularMode) {
-        if !new.set.vertices().is_empty() {
+        if new.set.has_points() {
             if let Some(&place) = self.singular_places.get(&new.support) {
                 let mode = &mut self.singular[place];
                 mode.pattern_count += new.pattern_count;
@@ -396,7 +395,7 @@ impl<'a> Findings<'a> {
             let vertices = mode.set.vertices();
             let is_vertex = |solution: &ModeSolution| {
                 if self.exact {
-                    !vertices.is_empty() && solution.support.is_within(&mode.support)
+                    mode.set.has_points() && solution.support.is_within(&mode.support)
                 } else {
                     vertices.iter().any(|vertex| same_point(vertex, &solution.normal_force))
                 }

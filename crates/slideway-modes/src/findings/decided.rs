@@ -1,6 +1,6 @@
 //! Records the proven outcomes of patterns.
 
-use crate::certificate::{Decision, ExactSet};
+use crate::certificate::Decision;
 use crate::findings::admitted::Admitted;
 use crate::findings::candidate::{Candidate, determinant, solve_pattern};
 use crate::findings::collection::{Findings, SUSPECT_CONDITION, TooManySolutions};
@@ -14,7 +14,7 @@ use crate::solutions::{Certificate, ContactSet, UndecidedPattern};
 pub(crate) enum Filed {
     /// Recorded as decided.
     Proven,
-    /// Recorded within tolerances, because what the pattern admits takes too much work to describe exactly.
+    /// Left unexamined, because the work was ended.
     NotProven,
 }
 
@@ -53,10 +53,6 @@ impl Findings<'_> {
                 }
                 let certificate = Certificate::Boundary { unknowns, zero, full_share };
                 self.file_admissible(pattern, candidate, certificate)?;
-            }
-            Decision::Singular { set: ExactSet::NotComputed } => {
-                self.examine_suspect(pattern, proceed)?;
-                return Ok(Filed::NotProven);
             }
             Decision::Singular { set } => {
                 self.examined += 1;
@@ -120,7 +116,7 @@ impl Findings<'_> {
         self.examined += 1;
         match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => candidate.map_or(Centre::Nothing, judged),
-            Examined::Singular(admitted) if admitted.set.vertices().is_empty() => Centre::Nothing,
+            Examined::Singular(admitted) if !admitted.set.has_points() => Centre::Nothing,
             Examined::Singular(admitted) => Centre::Set(admitted),
         }
     }

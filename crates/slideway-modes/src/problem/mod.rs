@@ -17,7 +17,7 @@ pub use bounded_influence::IntervalInfluence;
 pub(crate) use bounds::Column;
 pub use bounds::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use mode_problem::{InfluenceCoefficients, ModeProblem, ModeProblemError};
-pub use pattern::{ContactState, SolutionSet};
+pub use pattern::{ContactState, SetPart, SolutionSet};
 pub(crate) use radii::Radii;
 pub(crate) use scaling::{ScaledProblem, patterns_of, power_of_two_above};
 pub use shared_load::{OpenContacts, SharedLoad};

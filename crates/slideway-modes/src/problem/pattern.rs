@@ -72,9 +72,24 @@ pub enum SolutionSet<P = DVector<f64>> {
         /// Extreme directions, each with a largest component of size 1.
         directions: Vec<P>,
     },
-    /// It has more corners than are described, or it is known within tolerances only and takes more work than
-    /// [`Limits::bases`](crate::Limits::bases).
+    /// A set with more corners than are listed, by its parts, which vary independently of one another.
+    Product(Vec<SetPart<P>>),
+    /// It is known within tolerances only and takes more work than [`Limits::bases`](crate::Limits::bases); or, of a
+    /// part, its corners are too many.
     NotComputed,
+}
+
+/// Some contacts in a set of solutions, which vary independently of the others; points have one entry for each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SetPart<P> {
+    /// The contacts, from 0, in increasing order.
+    pub contacts: Vec<usize>,
+    /// A point inside it: what is positive anywhere in the part is positive there.
+    pub inside: P,
+    /// The dimension, that of shares included; `None` if only the corners are known.
+    pub dimension: Option<usize>,
+    /// Its corners; [`SolutionSet::NotComputed`] if they are too many.
+    pub set: SolutionSet<P>,
 }
 
 impl<P> SolutionSet<P> {
@@ -89,10 +104,10 @@ impl<P> SolutionSet<P> {
         }
     }
 
-    /// The vertices of the set; none if it is empty or was not computed.
+    /// The vertices of the set; none if it is empty, or if they are not listed.
     pub fn vertices(&self) -> Vec<&P> {
         match self {
-            Self::Empty | Self::NotComputed => Vec::new(),
+            Self::Empty | Self::NotComputed | Self::Product(_) => Vec::new(),
             Self::Point(point) => vec![point],
             Self::Segment { from, to } => vec![from, to],
             Self::Ray { from, .. } => vec![from],
@@ -100,24 +115,31 @@ impl<P> SolutionSet<P> {
         }
     }
 
-    /// The extreme directions of the set; none if it is bounded or was not computed.
+    /// The extreme directions of the set; none if it is bounded, or if they are not listed.
     pub fn directions(&self) -> Vec<&P> {
         match self {
             Self::Ray { direction, .. } => vec![direction],
             Self::Polytope { directions, .. } => directions.iter().collect(),
-            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
+            Self::Empty | Self::NotComputed | Self::Product(_) | Self::Point(_) | Self::Segment { .. } => {
+                Vec::new()
+            }
         }
     }
 
     /// Whether the set contains more than one point.
     pub fn is_continuum(&self) -> bool {
-        matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
+        matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. } | Self::Product(_))
+    }
+
+    /// Whether it is known to contain a point.
+    pub fn has_points(&self) -> bool {
+        !matches!(self, Self::Empty | Self::NotComputed)
     }
 
     /// The set with the images of all points and directions under a linear map that keeps vertices and
     /// extreme directions distinct.
-    pub(crate) fn map<Q>(self, image: impl Fn(P) -> Q) -> SolutionSet<Q> {
-        let all = |points: Vec<P>| points.into_iter().map(&image).collect();
+    pub(crate) fn map<Q>(self, image: &dyn Fn(P) -> Q) -> SolutionSet<Q> {
+        let all = |points: Vec<P>| points.into_iter().map(image).collect();
         match self {
             Self::Empty => SolutionSet::Empty,
             Self::NotComputed => SolutionSet::NotComputed,
@@ -129,6 +151,39 @@ impl<P> SolutionSet<P> {
             Self::Polytope { vertices, directions } => {
                 SolutionSet::Polytope { vertices: all(vertices), directions: all(directions) }
             }
+            Self::Product(parts) => {
+                SolutionSet::Product(parts.into_iter().map(|part| part.map(image)).collect())
+            }
         }
+    }
+}
+
+impl<P> SetPart<P> {
+    fn map<Q>(self, image: &dyn Fn(P) -> Q) -> SetPart<Q> {
+        let Self { contacts, inside, dimension, set } = self;
+        SetPart { contacts, inside: image(inside), dimension, set: set.map(image) }
+    }
+
+    /// The same with other numbers of its contacts.
+    pub(crate) fn renumbered(self, number: impl Fn(usize) -> usize) -> Self {
+        Self { contacts: self.contacts.into_iter().map(number).collect(), ..self }
+    }
+}
+
+impl<V: Clone> SetPart<Vec<V>> {
+    /// Only the contacts from `first` on, counted from there; `None` if there are none.
+    pub(crate) fn from_contact(self, first: usize) -> Option<Self> {
+        self.restricted(&|contact| contact >= first).map(|part| part.renumbered(|contact| contact - first))
+    }
+
+    /// Only some of the contacts, which the others do not restrict; `None` if there are none.
+    pub(crate) fn restricted(self, keeps: &dyn Fn(usize) -> bool) -> Option<Self> {
+        let places: Vec<usize> = (0..self.contacts.len()).filter(|&at| keeps(self.contacts[at])).collect();
+        if places.is_empty() {
+            return None;
+        }
+        let contacts = places.iter().map(|&at| self.contacts[at]).collect();
+        let part = self.map(&|point| places.iter().map(|&at| point[at].clone()).collect());
+        Some(Self { contacts, ..part })
     }
 }

@@ -108,7 +108,7 @@ fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
         Completeness::NotProven => vec![not_proven(&result.groups)],
         Completeness::Unexamined => {
             vec![format!(
-                "singular patterns were not examined: more than {} in a group of unknowns, or too many corners",
+                "singular patterns were not examined: more than {} in a group of unknowns",
                 options.limits.singular
             )]
         }

@@ -370,6 +370,13 @@ pub struct ContinuumPart {
     pub vertex_count: usize,
     /// Total number of directions.
     pub direction_count: usize,
+    /// If there are more than 4096 vertices and directions, counting those that have to be held on the way to them,
+    /// none are listed or counted; this is the dimension of the part then, ...
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dimension: Option<usize>,
+    /// ... and this is a point inside it: what is zero here is zero in the whole part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inside: Option<Unknowns>,
 }
 
 /// A group of unknowns that was searched separately.

@@ -4,17 +4,17 @@ use nalgebra::DVector;
 
 use super::product::{CombinedState, GroupState};
 use crate::interval::Interval;
-use crate::problem::{ContactState, Side, SolutionSet};
+use crate::problem::{ContactState, SetPart, Side, SolutionSet};
 use crate::solutions::{Certificate, GapState, ModeSolution, ModeState, SingularMode, UndecidedPattern};
 
 /// The maximum number of vertices and directions of a set that is a product of several.
-const CORNERS: usize = 4096;
+pub(crate) const CORNERS: usize = 4096;
 
 impl CombinedState<'_> {
     /// The combination as one state of this number of contacts, with at most `listed` patterns.
     ///
     /// `D` is the product of those of the groups, as for the whole matrix. Sets of singular patterns are
-    /// multiplied; with more than 4096 vertices or directions, they are not described.
+    /// multiplied; with more than 4096 vertices or directions, they are told by parts.
     pub fn joined(&self, contacts: usize, listed: usize) -> GroupState {
         let joint = Joint { state: self, contacts, listed };
         match self.parts.iter().map(|(_, state)| state.kind()).max() {
@@ -207,18 +207,24 @@ impl Joint<'_> {
         }
     }
 
-    /// The product of the sets of all parts.
+    /// The product of the sets of all parts; by parts, if it has too many corners.
     fn set(&self) -> SolutionSet {
         let mut vertices = vec![DVector::zeros(self.contacts)];
         let mut directions: Vec<DVector<f64>> = Vec::new();
         for (members, state) in &self.state.parts {
             let (own, own_directions) = match state {
+                GroupState::Singular(SingularMode { set: SolutionSet::NotComputed, .. }) => {
+                    return SolutionSet::NotComputed;
+                }
+                GroupState::Singular(SingularMode { set: SolutionSet::Product(_), .. }) => {
+                    return self.product();
+                }
                 GroupState::Singular(mode) => (mode.set.vertices(), mode.set.directions()),
                 state => (state.normal_force().into_iter().collect(), Vec::new()),
             };
             if vertices.len().saturating_mul(own.len()).max(directions.len() + own_directions.len()) > CORNERS
             {
-                return SolutionSet::NotComputed;
+                return self.product();
             }
             vertices = vertices
                 .iter()
@@ -229,6 +235,39 @@ impl Joint<'_> {
         }
         SolutionSet::from_corners(vertices, directions)
     }
+
+    /// The sets of all parts, one after the other.
+    fn product(&self) -> SolutionSet {
+        let mut parts: Vec<SetPart<DVector<f64>>> = Vec::new();
+        for (members, state) in &self.state.parts {
+            match state {
+                GroupState::Singular(SingularMode { set: SolutionSet::Product(own), .. }) => {
+                    parts.extend(own.iter().map(|part| part.clone().renumbered(|contact| members[contact])));
+                }
+                GroupState::Singular(mode) => parts.push(listed_part(members, mode.set.clone())),
+                state => {
+                    let point = state.normal_force().map(|point| SolutionSet::Point(point.clone()));
+                    parts.extend(point.map(|point| listed_part(members, point)));
+                }
+            }
+        }
+        SolutionSet::Product(parts)
+    }
+}
+
+/// A set of some contacts whose corners are listed.
+fn listed_part(members: &[usize], set: SolutionSet) -> SetPart<DVector<f64>> {
+    let dimension = match &set {
+        SolutionSet::Point(_) => Some(0),
+        SolutionSet::Segment { .. } | SolutionSet::Ray { .. } => Some(1),
+        _ => None,
+    };
+    let vertices = set.vertices();
+    let share = 1.0 / vertices.len().max(1) as f64;
+    let zero = DVector::zeros(members.len());
+    let mean = vertices.iter().fold(zero, |sum, vertex| sum + *vertex * share);
+    let inside = set.directions().into_iter().fold(mean, |sum, direction| sum + direction);
+    SetPart { contacts: members.to_vec(), inside, dimension, set }
 }
 
 fn contacts_in_doubt(state: &GroupState) -> &[usize] {

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::certificate::{Decision, ExactOutcome, decide_while, solve_exactly};
+use crate::certificate::{Decision, ExactOutcome, ExactSet, decide_while, solve_exactly};
 use crate::interval::{Interval, Sign};
 use crate::problem::{BySide, Column, ContactState, ModeProblem, ProblemView, Radii, Side};
 
@@ -191,7 +191,11 @@ fn without_first(decision: Decision, first: usize) -> Decision {
                 Decision::Boundary { unknowns, zero, full_share, determinant }
             }
         }
-        Decision::Singular { set } => Decision::Singular { set: set.map(|point| point[first..].to_vec()) },
+        Decision::Singular { set: ExactSet::Product(parts) } => {
+            let later = parts.into_iter().filter_map(|part| part.from_contact(first)).collect();
+            Decision::Singular { set: ExactSet::Product(later) }
+        }
+        Decision::Singular { set } => Decision::Singular { set: set.map(&|point| point[first..].to_vec()) },
         Decision::Undecided { unknowns, in_doubt } => Decision::Undecided {
             unknowns: unknowns.map(|all: Vec<Interval>| all[first..].to_vec()),
             in_doubt: later(in_doubt),

@@ -90,6 +90,7 @@ mod test_problems;
 mod tree;
 
 pub use count::BigCount;
+pub(crate) use joined::CORNERS;
 pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
 pub use proof::{NoProof, ProofFile, prove};
 pub use report::{

@@ -231,7 +231,7 @@ pub struct PatternOutcomes {
 
 impl PatternOutcomes {
     pub(super) fn of(solutions: &Solutions) -> Self {
-        let locked = solutions.singular.iter().filter(|mode| mode.set.vertices().is_empty());
+        let locked = solutions.singular.iter().filter(|mode| !mode.set.has_points());
         Self {
             counts: solutions.counts,
             gap_counts: solutions.gap_counts,

@@ -264,7 +264,10 @@ impl PatternCounts {
             SolutionSet::Empty => self.singular_empty += 1,
             SolutionSet::Point(_) => self.singular_point += 1,
             SolutionSet::NotComputed => self.not_examined += 1,
-            SolutionSet::Segment { .. } | SolutionSet::Ray { .. } | SolutionSet::Polytope { .. } => {
+            SolutionSet::Segment { .. }
+            | SolutionSet::Ray { .. }
+            | SolutionSet::Polytope { .. }
+            | SolutionSet::Product(_) => {
                 self.singular_continuum += 1;
             }
         }

@@ -48,10 +48,16 @@ impl Support {
     /// The support of what a singular pattern admits, exactly.
     pub(crate) fn of_exact_set(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
         let mut support = Self::none_of(pattern.len());
+        let mut add = |contact: usize, value: &RBig| {
+            let ends = (value.is_zero(), *value == RBig::ONE);
+            support.add(contact, pattern[contact], has_jump[contact], ends);
+        };
         for point in set.vertices() {
-            for (contact, value) in point.iter().enumerate() {
-                let ends = (value.is_zero(), *value == RBig::ONE);
-                support.add(contact, pattern[contact], has_jump[contact], ends);
+            point.iter().enumerate().for_each(|(contact, value)| add(contact, value));
+        }
+        if let ExactSet::Product(parts) = set {
+            for part in parts {
+                part.contacts.iter().zip(&part.inside).for_each(|(&contact, value)| add(contact, value));
             }
         }
         for direction in set.directions() {

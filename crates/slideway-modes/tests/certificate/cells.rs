@@ -142,6 +142,9 @@ fn too_many_corners_leave_dimension_support_and_a_vertex() {
     let vertex = &cell.parts()[0].vertex;
     assert_eq!(vertex.iter().filter(|value| **value == RBig::ONE).count(), 5);
     assert_eq!(vertex.iter().filter(|value| value.is_zero()).count(), 20);
+    let inside = cell.inside().expect("not empty");
+    assert!(inside.iter().all(|value| *value > RBig::ZERO));
+    assert_eq!(inside[..5].iter().fold(RBig::ZERO, |sum, value| sum + value), RBig::ONE);
 }
 
 #[test]
@@ -251,6 +254,14 @@ proptest! {
         prop_assert_eq!(cell.dimension(), Some(dimension(&expected)));
         let grows = |at: &usize| expected.iter().flatten().any(|point| !point[*at].is_zero());
         prop_assert_eq!(cell.support(), (0..rows[0].len() - 1).filter(grows).collect::<Vec<_>>());
+        let inside = cell.inside().expect("not empty");
+        prop_assert!(rows.iter().all(|row| {
+            let (right, row) = row.split_last().expect("a right-hand side");
+            row.iter().zip(&inside).fold(RBig::ZERO, |sum, (&at, x)| sum + x * RBig::from(at)) == RBig::from(*right)
+        }));
+        let positive = |at: &usize| inside[*at] > RBig::ZERO;
+        prop_assert_eq!(cell.support(), (0..inside.len()).filter(positive).collect::<Vec<_>>());
+        prop_assert!(inside.iter().all(|value| *value >= RBig::ZERO));
         for part in cell.parts() {
             prop_assert!(part.set.vertices().contains(&&part.vertex));
         }

@@ -113,8 +113,18 @@ fn locked_segment_and_polytope() {
     assert_eq!((set.vertices().len(), set.directions().len()), (2, 2));
     assert!(matches!(set.normal_forces(&[POSITIVE; 3]), SolutionSet::Polytope { .. }));
     let ExactOutcome::Singular(set) = solve_exactly(&open, &[POSITIVE; 3], 3) else { panic!("singular") };
-    assert_eq!((&set, set.vertices().len()), (&ExactSet::NotComputed, 0));
-    assert_eq!(set.normal_forces(&[POSITIVE; 3]), SolutionSet::NotComputed);
+    // Too many corners: one part of dimension 2, and a point inside it.
+    let ExactSet::Product(parts) = &set else { panic!("not listed: {set:?}") };
+    let [part] = parts.as_slice() else { panic!("one part: {parts:?}") };
+    assert_eq!(
+        (&part.contacts, part.dimension, &part.set),
+        (&vec![0, 1, 2], Some(2), &ExactSet::NotComputed)
+    );
+    let [z1, z2, z3] = part.inside.as_slice() else { panic!("three unknowns") };
+    assert!(part.inside.iter().all(|value| *value > RBig::ZERO) && z1 + z2 - z3 == RBig::ONE);
+    assert!(set.vertices().is_empty() && set.is_continuum());
+    let SolutionSet::Product(forces) = set.normal_forces(&[POSITIVE; 3]) else { panic!("not listed") };
+    assert_eq!(forces[0].inside[0], z1.to_f64().value());
 }
 
 #[test]

@@ -297,6 +297,9 @@ impl Text<'_> {
     fn part(&mut self, part: &ContinuumPart) {
         let points = part.vertices.len();
         let is_fixed = (part.vertex_count, part.direction_count) == (1, 0);
+        if let Some(inside) = &part.inside {
+            self.tables((&part.indices, &[inside]), &["inside".to_owned()], &[]);
+        }
         let columns: Vec<&Unknowns> = part.vertices.iter().chain(&part.directions).collect();
         for (at, chunk) in columns.chunks(4).enumerate() {
             let label = |offset: usize| match at * 4 + offset {
@@ -346,6 +349,13 @@ fn signs(solution: &RawSolution) -> String {
 /// What a part of a continuum looks like.
 fn shape(part: &ContinuumPart) -> String {
     match (part.vertex_count, part.direction_count) {
+        (0, 0) => {
+            let dimension = part.dimension.map(|dimension| format!(" of dimension {dimension}"));
+            format!(
+                "a set{} with more than 4096 corners, which are not listed",
+                dimension.unwrap_or_default()
+            )
+        }
         (1, 0) => "fixed".to_owned(),
         (2, 0) => "a segment between two ends".to_owned(),
         (1, 1) => "a ray: its end, and its direction".to_owned(),

@@ -609,7 +609,7 @@ pub struct Drive {
 pub struct Continuum {
     /// Its pattern.
     pub pattern: String,
-    /// Normal forces of the contacts at each vertex (N).
+    /// Normal forces of the contacts at each vertex (N); none if there are more than 4096 vertices and directions.
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.
     pub directions: Vec<Vec<f64>>,

@@ -361,6 +361,9 @@ impl Text<'_> {
             let title = format!("Continuum   signs {}", spaced(&continuum.pattern));
             self.headline(&title);
             self.line("  Normal forces at the ends and directions of unbounded growth, contact by contact:");
+            if continuum.vertices.is_empty() {
+                self.line("  More than 4096 corners, which are not listed");
+            }
             for vertex in &continuum.vertices {
                 self.line(&format!("  from {}", vector(vertex, &self.report.model.units.of("N"))));
             }

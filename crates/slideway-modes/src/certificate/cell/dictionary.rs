@@ -1,7 +1,9 @@
 //! The equations of a cell solved for some of its unknowns, in integers.
 
 use dashu_int::IBig;
+use dashu_ratio::RBig;
 
+use crate::certificate::elimination::ratio;
 use crate::certificate::lifted::make_primitive;
 
 /// Equations `D y_i + sum_f t_if y_f = t_i`, one for each basic unknown `y_i`; the unknowns `y_f` are
@@ -14,6 +16,29 @@ pub(super) struct Dictionary {
     rows: Vec<Vec<IBig>>,
     basic: Vec<usize>,
     nonbasic: Vec<usize>,
+    /// Points of the cell; what is positive somewhere is positive in one of them.
+    witnesses: Vec<Witness>,
+}
+
+/// A point: the positive unknowns, times the denominator.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Witness {
+    positive: Vec<(usize, IBig)>,
+    denominator: IBig,
+}
+
+impl Witness {
+    /// The mean of several points.
+    pub(super) fn mean(points: &[Self], unknowns: usize) -> Vec<RBig> {
+        let mut sum = vec![RBig::ZERO; unknowns];
+        for point in points {
+            let denominator = &point.denominator * IBig::from(points.len());
+            for (unknown, value) in &point.positive {
+                sum[*unknown] += ratio(value.clone(), &denominator);
+            }
+        }
+        sum
+    }
 }
 
 /// What is known about an unknown: whether it is positive somewhere.
@@ -70,6 +95,7 @@ impl Dictionary {
             rows: (0..right.len()).map(row).collect(),
             basic: (own..own + right.len()).collect(),
             nonbasic: (0..own).collect(),
+            witnesses: Vec::new(),
         };
         while let Some(row) = dictionary.basic.iter().position(|&unknown| unknown >= own) {
             let Some(column) = dictionary.entries(row).iter().position(|entry| !entry.is_zero()) else {
@@ -97,6 +123,7 @@ impl Dictionary {
             rows: matrix.iter().map(|row| row.iter().cloned().chain([IBig::ZERO]).collect()).collect(),
             basic: (own..2 * own).collect(),
             nonbasic: (0..own).collect(),
+            witnesses: Vec::new(),
         };
         loop {
             let left = (0..dictionary.rows.len()).filter(|&row| dictionary.basic[row] >= own);
@@ -190,6 +217,7 @@ impl Dictionary {
             known[self.nonbasic[column]] = Known::Positive;
             let growing = (0..self.rows.len()).filter(|&row| self.rows[row][column] < IBig::ZERO);
             growing.for_each(|row| known[self.basic[row]] = Known::Positive);
+            self.witness(Some(column));
             return Ok(());
         };
         self.pivot(row, column, proceed)?;
@@ -208,12 +236,35 @@ impl Dictionary {
         (0..self.rows.len()).filter(|&row| self.rows[row][column] > IBig::ZERO).min_by(earlier)
     }
 
-    fn note_positive(&self, known: &mut [Known]) {
+    fn note_positive(&mut self, known: &mut [Known]) {
+        let mut is_new = false;
         for (row, &unknown) in self.basic.iter().enumerate() {
             if !self.value(row).is_zero() {
+                is_new |= known[unknown] != Known::Positive;
                 known[unknown] = Known::Positive;
             }
         }
+        if is_new {
+            self.witness(None);
+        }
+    }
+
+    /// Keeps the present vertex, or the point where a nonbasic unknown that may grow without bound is 1.
+    fn witness(&mut self, growing: Option<usize>) {
+        let value = |row: usize| match growing {
+            Some(column) => self.value(row) - &self.rows[row][column],
+            None => self.value(row).clone(),
+        };
+        let basic = self.basic.iter().enumerate().map(|(row, &unknown)| (unknown, value(row)));
+        let grown = growing.map(|column| (self.nonbasic[column], self.denominator.clone()));
+        let positive = basic.chain(grown).filter(|(_, value)| !value.is_zero()).collect();
+        let denominator = self.denominator.clone();
+        self.witnesses.push(Witness { positive, denominator });
+    }
+
+    /// Takes points of the cell: what is positive somewhere in it is positive in one of them.
+    pub(super) fn take_witnesses(&mut self) -> Vec<Witness> {
+        std::mem::take(&mut self.witnesses)
     }
 
     /// `D y_i + sum t_if y_f = 0` with `t_if >= 0`: the unknowns with positive factors are zero.

@@ -10,7 +10,7 @@ mod double_description;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
-use self::dictionary::{Block, Dictionary, Ended};
+use self::dictionary::{Block, Dictionary, Ended, Witness};
 use self::double_description::extreme_rays;
 use super::elimination::ratio;
 use super::polyhedron::{ExactSet, scaled_to_one};
@@ -32,6 +32,7 @@ pub struct Cell {
     unknowns: usize,
     /// `None` if it is empty.
     parts: Option<Vec<CellPart>>,
+    witnesses: Vec<Witness>,
 }
 
 /// Some of the unknowns of a [`Cell`], which vary independently of the others. Each is positive somewhere.
@@ -65,16 +66,17 @@ impl Cell {
     ) -> Option<Self> {
         assert!(columns.iter().all(|column| column.len() == right.len()), "one entry per equation");
         let unknowns = columns.len();
-        let dictionary = match Dictionary::of_support(columns, right, proceed) {
+        let mut dictionary = match Dictionary::of_support(columns, right, proceed) {
             Ok(dictionary) => dictionary,
-            Err(Ended::Infeasible) => return Some(Self { unknowns, parts: None }),
+            Err(Ended::Infeasible) => return Some(Self { unknowns, parts: None, witnesses: Vec::new() }),
             Err(Ended::Interrupted) => return None,
         };
         let blocks = dictionary.blocks();
         let mut parts: Vec<CellPart> =
             blocks.iter().map(|block| CellPart::new(&dictionary, block, most, proceed)).collect();
         parts.sort_by(|one, other| one.unknowns.cmp(&other.unknowns));
-        proceed().then_some(Self { unknowns, parts: Some(parts) })
+        let witnesses = dictionary.take_witnesses();
+        proceed().then_some(Self { unknowns, parts: Some(parts), witnesses })
     }
 
     /// Whether it contains no point.
@@ -92,6 +94,12 @@ impl Cell {
         let mut support: Vec<usize> = self.parts().iter().flat_map(|part| part.unknowns.clone()).collect();
         support.sort_unstable();
         support
+    }
+
+    /// A point inside it, where every unknown of its support is positive; `None` if it is empty. It is the mean of at
+    /// most as many points as there are unknowns.
+    pub fn inside(&self) -> Option<Vec<RBig>> {
+        (!self.is_empty()).then(|| Witness::mean(&self.witnesses, self.unknowns))
     }
 
     /// Its parts; all other unknowns are zero. Those that are the same everywhere are parts of dimension 0.
