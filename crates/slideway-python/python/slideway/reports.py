@@ -952,7 +952,8 @@ class Continuum(Record):
     pattern: str
     """Its pattern."""
     vertices: tuple[NDArray[np.float64], ...]
-    """Normal forces of the contacts at each vertex (N)."""
+    """Normal forces of the contacts at each vertex (N); none if there are more than 4096 vertices and
+    directions."""
     directions: tuple[NDArray[np.float64], ...]
     """Directions in which the normal forces may grow without bound."""
     tipping: tuple[str, ...]
@@ -974,6 +975,11 @@ class ContinuumPart(Record):
     """Total number of vertices."""
     direction_count: int
     """Total number of directions."""
+    dimension: int | None = None
+    """If there are more than 4096 vertices and directions, counting those that have to be held on the way to
+    them, none are listed or counted; this is the dimension of the part then, ..."""
+    inside: Mapping[str, Any] | None = None
+    """... and this is a point inside it: what is zero here is zero in the whole part."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
