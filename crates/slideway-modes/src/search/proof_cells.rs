@@ -171,7 +171,7 @@ pub(super) fn corners(pattern: &[ContactState], decision: &Decision) -> Option<V
             Some(vec![(0..pattern.len()).map(positive).collect()])
         }
         Decision::Singular { set } => {
-            if *set == ExactSet::NotComputed {
+            if matches!(set, ExactSet::NotComputed | ExactSet::Product(_)) {
                 return None;
             }
             let at = |point: &Vec<dashu_ratio::RBig>, is_point: bool| {
