@@ -5,8 +5,8 @@ use crate::search_support::{self, Random, run, switches};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::certificate::proves_empty;
 use slideway_modes::{
-    Arguments, Completeness, ContactState, ExclusionArgument, Method, ModeProblem, ModeProblemError,
-    SearchOptions,
+    Arguments, Certificate, Completeness, ContactState, ExclusionArgument, Method, ModeProblem,
+    ModeProblemError, SearchOptions,
 };
 
 type Outcome = Result<(), ModeProblemError>;
@@ -198,4 +198,24 @@ fn independent_groups_multiply_and_are_listed_on_demand() -> Outcome {
 fn the_strategy_is_told_in_words() {
     let result = run(&blocks(3, 0.12, true), &SearchOptions::default());
     assert!(result.strategy().contains("groups of up to 10 contacts"), "{}", result.strategy());
+}
+
+/// Contact 1 rests in its gap with the share 1/2, the others are unloaded: on the positive sides, `C` is regular; on the
+/// negative ones, whose columns are equal, it is singular and admits `y_2 + y_3 = 0` only. It is one state, with bounds.
+#[test]
+fn a_state_of_a_regular_and_of_a_singular_pattern_is_listed_as_that_of_the_regular_one() {
+    let positive = dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 1.0];
+    let negative = dmatrix![-1.0, 0.0, 0.0; 0.0, -1.0, -1.0; 0.0, -1.0, -1.0];
+    let jump = dmatrix![1.0, 0.0, 0.0; 1.0, 0.0, 0.0; 0.0, 0.0, 0.0];
+    let problem = ModeProblem::new(positive, negative, -&jump, jump, DVector::zeros(3)).expect("finite");
+    for every_pattern in [true, false] {
+        let arguments = Arguments { every_pattern, ..Arguments::default() };
+        let options = SearchOptions { arguments, ..SearchOptions::default() };
+        let result = run(&problem, &options);
+        assert_eq!(result.completeness, Completeness::Proven);
+        let lists = result.lists(10, 10);
+        assert_eq!((lists.solutions.len(), lists.gaps.len(), lists.singular.len()), (0, 1, 0), "{lists:?}");
+        assert_eq!((lists.gaps[0].shares[0].lambda, lists.gaps[0].y.amax()), (0.5, 0.0));
+        assert!(matches!(lists.gaps[0].certificate, Certificate::Boundary { .. }));
+    }
 }

@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use crate::findings::candidate::Candidate;
+use crate::findings::reported::gaps_in;
 use crate::problem::{ContactState, Side};
 use crate::solutions::{Certificate, GapShare, GapState, ModeSolution, ModeState, Support, UndecidedPattern};
 
@@ -34,7 +35,7 @@ impl Found {
 
     /// The number of contacts in their gaps.
     pub(crate) fn gaps(&self) -> usize {
-        self.pattern().iter().filter(|state| **state == ContactState::Gap).count()
+        gaps_in(self.pattern())
     }
 
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {

@@ -8,11 +8,12 @@
 //! add. Which is the case shows only in the search.
 //!
 //! So both take turns. Once a group is barren, the groups are given up for a tree in which it has joined the groups
-//! that act on it, and whatever else these act on; that is given up after as many nodes, for the groups again with
-//! four times as many, and so on, until one of them finishes. Each begins anew, so that nothing but numbers of
-//! nodes decides, and the answer is the same on every machine. Beginning anew with budgets `1, 4, 16, ...` costs at
-//! most 4/3 of the last one: if the groups need `n` nodes, at most `11/3 n` are visited; if the joined groups do,
-//! at most `23/3 n`, and the attempts with fewer joined groups.
+//! that act on it, and whatever else these act on. The tree may visit four times as many nodes as the groups have; if
+//! that is not enough, the groups may visit as many, then the tree four times as many, and so on, until one of them
+//! finishes: barren groups are a sign that the tree is the better one. Each begins anew, so that nothing but numbers
+//! of nodes decides, and the answer is the same on every machine. Beginning anew with budgets `1, 4, 16, ...` costs at
+//! most 4/3 of the last one: if the joined groups need `n` nodes, at most `11/3 n` are visited, and the attempts with
+//! fewer joined groups; if the groups do, at most `23/3 n`.
 
 use super::composition::{Composer, Piece};
 use super::groups::Groups;
@@ -125,12 +126,12 @@ impl Alternation<'_, '_, '_> {
             return self.attempt(groups, u64::MAX, false);
         }
         loop {
+            budget = budget.saturating_mul(BUDGET_GROWTH);
             let together = self.attempt_joined(&mut joined, budget);
             if together.given_up.is_none() {
                 return together;
             }
             self.keep(together);
-            budget = budget.saturating_mul(BUDGET_GROWTH);
             let apart = self.attempt(groups, budget, false);
             if apart.given_up.is_none() {
                 return apart;

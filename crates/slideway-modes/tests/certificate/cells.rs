@@ -255,10 +255,12 @@ proptest! {
         let grows = |at: &usize| expected.iter().flatten().any(|point| !point[*at].is_zero());
         prop_assert_eq!(cell.support(), (0..rows[0].len() - 1).filter(grows).collect::<Vec<_>>());
         let inside = cell.inside().expect("not empty");
-        prop_assert!(rows.iter().all(|row| {
+        let solves = |row: &Vec<i64>| {
             let (right, row) = row.split_last().expect("a right-hand side");
-            row.iter().zip(&inside).fold(RBig::ZERO, |sum, (&at, x)| sum + x * RBig::from(at)) == RBig::from(*right)
-        }));
+            let sum = row.iter().zip(&inside).fold(RBig::ZERO, |sum, (&at, x)| sum + x * RBig::from(at));
+            sum == RBig::from(*right)
+        };
+        prop_assert!(rows.iter().all(solves));
         let positive = |at: &usize| inside[*at] > RBig::ZERO;
         prop_assert_eq!(cell.support(), (0..inside.len()).filter(positive).collect::<Vec<_>>());
         prop_assert!(inside.iter().all(|value| *value >= RBig::ZERO));
