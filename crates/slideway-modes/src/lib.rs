@@ -70,7 +70,7 @@
 //! From the lowest floor up; a module imports only those before it.
 //!
 //! - `combinations.rs` (choices of indices), `error_free.rs` (exact rounding errors), `dense.rs` (factorizations and products that can be
-//!   interrupted), `interval/`, `interval_matrix.rs`: numbers.
+//!   interrupted), `simplex.rs` (linear programs), `interval/`, `interval_matrix.rs`: numbers.
 //! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances
 //!   are pure numbers.
 //! - `certificate/`: proofs that decide one pattern, and proofs that sets of patterns are empty.
@@ -84,11 +84,13 @@
 //!   maps use and tests compare with. `uniqueness/` decides whether every load has exactly one solution.
 //! - Very many points: `batch/` (one structure with varying friction), `screen.rs` (small problems one after
 //!   another).
+//! - Hinges with friction: `blocks/`, problems with unknowns of two components.
 //! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without
 //!   scanning.
 //! - `raw_problem/`: problems in their original form.
 
 pub mod batch;
+pub mod blocks;
 pub mod certificate;
 mod combinations;
 mod dense;
@@ -108,6 +110,7 @@ mod random_numbers;
 pub mod raw_problem;
 pub mod screen;
 mod search;
+mod simplex;
 mod solutions;
 mod status;
 mod uniqueness;

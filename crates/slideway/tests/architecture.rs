@@ -36,7 +36,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
 const FLOORS_OF_MODES: &[&[&str]] = &[
     &["combinations", "error_free", "names", "printable", "progress", "random_numbers", "status"],
     &["dense"],
-    &["interval"],
+    &["interval", "simplex"],
     &["interval_matrix"],
     &["problem"],
     &["certificate"],
@@ -45,6 +45,7 @@ const FLOORS_OF_MODES: &[&[&str]] = &[
     &["enumeration"],
     &["batch", "existence", "exhaustive", "screen", "uniqueness"],
     &["search"],
+    &["blocks"],
     &["raw_problem"],
 ];
 

@@ -39,6 +39,12 @@ pub enum ModeProblemError {
         /// The value found.
         value: f64,
     },
+    /// The column of a hinge differs between the sides.
+    #[error("columns of both sides: column {column} (counted from 0) is that of a hinge and must not differ")]
+    HingeColumn {
+        /// The column, from 0.
+        column: usize,
+    },
 }
 
 /// Influence coefficients and friction parameters of `r` contacts: what

@@ -82,7 +82,6 @@ mod separation;
 mod share_entries;
 mod short_vector;
 mod sieve;
-mod simplex;
 mod states;
 mod subtrees;
 #[cfg(test)]

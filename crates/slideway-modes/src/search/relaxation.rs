@@ -13,9 +13,9 @@ use nalgebra::DVector;
 
 use super::UNDERFLOW;
 use super::faces::Positive;
-use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
+use crate::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use crate::solutions::ContactSet;
 
 /// A Farkas vector must exclude by this fraction of the size of its terms, which is the tolerance for
@@ -291,7 +291,7 @@ impl Relaxation {
                 }
                 if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
                     let row = basis?.row_of(&self.program, variable)?;
-                    super::simplex::add_multiple(&mut shift, -2.0 * high, &row);
+                    crate::simplex::add_multiple(&mut shift, -2.0 * high, &row);
                     shifted = true;
                 } else if high > 0.0 {
                     most += high * bounds.upper[variable];
@@ -304,14 +304,14 @@ impl Relaxation {
             if !shifted {
                 return self.excludes(&farkas, &sizes, most, size).then_some(farkas);
             }
-            super::simplex::add_multiple(&mut farkas, 1.0, &shift);
+            crate::simplex::add_multiple(&mut farkas, 1.0, &shift);
         }
         None
     }
 
     /// `v . b` exceeds what the left side can reach.
     fn excludes(&self, farkas: &[f64], sizes: &[f64], most: f64, size: f64) -> bool {
-        let load = super::simplex::dot(farkas, self.program.right_hand_side());
+        let load = crate::simplex::dot(farkas, self.program.right_hand_side());
         let terms = size_of_terms(&self.load_size, sizes);
         let error = size_of_terms(&self.load_error, sizes);
         let slack = 2.0 * error + (self.rounding() + MARGIN) * (terms + size + most.abs());

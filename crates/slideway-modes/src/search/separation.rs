@@ -10,8 +10,8 @@
 
 use dashu_int::IBig;
 
-use super::simplex::{Bounds, LinearOutcome, LinearProgram, dot};
 use crate::certificate::{LiftedSystem, make_primitive};
+use crate::simplex::{Bounds, LinearOutcome, LinearProgram, dot};
 
 /// A margin below this is taken for zero.
 const NO_MARGIN: f64 = 1e-9;

@@ -1,8 +1,8 @@
 //! Farkas vectors with short integer entries, for proof files.
 
 use super::relaxation::{Relaxation, sum_of_sizes};
-use super::simplex::{Basis, add_multiple, dot};
 use super::states::StateSet;
+use crate::simplex::{Basis, add_multiple, dot};
 use crate::solutions::ContactSet;
 
 /// Rounding to multiples of the unit changes products by at most half the sum of sizes of a column's entries;

@@ -12,10 +12,10 @@ use super::proof_log::ProofLog;
 use super::propagation::SolvedForm;
 use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
-use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
 use super::subtrees;
 use crate::problem::{ContactState, ScaledProblem};
+use crate::simplex::Basis;
 use crate::solutions::ContactSet;
 
 /// Relaxed solutions that violate complementarity by at most this fraction of the largest unknown (or of 1)

@@ -32,7 +32,7 @@ const UPDATES: usize = 120;
 
 /// The data that all nodes of a search share.
 #[derive(Debug)]
-pub(super) struct LinearProgram {
+pub(crate) struct LinearProgram {
     rows: usize,
     columns: usize,
     /// `A`, row after row.
@@ -45,9 +45,9 @@ pub(super) struct LinearProgram {
 
 /// Lower and upper bounds of all variables.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Bounds {
-    pub(super) lower: Vec<f64>,
-    pub(super) upper: Vec<f64>,
+pub(crate) struct Bounds {
+    pub(crate) lower: Vec<f64>,
+    pub(crate) upper: Vec<f64>,
 }
 
 /// A nonbasic variable.
@@ -59,7 +59,7 @@ struct Nonbasic {
 
 /// A basis with its tableau: everything that a child inherits from its parent.
 #[derive(Debug, Clone)]
-pub(super) struct Basis {
+pub(crate) struct Basis {
     /// The variable of each row; `columns + i` is the artificial one of row `i`.
     basic: Vec<usize>,
     /// The variable of each column of the tableau.
@@ -77,7 +77,7 @@ pub(super) struct Basis {
 
 /// The outcome of a program.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum LinearOutcome {
+pub(crate) enum LinearOutcome {
     /// The values of the variables.
     Feasible(Vec<f64>),
     /// A vector `v` with `v . A x < v . b` for every `x` within the bounds, up to rounding.
@@ -94,27 +94,27 @@ enum Pivoting {
 
 impl LinearProgram {
     /// A program from the columns of `A`, `b` and the costs.
-    pub(super) fn new(columns: &[Vec<f64>], right_hand_side: Vec<f64>, cost: Vec<f64>) -> Self {
+    pub(crate) fn new(columns: &[Vec<f64>], right_hand_side: Vec<f64>, cost: Vec<f64>) -> Self {
         let rows = right_hand_side.len();
         let by_column: Vec<f64> = columns.iter().flatten().copied().collect();
         let by_row = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
         Self { rows, columns: columns.len(), by_row, by_column, right_hand_side, cost }
     }
 
-    pub(super) fn column(&self, column: usize) -> &[f64] {
+    pub(crate) fn column(&self, column: usize) -> &[f64] {
         &self.by_column[column * self.rows..][..self.rows]
     }
 
-    pub(super) fn columns(&self) -> usize {
+    pub(crate) fn columns(&self) -> usize {
         self.columns
     }
 
-    pub(super) fn right_hand_side(&self) -> &[f64] {
+    pub(crate) fn right_hand_side(&self) -> &[f64] {
         &self.right_hand_side
     }
 
     /// `v^T A`.
-    pub(super) fn row_combination(&self, multipliers: &[f64], combined: &mut Vec<f64>) {
+    pub(crate) fn row_combination(&self, multipliers: &[f64], combined: &mut Vec<f64>) {
         combined.clear();
         combined.resize(self.columns, 0.0);
         for (&multiplier, row) in multipliers.iter().zip(self.by_row.chunks_exact(self.columns.max(1))) {
@@ -125,7 +125,7 @@ impl LinearProgram {
     }
 
     /// The basis of artificial variables.
-    pub(super) fn artificial_basis(&self) -> Basis {
+    pub(crate) fn artificial_basis(&self) -> Basis {
         Basis {
             basic: (self.columns..self.columns + self.rows).collect(),
             nonbasic: (0..self.columns).map(|variable| Nonbasic { variable, at_upper: false }).collect(),
@@ -139,7 +139,7 @@ impl LinearProgram {
 
     /// Solves the program from a basis left by a program with wider bounds; `iterations` counts the pivots.
     /// The result is undecided once `proceed` is `false`.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &self,
         basis: &mut Basis,
         bounds: &Bounds,
@@ -198,7 +198,7 @@ impl LinearProgram {
 
 impl Basis {
     /// A copy without the variables that `bounds` fix to zero.
-    pub(super) fn restricted(&self, bounds: &Bounds) -> Self {
+    pub(crate) fn restricted(&self, bounds: &Bounds) -> Self {
         let is_kept = |nonbasic: &Nonbasic| {
             let at = nonbasic.variable;
             at >= bounds.upper.len() || bounds.upper[at] != 0.0 || bounds.lower[at] != 0.0
@@ -223,21 +223,21 @@ impl Basis {
     }
 
     /// The row of `B^-1` that belongs to a basic variable.
-    pub(super) fn row_of(&self, program: &LinearProgram, variable: usize) -> Option<Vec<f64>> {
+    pub(crate) fn row_of(&self, program: &LinearProgram, variable: usize) -> Option<Vec<f64>> {
         let row = self.basic.iter().position(|&basic| basic == variable)?;
         Some(self.inverse_row(program, row))
     }
 
     /// A lower bound on how much the least cost grows if a variable is fixed to zero: infinite if that is
     /// impossible, zero for a variable that is not in the basis.
-    pub(super) fn cost_of_zero(&self, variable: usize) -> f64 {
+    pub(crate) fn cost_of_zero(&self, variable: usize) -> f64 {
         let row = self.basic.iter().position(|&basic| basic == variable);
         row.map_or(0.0, |row| self.value[row] * self.longest_step(row, 1.0, 0.0))
     }
 
     /// The sum of the rows of `B^-1` that belong to variables of the program, and its products with the columns of
     /// the nonbasic variables; `None` for all others that the bounds do not fix to zero, for which it is 1.
-    pub(super) fn sum_of_inverse_rows(&self, program: &LinearProgram) -> (Vec<f64>, Vec<Option<f64>>) {
+    pub(crate) fn sum_of_inverse_rows(&self, program: &LinearProgram) -> (Vec<f64>, Vec<Option<f64>>) {
         let mut total = vec![0.0; self.nonbasic.len()];
         for (_, row) in self.basic.iter().zip(self.rows()).filter(|(basic, _)| **basic < program.columns) {
             add_multiple(&mut total, 1.0, row);
@@ -254,7 +254,7 @@ impl Basis {
     }
 
     /// The multipliers of the equations: the dual solution, if the program is solved.
-    pub(super) fn multipliers(&self, program: &LinearProgram) -> Vec<f64> {
+    pub(crate) fn multipliers(&self, program: &LinearProgram) -> Vec<f64> {
         let mut multipliers = vec![0.0; program.rows];
         for (nonbasic, cost) in self.nonbasic.iter().zip(&self.reduced_cost) {
             if let Some(artificial) = nonbasic.variable.checked_sub(program.columns) {
@@ -270,7 +270,7 @@ impl Basis {
     /// A variable away from its bounds at the vertex is so nearby, too. The others can leave their bounds
     /// along directions that keep the basic variables that are at a bound within it. The largest number of
     /// variables that can do so together are those of `max sum min(1, d)` over these directions `d`.
-    pub(super) fn inside(
+    pub(crate) fn inside(
         &self,
         program: &LinearProgram,
         bounds: &Bounds,
@@ -538,14 +538,14 @@ fn variable_bounds(program: &LinearProgram, bounds: &Bounds, variable: usize) ->
 }
 
 /// `target += factor * source`.
-pub(super) fn add_multiple(target: &mut [f64], factor: f64, source: &[f64]) {
+pub(crate) fn add_multiple(target: &mut [f64], factor: f64, source: &[f64]) {
     for (target, &source) in target.iter_mut().zip(source) {
         *target += factor * source;
     }
 }
 
 /// The scalar product, in eight partial sums that are added at the end.
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (ones, others) = (one.chunks_exact(8), other.chunks_exact(8));
     let rest: f64 = ones.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum();

@@ -1,0 +1,191 @@
+//! The block mode problem: exact, or within bounds.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::{BySide, ContactState, ModeProblemError, ProblemPart, Side};
+
+/// The mode problem of `s` contacts and `h` hinges with friction,
+///
+/// ```text
+/// x = b + d^sigma + H^sigma w,   w_j = |x_j|
+/// ```
+///
+/// where the block `x_k` of a contact is its normal force `N_k`, a number, and the block `x_j` of a hinge is
+/// its reaction `R_j`, a vector of two components, with its length `w_j` (theory of hinges, section 1).
+/// Contacts come first: rows `0..s` belong to them, and rows `s + 2 j` and `s + 2 j + 1` to hinge `j`; column
+/// `k < s` of `H` belongs to contact `k` and has a version for each side, column `s + j` to hinge `j`. The
+/// jump vectors `d_k^sigma` have one version for each side, too; a contact whose versions differ may rest in
+/// its gap, where `N_k = 0` and `d_k = lambda d_k^+ + (1 - lambda) d_k^-`, `0 <= lambda <= 1`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockProblem {
+    response: BySide<IntervalMatrix>,
+    jumps: BySide<IntervalMatrix>,
+    load: IntervalMatrix,
+    has_jump: Vec<bool>,
+}
+
+impl BlockProblem {
+    /// The problem with the given response `H` ((s + 2 h) x (s + h)), jump vectors ((s + 2 h) x s) and load `b`
+    /// (s + 2 h). The numbers of contacts and hinges follow from the shape of `H`.
+    ///
+    /// # Errors
+    /// [`ModeProblemError`] for shapes that do not match, entries that are not finite, and columns of hinges
+    /// that differ between the sides.
+    ///
+    /// ```
+    /// use nalgebra::{DMatrix, dmatrix, dvector};
+    /// use slideway_modes::BySide;
+    /// use slideway_modes::blocks::BlockProblem;
+    /// // One hinge: R = b + e |R|.
+    /// let none = BySide::same(DMatrix::zeros(2, 0));
+    /// let problem = BlockProblem::new(BySide::same(dmatrix![0.1; 0.2]), none, dvector![3.0, 4.0])?;
+    /// assert_eq!((problem.contacts(), problem.hinges()), (0, 1));
+    /// # Ok::<(), slideway_modes::ModeProblemError>(())
+    /// ```
+    pub fn new(
+        response: BySide<DMatrix<f64>>,
+        jumps: BySide<DMatrix<f64>>,
+        load: DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let exact = |part: BySide<DMatrix<f64>>| BySide {
+            positive: IntervalMatrix::exact(part.positive),
+            negative: IntervalMatrix::exact(part.negative),
+        };
+        let load = DMatrix::from_column_slice(load.len(), 1, load.as_slice());
+        Self::within_bounds(exact(response), exact(jumps), IntervalMatrix::exact(load))
+    }
+
+    /// All problems whose numbers lie within bounds, independently of each other, except that the columns of
+    /// hinges are the same on both sides. What is proven holds for each of them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn within_bounds(
+        response: BySide<IntervalMatrix>,
+        jumps: BySide<IntervalMatrix>,
+        load: IntervalMatrix,
+    ) -> Result<Self, ModeProblemError> {
+        let rows = load.shape().0;
+        let columns = response.positive.shape().1.clamp(rows.div_ceil(2), rows);
+        let contacts = 2 * columns - rows;
+        check(ProblemPart::RightHandSide, &load, (rows, 1))?;
+        for side in Side::BOTH {
+            check(ProblemPart::Columns(side), response.get(side), (rows, columns))?;
+            check(ProblemPart::Jumps(side), jumps.get(side), (rows, contacts))?;
+        }
+        let differs = |part: &BySide<IntervalMatrix>, column: usize| {
+            let parts = [&part.positive, &part.negative];
+            let [one, other] = parts.map(|part| (part.centre().column(column), part.radius().column(column)));
+            one != other
+        };
+        if let Some(column) = (contacts..columns).find(|&column| differs(&response, column)) {
+            return Err(ModeProblemError::HingeColumn { column });
+        }
+        let uncertain = |side: Side, contact| jumps.get(side).radius().column(contact).amax() > 0.0;
+        let has_jump = (0..contacts).map(|contact| {
+            differs(&jumps, contact) || Side::BOTH.into_iter().any(|side| uncertain(side, contact))
+        });
+        Ok(Self { has_jump: has_jump.collect(), response, jumps, load })
+    }
+
+    /// The number `s` of contacts.
+    pub fn contacts(&self) -> usize {
+        self.has_jump.len()
+    }
+
+    /// The number `h` of hinges.
+    pub fn hinges(&self) -> usize {
+        self.blocks() - self.contacts()
+    }
+
+    /// Whether the right-hand side may jump where this contact changes its side.
+    ///
+    /// # Panics
+    /// If there is no such contact.
+    pub fn has_jump(&self, contact: usize) -> bool {
+        self.has_jump[contact]
+    }
+
+    /// The response `H` with the columns of contacts on one side.
+    pub fn response(&self, side: Side) -> &IntervalMatrix {
+        self.response.get(side)
+    }
+
+    /// The jump vectors of one side.
+    pub fn jumps(&self, side: Side) -> &IntervalMatrix {
+        self.jumps.get(side)
+    }
+
+    /// The load `b`, one column.
+    pub fn load(&self) -> &IntervalMatrix {
+        &self.load
+    }
+
+    /// The number of blocks, `s + h`.
+    pub(super) fn blocks(&self) -> usize {
+        self.response.positive.shape().1
+    }
+
+    /// The number of equations, `s + 2 h`.
+    pub(super) fn rows(&self) -> usize {
+        self.load.shape().0
+    }
+
+    /// The rows of a block: one or two.
+    pub(super) fn rows_of(&self, block: usize) -> std::ops::Range<usize> {
+        match block.checked_sub(self.contacts()) {
+            None => block..block + 1,
+            Some(hinge) => self.contacts() + 2 * hinge..self.contacts() + 2 * hinge + 2,
+        }
+    }
+
+    /// Both rows of a hinge.
+    pub(super) fn rows_of_hinge(&self, hinge: usize) -> [usize; 2] {
+        let first = self.contacts() + 2 * hinge;
+        [first, first + 1]
+    }
+
+    /// Whether the load is zero for every pattern of sides.
+    pub(super) fn has_no_load(&self) -> bool {
+        let zero =
+            |part: &IntervalMatrix| part.centre().iter().chain(part.radius()).all(|&value| value == 0.0);
+        zero(&self.load) && Side::BOTH.into_iter().all(|side| zero(self.jumps.get(side)))
+    }
+
+    /// The largest bound on an error relative to the largest number of its part; zero for an exact problem.
+    pub(super) fn relative_radius(&self) -> f64 {
+        let largest =
+            |matrix: &DMatrix<f64>| matrix.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let relative = |part: &IntervalMatrix| match largest(part.radius()) {
+            0.0 => 0.0,
+            radius => radius / largest(part.centre()).max(f64::MIN_POSITIVE),
+        };
+        let of_response = Side::BOTH.map(|side| relative(self.response.get(side)));
+        of_response.into_iter().fold(relative(&self.load), f64::max)
+    }
+
+    /// The jump vector in the load of a contact in a known state; of one in its gap, that of the negative side.
+    pub(super) fn constant_jump(state: ContactState) -> Side {
+        state.side().unwrap_or(Side::Negative)
+    }
+}
+
+fn check(
+    part: ProblemPart,
+    matrix: &IntervalMatrix,
+    expected: (usize, usize),
+) -> Result<(), ModeProblemError> {
+    if matrix.shape() != expected {
+        return Err(ModeProblemError::Shape { part, expected, found: matrix.shape() });
+    }
+    for column in 0..expected.1 {
+        for row in 0..expected.0 {
+            let value = matrix.centre()[(row, column)];
+            if !value.is_finite() {
+                return Err(ModeProblemError::NotFinite { part, row, column, value });
+            }
+        }
+    }
+    Ok(())
+}
