@@ -1,7 +1,109 @@
-//! Mode problems whose unknowns are blocks of one or two components: contacts and hinges with friction.
+//! Mode problems whose unknowns are blocks of one or two components: contacts, and hinges with friction.
+//!
+//! A hinge with friction carries a couple that grows with the length of its reaction `R_j`, a vector. The mode
+//! problem becomes `x = b + H^sigma w`, `w_j = |x_j|` ([`BlockProblem`]), which is no longer piecewise linear.
+//! [`search`] finds all its solutions and proves that there are no others.
+//!
+//! # Method
+//! (theory of hinges, sections 3 and 8)
+//! 1. If the block norms of `H`, or a scaled singular value, are below 1, there is exactly one solution for
+//!    every load.
+//! 2. Otherwise, branch and bound over the states of the contacts and the directions of the reactions. A piece,
+//!    with one sector of directions for each hinge, is excluded by a linear relaxation; its multipliers are
+//!    verified for the sectors themselves. If a piece has at most one solution, Newton's method finds the only
+//!    candidate, and an interval test proves that it exists. Other pieces are divided; open contacts are
+//!    decided once sectors are below a quarter of a radian.
+//!
+//! # What is proven
+//! Everything holds for all problems within the bounds of the data. A solution has an enclosure, which is
+//! proven to contain exactly one. A small piece that is not decided is an [`OpenRegion`]: a fold, where two
+//! solutions merge, a locking direction, in which solutions run to infinity, a curve of solutions, or a
+//! reaction that vanishes.
+//!
+//! # Files
+//! `problem.rs`, `result.rs`: what is given and returned. `sector.rs`: directions; `equations.rs`: a piece and
+//! its equations. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
+//! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load. `tree.rs`: the
+//! search; `open.rs`: what it leaves open; `solutions.rs`: what it found.
 
+mod at_most_one;
+mod equations;
+mod open;
 mod problem;
+mod relaxation;
 mod result;
+mod sector;
+mod solutions;
+mod tree;
+mod uniqueness;
+mod zero;
 
 pub use problem::BlockProblem;
 pub use result::{BlockResult, BlockSolution, OpenLabel, OpenRegion, UniqueForEveryLoad};
+
+use crate::progress::Callback;
+use crate::search::SearchOptions;
+use crate::status::Proof;
+use equations::Piece;
+use tree::{Found, Tree};
+
+/// All solutions of a block problem.
+///
+/// Of the options, the limits of nodes and of solutions apply. `progress` is called at every node and ends the
+/// search by breaking; the answer is then labelled as partial.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+/// use slideway_modes::{BySide, Proof, SearchOptions};
+/// use slideway_modes::blocks::{BlockProblem, search};
+/// // One hinge, R = b + e |R| with |e| = 2: w = |b|^2 / (-b.e +- sqrt(disc)) = 1 and 1/3.
+/// let none = BySide::same(DMatrix::zeros(2, 0));
+/// let problem = BlockProblem::new(BySide::same(dmatrix![2.0; 0.0]), none, dvector![-1.0, 0.0])?;
+/// let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
+/// assert_eq!((result.solutions.len(), result.complete), (2, Proof::Proven));
+/// # Ok::<(), slideway_modes::ModeProblemError>(())
+/// ```
+pub fn search(problem: &BlockProblem, options: &SearchOptions, progress: &mut Callback<'_>) -> BlockResult {
+    search_turned(problem, options, progress, 0.0)
+}
+
+/// [`search`] with another first division of directions: the quadrants, turned by an angle. The answer must
+/// not depend on it.
+#[doc(hidden)]
+pub fn search_turned(
+    problem: &BlockProblem,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+    angle: f64,
+) -> BlockResult {
+    let unique = uniqueness::unique_for_every_load(problem);
+    if unique.is_some()
+        && let Some(zero) = zero::proven_everywhere(problem)
+    {
+        let zeros = vec![zero];
+        let found = Found { zeros, undecided: Vec::new(), stopped: None, nodes: 1 };
+        return answer(problem, found, unique);
+    }
+    let mut found = Tree::new(problem, options, progress, angle).search(Piece::all(problem));
+    if problem.has_no_load() {
+        found.zeros.insert(0, zero::Zero::at_rest(problem));
+    }
+    answer(problem, found, unique)
+}
+
+fn answer(problem: &BlockProblem, found: Found, unique: Option<UniqueForEveryLoad>) -> BlockResult {
+    let Found { zeros, undecided, stopped, nodes } = found;
+    let mut solutions: Vec<BlockSolution> =
+        zeros.iter().map(|zero| solutions::solution(problem, zero)).collect();
+    solutions.sort_by(solutions::order);
+    let complete = if undecided.is_empty() && stopped.is_none() { Proof::Proven } else { Proof::NotProven };
+    BlockResult {
+        solutions,
+        open: open::regions(undecided),
+        complete,
+        stopped,
+        nodes,
+        unique_for_every_load: unique,
+    }
+}

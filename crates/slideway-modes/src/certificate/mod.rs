@@ -45,6 +45,7 @@ pub use exclusion::proves_empty;
 pub(super) use exclusion::proves_empty_while;
 pub(super) use lifted::{LiftedSystem, make_primitive};
 pub(super) use monotone::Monotone;
+pub(super) use norm::has_norm_below_one;
 pub use norm::proves_at_most_one;
 pub use polyhedron::ExactSet;
 pub use propagation::{Propagation, propagate};

@@ -52,6 +52,12 @@ pub fn proves_at_most_one<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Op
     parts.is_some_and(|(one, other)| is_larger(&one, &other))
 }
 
+/// Whether the largest singular value of all matrices within bounds is below 1: `I - M M^T` is positive definite.
+pub(crate) fn has_norm_below_one(matrix: &IntervalMatrix) -> bool {
+    let rows = matrix.shape().0;
+    is_larger(&IntervalMatrix::exact(DMatrix::identity(rows, rows)), matrix)
+}
+
 /// Whether `A A^T - B B^T` is positive definite for all matrices within bounds.
 fn is_larger(one: &IntervalMatrix, other: &IntervalMatrix) -> bool {
     let (square, square_spread) = gram(one);

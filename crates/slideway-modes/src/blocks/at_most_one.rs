@@ -1,0 +1,95 @@
+//! Proofs that a piece of the unknowns holds at most one solution (theory of hinges, section 8, (iii)).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::equations::{Piece, Slopes, matrix};
+use super::problem::BlockProblem;
+use crate::interval::Interval;
+use crate::interval_matrix::{IntervalMatrix, product, rounding, upper_product};
+use crate::problem::Side;
+
+/// Steps of the power iteration for the weights.
+const STEPS: usize = 12;
+
+/// Whether the equations of a piece have at most one solution, for any load; proven.
+///
+/// For two of them `A (x - x') = 0`, where `A = A_0 - sum_j G_j delta_j^T` and `delta_j` is in a disc of
+/// radius `r_j`: that of slopes of `|R_j|` about its centre, or `-1..1` for an open contact. With an
+/// approximate inverse `C` of `A_0`, and norms of blocks,
+///
+/// ```text
+/// |x - x'| <= B |x - x'|,   B_ij = |(I - C A_0)_ij| + |(C G_j)_i| r_j,
+/// ```
+///
+/// so that `x = x'` if `B u < u` for some `u > 0`.
+pub(super) fn has_at_most_one(problem: &BlockProblem, piece: &Piece) -> bool {
+    if piece.may_jump(problem) {
+        return false;
+    }
+    let discs: Vec<_> = piece.sectors.iter().map(|sector| sector.disc()).collect();
+    let hinges = discs.iter().map(|(centre, _)| centre.map(Interval::point)).collect();
+    let slopes = Slopes { contacts: vec![Interval::ZERO; problem.contacts()], hinges };
+    let centre = matrix(problem, &piece.states, &slopes);
+    let Some(inverse) = centre.map(Interval::middle).try_inverse() else { return false };
+    let Some(norms) = block_norms(problem, piece, &inverse, &centre, &discs) else { return false };
+    is_contraction(&norms)
+}
+
+/// `B`; `None` if numbers overflow.
+fn block_norms(
+    problem: &BlockProblem,
+    piece: &Piece,
+    inverse: &DMatrix<f64>,
+    centre: &DMatrix<Interval>,
+    discs: &[([f64; 2], f64)],
+) -> Option<DMatrix<f64>> {
+    let (rows, blocks) = (problem.rows(), problem.blocks());
+    // [A_0, G]
+    let all = DMatrix::from_fn(rows, rows + blocks, |row, column| {
+        if column < rows { centre[(row, column)] } else { deviation(problem, piece, row, column - rows) }
+    });
+    let product = product(inverse, &IntervalMatrix::from_intervals(&all)?, &mut || true)?;
+    let size = |row: usize, column: usize| {
+        let identity = if row == column { 1.0 } else { 0.0 };
+        (identity - product.centre()[(row, column)]).abs() + product.radius()[(row, column)]
+    };
+    let factor = 1.0 + 4.0 * rounding(4);
+    let norms = DMatrix::from_fn(blocks, blocks, |one, other| {
+        let defects =
+            problem.rows_of(one).flat_map(|row| problem.rows_of(other).map(move |column| (row, column)));
+        let defect = defects.map(|(row, column)| size(row, column).powi(2)).sum::<f64>().sqrt();
+        let column = rows + other;
+        let spread = problem.rows_of(one).map(|row| size(row, column).powi(2)).sum::<f64>().sqrt();
+        let radius = other.checked_sub(problem.contacts()).map_or(1.0, |hinge| discs[hinge].1);
+        (defect + spread * radius) * factor + f64::MIN_POSITIVE
+    });
+    norms.iter().all(|value| value.is_finite()).then_some(norms)
+}
+
+/// `G_j`: the column of a hinge, or half the sum of both columns of an open contact.
+fn deviation(problem: &BlockProblem, piece: &Piece, row: usize, block: usize) -> Interval {
+    let [positive, negative] = Side::BOTH.map(|side| problem.response(side).entry(row, block));
+    match piece.states.get(block) {
+        Some(Some(_)) => Interval::ZERO,
+        Some(None) => (positive + negative) * Interval::point(0.5),
+        None => positive,
+    }
+}
+
+/// Whether `B u < u` for some `u > 0`, so that the spectral radius of `B >= 0` is below 1; verified.
+pub(super) fn is_contraction(norms: &DMatrix<f64>) -> bool {
+    let mut weights = DVector::repeat(norms.nrows(), 1.0);
+    for _ in 0..STEPS {
+        let image = upper_product(norms, &weights);
+        if image.iter().zip(&weights).all(|(image, weight)| image < weight) {
+            return true;
+        }
+        let largest = image.amax();
+        if !largest.is_finite() || image.iter().zip(&weights).all(|(image, weight)| image >= weight) {
+            return false;
+        }
+        // Not the image alone, which would swing if the matrix is periodic.
+        weights = (weights + image / largest).map(|weight| 0.5 * weight);
+    }
+    false
+}

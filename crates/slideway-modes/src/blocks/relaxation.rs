@@ -1,0 +1,279 @@
+//! The linear relaxation of a piece, and proofs that a piece has no solution.
+//!
+//! Mixtures `(x_j, w_j)` of rays contain `(x_j, |x_j|)` for all `x_j` of a sector, so that a solution is a
+//! mixture of columns, as in the mode problem:
+//!
+//! ```text
+//! sum_g lambda_g (x_g - H_j w_g) = mu (b + d),   lambda >= 0,   mu = 1
+//! ```
+//!
+//! The program looks for the least sum of errors of these equations with `sum lambda + mu = 1` instead of
+//! `mu = 1`, which includes solutions at infinity. If it is positive, its multipliers `v` have a positive
+//! product with every column and a negative one with every load. Whether `v` proves anything is then decided
+//! for the sectors themselves, in interval arithmetic (theory of hinges, section 8, (i), (ii)).
+
+use super::equations::Piece;
+use super::problem::BlockProblem;
+use super::sector::length;
+use crate::interval::Interval;
+use crate::interval_matrix::{IntervalMatrix, inner_product};
+use crate::problem::{ContactState, Side};
+use crate::simplex::{Bounds, LinearOutcome, LinearProgram};
+
+/// A piece is not excluded if the least sum of errors is below this.
+const LEAST: f64 = 1e-15;
+
+/// A point of the relaxation.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RelaxedPoint {
+    /// `x`, row by row, divided by `mu`, unless that is nearly zero: then a direction.
+    pub(super) unknowns: Vec<f64>,
+    /// The share `mu` of the load: nearly zero if the point is at infinity.
+    pub(super) load: f64,
+    /// How far each contact is from being on one side, and each hinge from `w = |R|`.
+    pub(super) gaps: Vec<f64>,
+}
+
+/// What the relaxation says of a piece.
+pub(super) enum Relaxed {
+    /// It is proven to hold no solution; without load, none but zero.
+    Empty,
+    /// It may hold solutions.
+    Point(RelaxedPoint),
+    /// The program was not solved.
+    Unsolved,
+}
+
+/// What a column of the program stands for.
+enum Meaning {
+    /// A contact pressed on a side.
+    Pressed(usize, Side),
+    /// A ray of a hinge.
+    Ray(usize, [f64; 2], f64),
+    /// `mu`.
+    Load,
+    /// The share of a jump vector, or an error.
+    Other,
+}
+
+/// The columns of the program.
+struct Columns {
+    meanings: Vec<(Meaning, f64)>,
+    columns: Vec<Vec<f64>>,
+    cost: Vec<f64>,
+}
+
+impl Columns {
+    /// Adds a column, scaled by a factor.
+    fn add(&mut self, meaning: Meaning, factor: f64, column: Vec<f64>, cost: f64) {
+        self.columns.push(column.into_iter().map(|value| value * factor).collect());
+        self.meanings.push((meaning, factor));
+        self.cost.push(cost);
+    }
+}
+
+/// The relaxation of a piece; `pivots` counts those of the simplex method.
+pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> Relaxed {
+    let jumping: Vec<usize> =
+        (0..problem.contacts()).filter(|&contact| shares(problem, piece, contact)).collect();
+    let rows = problem.rows();
+    let all = rows + 1 + jumping.len();
+    let columns = columns(problem, piece, &jumping);
+    let mut right = vec![0.0; all];
+    right[rows] = 1.0;
+    let program = LinearProgram::new(&columns.columns, right, columns.cost);
+    let count = program.columns();
+    let bounds = Bounds { lower: vec![0.0; count], upper: vec![f64::INFINITY; count] };
+    let mut basis = program.artificial_basis();
+    let LinearOutcome::Feasible(values) = program.solve(&mut basis, &bounds, pivots, &mut || true) else {
+        return Relaxed::Unsolved;
+    };
+    let errors: f64 = values[count - 2 * rows..].iter().sum();
+    if errors > LEAST {
+        let multipliers = basis.multipliers(&program);
+        let vector: Vec<f64> = multipliers[..rows].iter().map(|value| -value).collect();
+        if excludes(problem, piece, &vector) {
+            return Relaxed::Empty;
+        }
+    }
+    Relaxed::Point(point(problem, &columns.meanings, &values))
+}
+
+/// Whether a contact contributes a mixture of both jump vectors to the load.
+fn shares(problem: &BlockProblem, piece: &Piece, contact: usize) -> bool {
+    problem.has_jump(contact) && piece.states[contact].is_none_or(|state| state == ContactState::Gap)
+}
+
+/// The sides on which a contact may be pressed.
+fn sides(state: Option<ContactState>) -> &'static [Side] {
+    match state {
+        Some(ContactState::Positive) => &[Side::Positive],
+        Some(ContactState::Negative) => &[Side::Negative],
+        Some(ContactState::Gap) => &[],
+        None => &Side::BOTH,
+    }
+}
+
+fn columns(problem: &BlockProblem, piece: &Piece, jumping: &[usize]) -> Columns {
+    let rows = problem.rows();
+    let all = rows + 1 + jumping.len();
+    let mut columns = Columns { meanings: Vec::new(), columns: Vec::new(), cost: Vec::new() };
+    let with_sum = |mut column: Vec<f64>| {
+        let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(f64::MIN_POSITIVE);
+        column.resize(all, 0.0);
+        column[rows] = size;
+        (1.0 / size, column)
+    };
+    for (contact, &state) in piece.states.iter().enumerate() {
+        for &side in sides(state) {
+            let mut column: Vec<f64> =
+                centre(problem.response(side), contact).iter().map(|value| -value).collect();
+            column[contact] += side.sign();
+            let (factor, column) = with_sum(column);
+            columns.add(Meaning::Pressed(contact, side), factor, column, 0.0);
+        }
+    }
+    for (hinge, sector) in piece.sectors.iter().enumerate() {
+        let response = centre(problem.response(Side::Positive), problem.contacts() + hinge);
+        for (direction, length) in sector.rays() {
+            let mut column: Vec<f64> = response.iter().map(|value| -value * length).collect();
+            for (row, component) in problem.rows_of_hinge(hinge).into_iter().zip(direction) {
+                column[row] += component;
+            }
+            let (factor, column) = with_sum(column);
+            columns.add(Meaning::Ray(hinge, direction, length), factor, column, 0.0);
+        }
+    }
+    add_loads(&mut columns, problem, piece, jumping);
+    for row in 0..rows {
+        for sign in [1.0, -1.0] {
+            let mut column = vec![0.0; all];
+            column[row] = sign;
+            columns.add(Meaning::Other, 1.0, column, 1.0);
+        }
+    }
+    columns
+}
+
+/// `-mu (b + d)`, where shares of both jump vectors of a contact add up to `mu`.
+fn add_loads(columns: &mut Columns, problem: &BlockProblem, piece: &Piece, jumping: &[usize]) {
+    if problem.has_no_load() {
+        return;
+    }
+    let rows = problem.rows();
+    let all = rows + 1 + jumping.len();
+    let mut load: Vec<f64> = centre(problem.load(), 0).iter().map(|value| -value).collect();
+    for (contact, &state) in piece.states.iter().enumerate().filter(|(contact, _)| !jumping.contains(contact))
+    {
+        let side = state.map_or(Side::Positive, BlockProblem::constant_jump);
+        for (load, jump) in load.iter_mut().zip(centre(problem.jumps(side), contact)) {
+            *load -= jump;
+        }
+    }
+    let jumps =
+        jumping.iter().flat_map(|&contact| Side::BOTH.map(|side| centre(problem.jumps(side), contact)));
+    let size =
+        load.iter().chain(jumps.flatten()).fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    load.resize(all, 0.0);
+    load[rows] = size;
+    for (at, &contact) in jumping.iter().enumerate() {
+        load[rows + 1 + at] = -size;
+        for side in Side::BOTH {
+            let mut column: Vec<f64> =
+                centre(problem.jumps(side), contact).iter().map(|value| -value).collect();
+            column.resize(all, 0.0);
+            column[rows + 1 + at] = size;
+            columns.add(Meaning::Other, 1.0 / size, column, 0.0);
+        }
+    }
+    columns.add(Meaning::Load, 1.0 / size, load, 0.0);
+}
+
+/// The point of the unknowns for the values of the columns.
+fn point(problem: &BlockProblem, meanings: &[(Meaning, f64)], values: &[f64]) -> RelaxedPoint {
+    let contacts = problem.contacts();
+    let mut unknowns = vec![0.0; problem.rows()];
+    let mut pressed = vec![[0.0; 2]; contacts];
+    let mut lengths = vec![0.0; problem.hinges()];
+    let mut load = 0.0;
+    for ((meaning, factor), value) in meanings.iter().zip(values) {
+        let amount = value * factor;
+        match *meaning {
+            Meaning::Pressed(contact, side) => {
+                unknowns[contact] += side.sign() * amount;
+                pressed[contact][usize::from(side == Side::Negative)] += amount;
+            }
+            Meaning::Ray(hinge, direction, length) => {
+                lengths[hinge] += length * amount;
+                for (row, component) in problem.rows_of_hinge(hinge).into_iter().zip(direction) {
+                    unknowns[row] += component * amount;
+                }
+            }
+            // The share of the sum, which is 1.
+            Meaning::Load => load = (*value).max(0.0),
+            Meaning::Other => {}
+        }
+    }
+    let of_hinge = |(hinge, whole): (usize, &f64)| {
+        (whole - length(problem.rows_of_hinge(hinge).map(|row| unknowns[row]))).abs()
+    };
+    let gaps: Vec<f64> = pressed
+        .iter()
+        .map(|[one, other]| one.min(*other))
+        .chain(lengths.iter().enumerate().map(of_hinge))
+        .collect();
+    let scale = meanings.iter().zip(values).find_map(|((meaning, factor), value)| {
+        (matches!(meaning, Meaning::Load) && *value > f64::MIN_POSITIVE).then(|| value * factor)
+    });
+    if let Some(scale) = scale.filter(|_| load > 1e-12) {
+        unknowns.iter_mut().for_each(|value| *value /= scale);
+    }
+    RelaxedPoint { unknowns, load, gaps }
+}
+
+/// Whether a vector proves that a piece holds no solution; without load, none but zero.
+///
+/// For a solution the products of `v` with all `x_j - H_j |x_j|` add up to `v . (b + d)`. No one may be
+/// negative while the latter is; without load, all must be positive unless `x_j` is zero.
+fn excludes(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> bool {
+    let strict = problem.has_no_load();
+    let is_fine = |least: f64| if strict { least > 0.0 } else { least >= 0.0 };
+    let times = |part: &IntervalMatrix, column: usize| {
+        let radius = slice(part.radius(), column);
+        inner_product(vector, centre(part, column), Some(radius))
+    };
+    let contacts = piece.states.iter().enumerate().all(|(contact, &state)| {
+        sides(state).iter().all(|&side| {
+            let own = Interval::point(vector[contact]) * Interval::point(side.sign());
+            is_fine((own - times(problem.response(side), contact)).lower())
+        })
+    });
+    let hinges = piece.sectors.iter().enumerate().all(|(hinge, sector)| {
+        let response = times(problem.response(Side::Positive), problem.contacts() + hinge);
+        let own = problem.rows_of_hinge(hinge).map(|row| Interval::point(vector[row]));
+        is_fine(sector.least(own, response))
+    });
+    if !contacts || !hinges || strict {
+        return contacts && hinges;
+    }
+    let jump = |(contact, &state): (usize, &Option<ContactState>)| {
+        let [positive, negative] = Side::BOTH.map(|side| times(problem.jumps(side), contact));
+        match state {
+            _ if shares(problem, piece, contact) => positive.hull(negative),
+            Some(ContactState::Negative | ContactState::Gap) => negative,
+            Some(ContactState::Positive) | None => positive,
+        }
+    };
+    let load =
+        piece.states.iter().enumerate().map(jump).fold(times(problem.load(), 0), |sum, part| sum + part);
+    load.upper() < 0.0
+}
+
+fn centre(part: &IntervalMatrix, column: usize) -> &[f64] {
+    slice(part.centre(), column)
+}
+
+fn slice(matrix: &nalgebra::DMatrix<f64>, column: usize) -> &[f64] {
+    let rows = matrix.nrows();
+    &matrix.as_slice()[column * rows..][..rows]
+}

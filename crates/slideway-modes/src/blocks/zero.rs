@@ -1,0 +1,194 @@
+//! Newton's method, and proofs that a point has exactly one solution near it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::equations::{Piece, Slopes, load, matrix, residual};
+use super::problem::BlockProblem;
+use super::sector::unit;
+use crate::certificate::{Sign, enclose_solution};
+use crate::interval::{Interval, Real};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::ContactState;
+
+/// Steps of Newton's method.
+const STEPS: usize = 40;
+/// A step of this relative length is the last one.
+const LAST: f64 = 4.0 * f64::EPSILON;
+/// Relative radii of the boxes that are tried.
+const RADII: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
+
+/// A zero of the equations with the given states of contacts, continued linearly where a state is given.
+#[derive(Debug, Clone)]
+pub(super) struct Zero {
+    pub(super) states: Vec<Option<ContactState>>,
+    pub(super) point: DVector<f64>,
+    /// Contains the zero.
+    pub(super) enclosure: Vec<Interval>,
+    /// Contains no other zero.
+    pub(super) isolation: Vec<Interval>,
+    /// The common sign of the determinants of all slopes in `isolation`; `None` if it is not known.
+    pub(super) determinant: Option<Sign>,
+}
+
+impl Zero {
+    /// Zero itself, the solution without load.
+    pub(super) fn at_rest(problem: &BlockProblem) -> Self {
+        let states = vec![None; problem.contacts()];
+        let point = DVector::zeros(problem.rows());
+        let determinant = prove(problem, &states, &point).and_then(|zero| zero.determinant);
+        let exact = vec![Interval::ZERO; problem.rows()];
+        Self { states, point, enclosure: exact.clone(), isolation: exact, determinant }
+    }
+
+    /// What of a contact's unknown is certain: its sign, or of a share whether it is from 0 to 1; `None` if
+    /// neither it nor its opposite is certain.
+    pub(super) fn agrees(&self, contact: usize, state: ContactState) -> Option<bool> {
+        let value = self.enclosure[contact];
+        match state {
+            ContactState::Positive | ContactState::Negative => {
+                let signed = value * Interval::point(state.sign());
+                (signed.lower() > 0.0 || signed.upper() < 0.0).then_some(signed.lower() > 0.0)
+            }
+            ContactState::Gap if value.lower() >= 0.0 && value.upper() <= 1.0 => Some(true),
+            ContactState::Gap if value.lower() > 1.0 || value.upper() < 0.0 => Some(false),
+            ContactState::Gap => None,
+        }
+    }
+}
+
+/// The only solution of a problem that has exactly one; `None` if it is not found, or not proven.
+pub(super) fn proven_everywhere(problem: &BlockProblem) -> Option<Zero> {
+    if problem.has_no_load() {
+        return Some(Zero::at_rest(problem));
+    }
+    let everything = Piece::all(problem);
+    let point = newton(problem, &everything.states, start(problem, &everything)?)?;
+    prove(problem, &everything.states, &point)
+}
+
+/// A zero of the equations by Newton's method from a point (theory of hinges, section 8, 2); `None` if it does not
+/// converge.
+pub(super) fn newton(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    start: DVector<f64>,
+) -> Option<DVector<f64>> {
+    let load = load::<f64>(problem, states);
+    let mut point = start;
+    let mut last = f64::INFINITY;
+    for _ in 0..STEPS {
+        let next = matrix(problem, states, &slopes_at(problem, &point)).lu().solve(&load)?;
+        let step = (&next - &point).amax();
+        let size = next.amax();
+        if !size.is_finite() {
+            return None;
+        }
+        point = next;
+        if step <= LAST * size || (step <= 1e-9 * size && step >= last) {
+            return Some(point);
+        }
+        last = step;
+    }
+    None
+}
+
+/// The zero of the linear equations with the slopes in the middle of a piece.
+pub(super) fn start(problem: &BlockProblem, piece: &Piece) -> Option<DVector<f64>> {
+    let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
+    let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
+    matrix(problem, &piece.states, &slopes).lu().solve(&load(problem, &piece.states))
+}
+
+/// The slopes at a point; of contacts and hinges without force zero.
+pub(super) fn slopes_at(problem: &BlockProblem, point: &DVector<f64>) -> Slopes<f64> {
+    let sign = |value: f64| if value == 0.0 { 0.0 } else { value.signum() };
+    let hinge = |hinge| unit(problem.rows_of_hinge(hinge).map(|row| point[row]));
+    Slopes {
+        contacts: (0..problem.contacts()).map(|contact| sign(point[contact])).collect(),
+        hinges: (0..problem.hinges()).map(hinge).collect(),
+    }
+}
+
+/// Proves that there is exactly one zero near a point; `None` if that fails.
+///
+/// `A (x - x') = F(x) - F(x')` for any two points of a box, with some `A` in the set of slopes over the box.
+/// If every such `A` is regular, there is at most one zero in it, and the determinants have one sign. If
+/// moreover all `-A^-1 F(x_0)` lie within the box about `x_0`, then no zero of `F - (1 - t) F(x_0)` crosses
+/// its border as `t` goes from 0 to 1, so that the degree in it, one in size at `t = 0`, stays: there is a zero.
+pub(super) fn prove(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    point: &DVector<f64>,
+) -> Option<Zero> {
+    let residual = residual::<Interval>(problem, states, point);
+    let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(point.len(), 1, |row, _| -residual[row]))?;
+    RADII.iter().find_map(|radius| {
+        let isolation = around(problem, states, point, *radius);
+        let slopes = slopes_over(problem, &isolation);
+        let matrix = IntervalMatrix::from_intervals(&matrix(problem, states, &slopes))?;
+        let steps = enclose_solution(&matrix, &right)?;
+        let inside = |row: usize| Interval::point(point[row]) + steps.solution.entry(row, 0);
+        let enclosure: Vec<Interval> = (0..point.len()).map(inside).collect();
+        let is_inside = enclosure
+            .iter()
+            .zip(&isolation)
+            .all(|(inner, outer)| outer.lower() < inner.lower() && inner.upper() < outer.upper());
+        is_inside.then(|| Zero {
+            states: states.to_vec(),
+            point: point.clone(),
+            enclosure,
+            isolation,
+            determinant: Some(steps.determinant),
+        })
+    })
+}
+
+/// A box about a point, with the same radius for all forces.
+fn around(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    point: &DVector<f64>,
+    radius: f64,
+) -> Vec<Interval> {
+    let is_share = |row: usize| states.get(row) == Some(&Some(ContactState::Gap));
+    let forces = (0..problem.rows()).filter(|&row| !is_share(row)).map(|row| point[row].abs());
+    let largest = forces.fold(f64::MIN_POSITIVE, f64::max);
+    let size = |row: usize| if is_share(row) { 1.0 } else { largest };
+    (0..problem.rows()).map(|row| Interval::around(point[row], radius * size(row))).collect()
+}
+
+/// Bounds on the slopes between any two points of a box: those on the directions in it.
+fn slopes_over(problem: &BlockProblem, isolation: &[Interval]) -> Slopes<Interval> {
+    let one = Interval::ONE;
+    let contact = |value: &Interval| match value.sign() {
+        Some(Sign::Positive) => one,
+        Some(Sign::Negative) => -one,
+        _ => (-one).hull(one),
+    };
+    let hinge = |hinge| {
+        let [x, y] = problem.rows_of_hinge(hinge).map(|row| isolation[row]);
+        if x.contains(0.0) && y.contains(0.0) {
+            return [(-one).hull(one); 2];
+        }
+        [component_of_direction(x, y), component_of_direction(y, x)]
+    };
+    Slopes {
+        contacts: isolation[..problem.contacts()].iter().map(contact).collect(),
+        hinges: (0..problem.hinges()).map(hinge).collect(),
+    }
+}
+
+/// `x / sqrt(x^2 + y^2)` over a box without zero: it grows with `x`, and its size falls with `|y|`.
+fn component_of_direction(x: Interval, y: Interval) -> Interval {
+    let size = y.abs();
+    let at = |x: f64, y: f64| {
+        if x == 0.0 {
+            return Interval::ZERO;
+        }
+        let (x, y) = (Interval::point(x), Interval::point(y));
+        x / x.hypot(y)
+    };
+    let lower = at(x.lower(), if x.lower() >= 0.0 { size.upper() } else { size.lower() });
+    let upper = at(x.upper(), if x.upper() >= 0.0 { size.lower() } else { size.upper() });
+    lower.hull(upper)
+}
