@@ -320,6 +320,8 @@ pub enum FaultKind {
     ImpactWedges { joints: Vec<String> },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
     StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
+    #[error("the static friction radius {static_radius} m of {hinge} is below its kinetic one, {radius} m")]
+    StaticRadiusBelowKinetic { hinge: String, radius: f64, static_radius: f64 },
     #[error("the points `{first}` and `{second}` coincide: they give no direction")]
     CoincidentPoints { first: String, second: String },
     #[error("the travel limits of {joint} are reversed: {least} m is not below {greatest} m")]
@@ -378,6 +380,8 @@ pub enum FaultKind {
         listed(contacts)
     )]
     RigidAtRest { contacts: Vec<String> },
+    #[error("this question is not answered for hinges with friction: {}", listed(hinges))]
+    FrictionInHinges { hinges: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
     #[error(
@@ -534,6 +538,10 @@ impl FaultKind {
                 "contacts that open and close on the way are no event that motions have; ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
                     .to_owned(),
             ),
+            Self::FrictionInHinges { .. } => Some(
+                "leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge; `slideway solve` takes it into account"
+                    .to_owned(),
+            ),
             Self::RigidAtRest { .. } => Some(
                 "give their `stiffness`, in N/m: then their deflection says how hard they can be pressed".to_owned(),
             ),
@@ -626,6 +634,9 @@ impl FaultKind {
             ),
             Self::PartsApart { .. } => Some("change it, or another size, so that the parts reach each other"),
             Self::StaticBelowKinetic { .. } => Some("omit `mu_static` to make it equal to `mu`"),
+            Self::StaticRadiusBelowKinetic { .. } => {
+                Some("omit `static_friction_radius` to make it equal to `friction_radius`")
+            }
             Self::SeveralImpacts { .. } => {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }

@@ -1681,6 +1681,8 @@ class JointSummary(Record):
     """Supported length of a block slider (m)."""
     stops: tuple[Mapping[str, Any] | None, Mapping[str, Any] | None] | None = None
     """The stops at the least and at the greatest displacement, if there are any."""
+    friction_radii: tuple[float, float] | None = None
+    """Radii of the friction circle of a hinge with friction (m): while it turns, and at rest."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

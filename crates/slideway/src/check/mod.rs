@@ -18,7 +18,7 @@ mod text;
 
 use crate::configuration::{Configuration, Mobility, Pose, free_motions, motions_without_inertia, unit};
 use crate::fault::{FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Assembled, KineticEquations};
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
@@ -166,6 +166,9 @@ pub struct JointSummary {
     /// The stops at the least and at the greatest displacement, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stops: Option<[Option<Stop>; 2]>,
+    /// Radii of the friction circle of a hinge with friction (m): while it turns, and at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_radii: Option<[f64; 2]>,
 }
 
 /// What a joint is.
@@ -393,7 +396,8 @@ fn bodies(mechanism: &Mechanism, configuration: &Configuration) -> Vec<BodySumma
 }
 
 fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSummary> {
-    let one = |joint: &crate::mechanism::Joint| {
+    let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
+        let circle = mechanism.friction_circle(JointId(index));
         let (kind, frames, constraints, slider) = match &joint.kind {
             JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
@@ -415,9 +419,10 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             displacement: slider.map(|slider| configuration.slide(mechanism, slider).displacement),
             overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
             stops: slider.map(|slider| slider.stops).filter(|stops| *stops != [None; 2]),
+            friction_radii: circle.map(|circle| [circle.radius, circle.static_radius]),
         }
     };
-    mechanism.joints.iter().map(one).collect()
+    mechanism.joints.iter().enumerate().map(one).collect()
 }
 
 fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: bool) -> Vec<ContactSummary> {

@@ -211,7 +211,20 @@ impl Text<'_> {
                 names.join(", ")
             ));
         }
+        let length = report.units.of("m");
         for joint in &report.joints {
+            if let Some([turning, at_rest]) = joint.friction_radii {
+                let at_rest = if at_rest == turning {
+                    String::new()
+                } else {
+                    format!(", {} at rest", length.show(at_rest))
+                };
+                let turning = length.show(turning);
+                self.line(&format!(
+                    "The hinge {} has a friction circle of radius {turning}{at_rest}.",
+                    joint.name
+                ));
+            }
             for (stop, end) in joint.stops.into_iter().flatten().zip(["least", "greatest"]) {
                 let told = match stop {
                     None => continue,

@@ -4,6 +4,7 @@ use super::entry::Table;
 use super::quantity::{self, Quantity};
 use super::{Drawing, Frame};
 use crate::ids::{ContactId, JointId};
+use crate::model::PinLaw;
 use std::marker::PhantomData;
 
 /// A hinge of a [`Drawing`].
@@ -27,8 +28,46 @@ impl<'d> HingeBuilder<'d> {
         let place = quantity::pair(place);
         let ends = self.between.map(|frame| self.drawing.point(frame, &self.name, place.clone()));
         let between = quantity::list(ends.map(|end| quantity::text(&end)));
-        self.drawing.joints.table(self.id.index()).set("between", between);
+        self.set("between", between)
+    }
+
+    fn set(self, key: &str, value: Quantity) -> Self {
+        self.drawing.joints.table(self.id.index()).set(key, value);
         self
+    }
+
+    /// Kinetic friction coefficient of its pin, which needs a [`Self::radius`]. Default: no friction.
+    pub fn mu(self, mu: impl Into<Quantity>) -> Self {
+        self.set("mu", mu.into())
+    }
+
+    /// Static friction coefficient of its pin, not below the kinetic one, which it is by default.
+    pub fn mu_static(self, mu: impl Into<Quantity>) -> Self {
+        self.set("mu_static", mu.into())
+    }
+
+    /// Radius of its pin (m).
+    pub fn radius(self, radius: impl Into<Quantity>) -> Self {
+        self.set("radius", radius.into())
+    }
+
+    /// How the radius of the friction circle follows from the pin. Default: that of the total reaction.
+    pub fn law(self, law: PinLaw) -> Self {
+        let word = match law {
+            PinLaw::TotalReaction => "total_reaction",
+            PinLaw::MuRho => "mu_rho",
+        };
+        self.set("law", quantity::text(word))
+    }
+
+    /// Radius of its friction circle (m), in place of pin and coefficient.
+    pub fn friction_radius(self, radius: impl Into<Quantity>) -> Self {
+        self.set("friction_radius", radius.into())
+    }
+
+    /// Radius of its friction circle at rest (m), not below that while it turns, which it is by default.
+    pub fn static_friction_radius(self, radius: impl Into<Quantity>) -> Self {
+        self.set("static_friction_radius", radius.into())
     }
 
     /// The handle.

@@ -111,7 +111,7 @@ impl Drawing {
         BodyBuilder { drawing: self, id }
     }
 
-    /// A frictionless hinge between two bodies, or a body and [`GROUND`]. The hinge force is counted on the
+    /// A hinge between two bodies, or a body and [`GROUND`]. The hinge force is counted on the
     /// first body.
     pub fn hinge(
         &mut self,

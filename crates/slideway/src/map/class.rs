@@ -214,6 +214,7 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
         Some(
             FaultKind::OutOfRange { .. }
             | FaultKind::StaticBelowKinetic { .. }
+            | FaultKind::StaticRadiusBelowKinetic { .. }
             | FaultKind::AtSlidingSpeed { .. },
         ) => "values that the model does not allow",
         _ => "cannot be solved",

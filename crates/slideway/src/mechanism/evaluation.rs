@@ -1,8 +1,8 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess, Joint,
-    JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
+    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
+    FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -38,6 +38,7 @@ impl<T: Real> Evaluation<'_, T> {
             bodies,
             joints,
             contacts,
+            friction_circles: self.friction_circles(),
             loads,
             drives: model.drives.iter().map(|drive| self.drive(drive)).collect(),
             coordinates,
@@ -142,12 +143,23 @@ impl<T: Real> Evaluation<'_, T> {
 
     fn joint(&self, id: JointId, joint: &model::Joint, contacts: &mut Vec<Contact<T>>) -> Joint<T> {
         let kind = match &joint.kind {
-            model::JointKind::Hinge(ends) => {
-                JointKind::Hinge(ends.each_ref().map(|end| self.attachment(end)))
+            model::JointKind::Hinge(hinge) => {
+                JointKind::Hinge(hinge.between.each_ref().map(|end| self.attachment(end)))
             }
             model::JointKind::Slider(slider) => JointKind::Slider(self.slider(slider, id, contacts)),
         };
         Joint { name: joint.name.clone(), place: joint.place.clone(), kind }
+    }
+
+    fn friction_circles(&self) -> Vec<FrictionCircle<T>> {
+        let circle = |(index, joint): (usize, &model::Joint)| match &joint.kind {
+            model::JointKind::Hinge(hinge) => {
+                let [radius, static_radius] = hinge.friction?.radii(|id| self.value(id));
+                Some(FrictionCircle { joint: JointId(index), radius, static_radius })
+            }
+            model::JointKind::Slider(_) => None,
+        };
+        self.model.joints.iter().enumerate().filter_map(circle).collect()
     }
 
     fn slider(&self, slider: &model::Slider, joint: JointId, contacts: &mut Vec<Contact<T>>) -> Slider<T> {

@@ -44,6 +44,8 @@ pub struct Mechanism<T = f64> {
     pub joints: Vec<Joint<T>>,
     /// The contacts with friction, in the order of their joints.
     pub contacts: Vec<Contact<T>>,
+    /// The friction of the hinges for which the model gives it, in the order of the joints.
+    pub friction_circles: Vec<FrictionCircle<T>>,
     /// The loads.
     pub loads: Vec<Load<T>>,
     /// The drives.
@@ -117,7 +119,7 @@ pub struct Joint<T = f64> {
 /// The kinds of joint.
 #[derive(Debug, Clone)]
 pub enum JointKind<T = f64> {
-    /// A frictionless hinge.
+    /// A hinge; its friction is in [`Mechanism::friction_circles`].
     Hinge([Attachment<T>; 2]),
     /// A sliding joint.
     Slider(Slider<T>),
@@ -218,6 +220,18 @@ impl<T: Real> Contact<T> {
     pub fn depends_on_speed(&self) -> bool {
         self.law != [None; 2]
     }
+}
+
+/// Friction of a hinge: while it turns, the reaction `R` is tangent to a circle about the hinged point, so that
+/// its friction couple is `|M| = r |R|`; at rest it passes through the static circle, `|M| <= r_static |R|`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionCircle<T = f64> {
+    /// The hinge.
+    pub joint: JointId,
+    /// Radius r of the friction circle while the hinge turns (m).
+    pub radius: T,
+    /// Radius of the friction circle at rest (m).
+    pub static_radius: T,
 }
 
 /// A number that may depend on the motion.
@@ -479,6 +493,10 @@ impl Mechanism {
             let elastic = [contact.play, contact.stiffness.unwrap_or_default()];
             check(format!("the play or the stiffness of {}", contact.name), Some(place), &elastic);
         }
+        for circle in &self.friction_circles {
+            let Joint { name, place, .. } = &self.joints[circle.joint.index()];
+            check(format!("the friction of {name}"), Some(place), &[circle.radius, circle.static_radius]);
+        }
         for coordinate in &self.coordinates {
             let values = [coordinate.value, coordinate.drawn_at, coordinate.rate];
             check(format!("the value or the rate of {}", coordinate.name), Some(&coordinate.place), &values);
@@ -523,6 +541,21 @@ impl Mechanism {
     }
 }
 
+impl Mechanism {
+    /// Refuses friction in hinges, for questions that do not take it into account.
+    ///
+    /// # Errors
+    /// A fault that names the hinges, if some have friction.
+    pub(crate) fn check_frictionless_hinges(&self) -> Result<(), Faults> {
+        let has_friction = |circle: &&FrictionCircle| circle.radius.max(circle.static_radius) > 0.0;
+        let joint = |circle: &FrictionCircle| &self.joints[circle.joint.index()];
+        let rough: Vec<&Joint> = self.friction_circles.iter().filter(has_friction).map(joint).collect();
+        let Some(first) = rough.first() else { return Ok(()) };
+        let hinges = rough.iter().map(|joint| joint.name.to_string()).collect();
+        Err(Fault::new(FaultKind::FrictionInHinges { hinges }, first.place.clone()).into())
+    }
+}
+
 impl Mechanism<Interval> {
     /// Intervals that hold the numbers of the mechanism that a model describes, which `nominal` has rounded.
     /// The parameters in `given` have their values from there.
@@ -549,6 +582,11 @@ impl<T: Real> Mechanism<T> {
             JointKind::Slider(slider) => Some(slider),
             JointKind::Hinge(_) => None,
         }
+    }
+
+    /// The friction of a hinge, if the model gives it.
+    pub fn friction_circle(&self, joint: JointId) -> Option<&FrictionCircle<T>> {
+        self.friction_circles.iter().find(|circle| circle.joint == joint)
     }
 
     /// Whether the friction of a contact's preload acts at another face when the contact changes its side.

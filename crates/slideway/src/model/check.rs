@@ -114,16 +114,24 @@ impl Model {
         let Some(wanted) = self.parameters.iter().position(|other| &*other.name == parameter) else {
             return false;
         };
-        self.contacts().flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
+        let of_hinges = self.hinge_friction().filter_map(|friction| friction.coefficients());
+        let kinetic = self.contacts().flat_map(|contact| contact.mu).chain(of_hinges.map(|[mu, _]| mu));
+        kinetic.into_iter().any(|mu| self.uses(mu, wanted))
     }
 
     /// Whether some coefficient of friction is this parameter itself, perhaps through others that are nothing
     /// but it, so that its negative values make no sense.
     pub(crate) fn is_itself_friction(&self, parameter: &str) -> bool {
-        let mut coefficients =
-            self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
+        let mut coefficients = self.friction_coefficients();
         let wanted = self.parameters.iter().find(|other| &*other.name == parameter);
         wanted.is_some_and(|wanted| coefficients.any(|id| self.same_as(id).any(|same| same == wanted.value)))
+    }
+
+    /// The kinetic and static friction coefficients of all contacts and hinges.
+    pub(crate) fn friction_coefficients(&self) -> impl Iterator<Item = FormulaId> {
+        let of_hinges = self.hinge_friction().filter_map(|friction| friction.coefficients());
+        let of_contacts = self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
+        of_contacts.chain(of_hinges.flatten())
     }
 
     /// The formulas that this one is nothing but, through parameters: first itself, last that with the number.
@@ -360,7 +368,16 @@ impl Model {
         self.check_ranges(values, faults);
         let value = |id: FormulaId| values[id.index()];
         for joint in &self.joints {
-            let JointKind::Slider(slider) = &joint.kind else { continue };
+            let slider = match &joint.kind {
+                JointKind::Slider(slider) => slider,
+                JointKind::Hinge(hinge) => {
+                    let friction = hinge.friction.map(|friction| friction.kinetic_and_static());
+                    faults.extend(
+                        friction.and_then(|pair| self.static_below_kinetic(&joint.name, pair, &value)),
+                    );
+                    continue;
+                }
+            };
             self.check_static_friction(slider, &value, faults);
             check_direction(&slider.along, &joint.place, &value, faults);
             for restitution in slider.stops.into_iter().flatten().filter_map(Stop::restitution) {
@@ -396,27 +413,39 @@ impl Model {
         value: &dyn Fn(FormulaId) -> Option<f64>,
         faults: &mut Faults,
     ) {
-        let mut reported: Vec<Place> = Vec::new();
+        let mut reported: Vec<Option<Place>> = Vec::new();
         for contact in &slider.contacts {
             for side in 0..2 {
-                let (Some(mu), Some(mu_static)) = (value(contact.mu[side]), value(contact.mu_static[side]))
-                else {
-                    continue;
-                };
-                if mu_static < mu {
-                    let kind =
-                        FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
-                    let formulas = [contact.mu[side], contact.mu_static[side]];
-                    let in_file = || self.formula(contact.mu_static[side]).origin.place();
-                    let place = self.setting_of(&formulas).unwrap_or_else(in_file);
-                    if reported.contains(&place) {
-                        continue;
-                    }
-                    faults.push(Fault::new(kind, place.clone()));
+                let pair = [contact.mu[side], contact.mu_static[side]];
+                let Some(fault) = self.static_below_kinetic(&contact.name, pair, value) else { continue };
+                let place = fault.place.clone();
+                if !reported.contains(&place) {
+                    faults.push(fault);
                     reported.push(place);
                 }
             }
         }
+    }
+
+    /// What is wrong with a kinetic and a static value of friction, if the static one is the smaller one.
+    fn static_below_kinetic(
+        &self,
+        name: &str,
+        pair: [FormulaId; 2],
+        value: &dyn Fn(FormulaId) -> Option<f64>,
+    ) -> Option<Fault> {
+        let (kinetic, at_rest) = (value(pair[0])?, value(pair[1])?);
+        if at_rest >= kinetic {
+            return None;
+        }
+        let owner = name.to_owned();
+        let kind = if self.formula(pair[1]).wanted == Some(Dimension::LENGTH) {
+            FaultKind::StaticRadiusBelowKinetic { hinge: owner, radius: kinetic, static_radius: at_rest }
+        } else {
+            FaultKind::StaticBelowKinetic { contact: owner, mu: kinetic, mu_static: at_rest }
+        };
+        let in_file = || self.formula(pair[1]).origin.place();
+        Some(Fault::new(kind, self.setting_of(&pair).unwrap_or_else(in_file)))
     }
 
     /// Joints of a body with itself, doubled joints, bodies without a way to ground.
@@ -482,7 +511,7 @@ fn check_direction(
 /// The two frames that a joint joins.
 fn joined(joint: &JointKind) -> [Frame; 2] {
     match joint {
-        JointKind::Hinge([first, second]) => [first.frame, second.frame],
+        JointKind::Hinge(hinge) => hinge.between.each_ref().map(|end| end.frame),
         JointKind::Slider(slider) => [slider.block, slider.guide],
     }
 }
@@ -493,11 +522,11 @@ fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool
     let place = |at: [FormulaId; 2]| Some([values[at[0].index()]?, values[at[1].index()]?]);
     match (joint, other) {
         (JointKind::Hinge(a), JointKind::Hinge(b)) => {
-            let mut frames = [a, b].map(|hinge| [hinge[0].frame, hinge[1].frame]);
+            let mut frames = [a, b].map(|hinge| hinge.between.each_ref().map(|end| end.frame));
             for pair in &mut frames {
                 pair.sort();
             }
-            let at = |hinge: &[super::Attachment; 2]| place(hinge[0].position);
+            let at = |hinge: &super::Hinge| place(hinge.between[0].position);
             frames[0] == frames[1] && at(a).is_some() && at(a) == at(b)
         }
         (JointKind::Slider(a), JointKind::Slider(b)) => {

@@ -94,12 +94,36 @@ pub(super) struct ShapeTable {
     pub(super) disc: Option<Quantity>,
 }
 
-/// A frictionless hinge.
+/// A hinge, without friction unless it is given.
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct HingeTable {
     /// The two hinged points, each as "body.point". The hinge force is counted on the first body.
     pub(super) between: [Name; 2],
+    /// Kinetic friction coefficient of the pin; needs `radius`. Default: no friction.
+    pub(super) mu: Option<Quantity>,
+    /// Static friction coefficient of the pin, not below `mu`. Default: `mu`.
+    pub(super) mu_static: Option<Quantity>,
+    /// Radius of the pin (m).
+    pub(super) radius: Option<Quantity>,
+    /// How the radius of the friction circle follows from `mu` and `radius`. Default: "total_reaction".
+    pub(super) law: Option<PinLaw>,
+    /// Radius of the friction circle (m), in place of `mu` and `radius`: friction couple per reaction.
+    pub(super) friction_radius: Option<Quantity>,
+    /// Radius of the friction circle at rest (m), not below `friction_radius`. Default: `friction_radius`.
+    pub(super) static_friction_radius: Option<Quantity>,
+}
+
+/// How the radius of the friction circle follows from the friction coefficient mu and the radius rho of a pin.
+#[derive(Deserialize, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum PinLaw {
+    /// A loose pin touches along a line, and the reaction is the total one: rho sin(atan mu).
+    #[default]
+    TotalReaction,
+    /// The textbooks' approximation: mu rho.
+    MuRho,
 }
 
 /// A block with a contact at each end.

@@ -34,13 +34,14 @@
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
 //! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
 //! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `value.rs` is what is
-//! given, `settings.rs` applies changes, `press_fit.rs` splits contacts with negative play, `typed.rs` tells in which units a file was typed, `outline.rs`
+//! given, `settings.rs` applies changes, `hinge.rs` has hinges and their friction, `press_fit.rs` splits contacts with negative play, `typed.rs` tells in which units a file was typed, `outline.rs`
 //! has the arcs of outlines.
 
 mod check;
 mod dependence;
 mod file;
 mod formula;
+mod hinge;
 pub mod outline;
 mod press_fit;
 mod quantity;
@@ -56,9 +57,10 @@ mod typed;
 mod value;
 
 pub(crate) use dependence::Dependence;
-pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
+pub use file::{CarriedBy, CrossingDirection, ForceFrame, PinLaw, PreloadLine};
 pub(crate) use formula::POSITIVE;
 pub use formula::{Allowed, Formula, Origin, Varies};
+pub use hinge::{Hinge, HingeFriction};
 pub use outline::OutlineCorner;
 pub use press_fit::Face;
 pub(crate) use press_fit::place_of;
@@ -211,8 +213,8 @@ pub struct Joint {
 /// The kinds of joint.
 #[derive(Debug, Clone)]
 pub enum JointKind {
-    /// A frictionless hinge between two points.
-    Hinge([Attachment; 2]),
+    /// A hinge between two points.
+    Hinge(Box<Hinge>),
     /// One of the sliding joints.
     Slider(Box<Slider>),
 }

@@ -37,7 +37,7 @@ pub(super) struct Sections {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(tag = "type", rename_all = "snake_case", rename = "JointTable"))]
 pub(super) enum JointContents {
-    /// A frictionless hinge.
+    /// A hinge, without friction unless it is given.
     Hinge(HingeTable),
     /// A carriage, sledge or bushing with a contact at each end.
     BlockSlider(Box<BlockSliderTable>),

@@ -136,6 +136,7 @@ pub fn solve_with(
 ) -> Result<SolveReport, Faults> {
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
+    mechanism.check_frictionless_hinges()?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;

@@ -49,6 +49,7 @@ impl Stages {
     /// Whatever `solve` refuses.
     pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
+        mechanism.check_frictionless_hinges()?;
         let configuration = follower.configuration(&mechanism)?;
         Ok(Self::with_equations(mechanism, configuration)?.0)
     }
@@ -59,6 +60,7 @@ impl Stages {
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
+        mechanism.check_frictionless_hinges()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         Self::of(mechanism, configuration, influences)
     }

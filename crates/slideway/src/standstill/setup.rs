@@ -78,6 +78,7 @@ impl Setup {
     pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
+        original.check_frictionless_hinges()?;
         let configuration = Configuration::new(&original)?;
         let mut mechanism = original.clone();
         configuration.put_misalignments(&mut mechanism)?;

@@ -201,8 +201,7 @@ fn lengths_far_apart(model: &Model) -> Option<Fault> {
 
 fn great_friction(model: &Model) -> Vec<Fault> {
     let Ok(values) = model.constants() else { return Vec::new() };
-    let coefficients = model.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
-    let great = coefficients.filter(|id| values[id.index()] > GREAT_FRICTION);
+    let great = model.friction_coefficients().filter(|id| values[id.index()] > GREAT_FRICTION);
     let one = |id: FormulaId| {
         let formula = model.formula(model.source_of(id));
         let what = formula.what.to_string();
@@ -221,7 +220,7 @@ fn gap_closed(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
     let joint = &mechanism.joints[gap.joint.index()];
     let doubt = Doubt::GapClosed { joint: joint.name.to_string(), gap: gap.in_words(mechanism) };
     let points: Vec<FormulaId> = match &model.joints[gap.joint.index()].kind {
-        JointKind::Hinge(points) => points.iter().flat_map(|point| point.position).collect(),
+        JointKind::Hinge(hinge) => hinge.between.iter().flat_map(|point| point.position).collect(),
         JointKind::Slider(_) => Vec::new(),
     };
     Some(warning(doubt, model.setting_of(&points).unwrap_or_else(|| joint.place.clone())))

@@ -223,8 +223,7 @@ impl Reader<'_> {
             let kind = match &entry.contents {
                 None => continue,
                 Some(JointContents::Hinge(table)) => {
-                    let [first, second] = &table.between;
-                    JointKind::Hinge([self.attachment(first), self.attachment(second)])
+                    JointKind::Hinge(Box::new(self.hinge(table, &entry.name, &entry.span)))
                 }
                 Some(JointContents::BlockSlider(table)) => self.block_slider(table, &entry.name, &entry.span),
                 Some(JointContents::GuidedSlider(table)) => {

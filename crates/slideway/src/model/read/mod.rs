@@ -5,6 +5,7 @@
 
 mod bodies;
 mod coordinates;
+mod hinges;
 mod joints;
 mod loads;
 mod tables;

@@ -46,6 +46,7 @@ pub fn simulate_with(
     check(options)?;
     mechanism.check_no_press_fit("a motion in time")?;
     mechanism.check_determinate("a motion in time")?;
+    mechanism.check_frictionless_hinges()?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
 }

@@ -1,0 +1,75 @@
+//! Hinges and their friction: what the radius of a friction circle follows from.
+
+use super::{Attachment, JointKind, Model, PinLaw};
+use crate::ids::FormulaId;
+use crate::interval::Real;
+
+/// A hinge between two points.
+#[derive(Debug, Clone)]
+pub struct Hinge {
+    /// The hinged points; the hinge force is counted on the first body.
+    pub between: [Attachment; 2],
+    /// Its friction, if the file gives it.
+    pub friction: Option<HingeFriction>,
+}
+
+/// Friction of a hinge.
+#[derive(Debug, Clone, Copy)]
+pub enum HingeFriction {
+    /// That of a pin.
+    Pin {
+        /// Kinetic and static friction coefficient.
+        mu: [FormulaId; 2],
+        /// Radius of the pin (m).
+        radius: FormulaId,
+        /// How the radius of the friction circle follows from them.
+        law: PinLaw,
+    },
+    /// The radii of the friction circle (m): kinetic and static.
+    Circle([FormulaId; 2]),
+}
+
+impl HingeFriction {
+    /// The radii of the friction circle (m), kinetic and static.
+    ///
+    /// With the total reaction `R` tangent to the circle, `|M| = r |R|`: a loose pin touches along a line, where
+    /// the reaction leans by `atan mu` against the normal, so that `r = rho sin(atan mu) = rho mu / sqrt(1 +
+    /// mu^2)`. Textbooks put the total reaction in place of the normal part: `r = mu rho`.
+    pub(crate) fn radii<T: Real>(&self, value: impl Fn(FormulaId) -> T) -> [T; 2] {
+        match *self {
+            Self::Circle(radii) => radii.map(value),
+            Self::Pin { mu, radius, law } => mu.map(|mu| {
+                let (mu, radius) = (value(mu), value(radius));
+                match law {
+                    PinLaw::MuRho => mu * radius,
+                    PinLaw::TotalReaction => mu * radius / (T::exactly(1.0) + mu.square()).sqrt(),
+                }
+            }),
+        }
+    }
+
+    /// Its coefficients, or its radii: kinetic and static.
+    pub(super) fn kinetic_and_static(&self) -> [FormulaId; 2] {
+        match *self {
+            Self::Circle(values) | Self::Pin { mu: values, .. } => values,
+        }
+    }
+
+    /// Its friction coefficients, kinetic and static, if it is that of a pin.
+    pub(crate) fn coefficients(&self) -> Option<[FormulaId; 2]> {
+        match *self {
+            Self::Circle(_) => None,
+            Self::Pin { mu, .. } => Some(mu),
+        }
+    }
+}
+
+impl Model {
+    /// The friction of all hinges that have it, in the order of the joints.
+    pub(crate) fn hinge_friction(&self) -> impl Iterator<Item = HingeFriction> {
+        self.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Hinge(hinge) => hinge.friction,
+            JointKind::Slider(_) => None,
+        })
+    }
+}

@@ -1,0 +1,5 @@
+//! Hinges with friction, from the model file to the report.
+
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
+mod reading;
