@@ -436,6 +436,10 @@ pub enum FaultKind {
         listed(contacts)
     )]
     ZeroSlidingVelocity { contacts: Vec<String>, why: NoSliding },
+    #[error("{hinge} does not turn, so the direction of its friction couple is undefined")]
+    HingeDoesNotTurn { hinge: String, why: NoSliding },
+    #[error("friction in hinges is not taken into account where guides share a load: {}", listed(hinges))]
+    FrictionInHingesOfRedundant { hinges: Vec<String> },
 
     // Standstill.
     #[error("the load {load} vanishes at rest, so no factor changes it")]
@@ -539,7 +543,7 @@ impl FaultKind {
                     .to_owned(),
             ),
             Self::FrictionInHinges { .. } => Some(
-                "leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge; `slideway solve` takes it into account"
+                "leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge; `slideway solve` takes it into account, and so does `slideway drive` without a table"
                     .to_owned(),
             ),
             Self::RigidAtRest { .. } => Some(
@@ -587,6 +591,10 @@ impl FaultKind {
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
             Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
+            Self::HingeDoesNotTurn { why, .. } => Some(why.hint_of_hinge()),
+            Self::FrictionInHingesOfRedundant { .. } => {
+                Some("leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge".to_owned())
+            }
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),

@@ -10,7 +10,7 @@
 //! and come from the one factorization of the kinetic equations. Since the side of contact `k` decides at
 //! which face its friction acts, column `k` has two versions; they are equal where the height is zero.
 
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::kinetics::{Influences, KineticEquations, Layout, Reaction};
 use nalgebra::{DMatrix, DVector};
 
@@ -23,6 +23,8 @@ pub struct Influence {
     /// For each contact: what a unit friction force adds, at the face where the normal force is positive and
     /// at the one where it is negative.
     pub columns: Vec<[DVector<f64>; 2]>,
+    /// For each friction circle: what a unit couple on the first body of its hinge, and its opposite on the second, add.
+    pub couples: Vec<DVector<f64>>,
     /// For each contact that is cut because redundant guides share a load: what a unit normal force of it adds to
     /// all unknowns, a self-stress. Its own normal force is 1, every acceleration 0.
     pub self_stresses: Vec<DVector<f64>>,
@@ -51,6 +53,19 @@ impl ContactFriction {
     }
 }
 
+/// A hinge with friction in a solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HingeState {
+    /// Its friction circle, among those of the mechanism.
+    pub circle: usize,
+    /// The hinge.
+    pub joint: JointId,
+    /// Its force on the first body (N).
+    pub force: [f64; 2],
+    /// Its friction couple on the first body (N m).
+    pub couple: f64,
+}
+
 impl Influence {
     /// The influence coefficients of factored kinetic equations.
     pub fn new(equations: &KineticEquations) -> Self {
@@ -59,13 +74,13 @@ impl Influence {
 
     /// The influence coefficients that these are.
     pub(crate) fn of(influences: Influences) -> Self {
-        let Influences { layout, frictionless, columns, self_stresses, .. } = influences;
+        let Influences { layout, frictionless, columns, couples, self_stresses, .. } = influences;
         let normal = (0..columns.len())
             .map(|k| {
                 layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force")
             })
             .collect();
-        Self { layout, frictionless, columns, self_stresses, normal }
+        Self { layout, frictionless, columns, couples, self_stresses, normal }
     }
 
     /// Where the unknowns stand.
@@ -98,6 +113,24 @@ impl Influence {
         for (contact, self_stress) in self.layout.cut().iter().zip(&self.self_stresses) {
             unknowns.axpy(normal_forces[contact.index()], self_stress, 1.0);
         }
+        unknowns
+    }
+
+    /// Places among all unknowns: of the normal forces, then of both components of the hinge forces of these friction
+    /// circles.
+    pub(crate) fn block_rows(&self, hinges: &[JointId]) -> Vec<usize> {
+        let component = |joint: &JointId| {
+            [0, 1].map(|axis| {
+                self.layout.reaction(Reaction::Hinge(*joint, axis)).expect("every hinge has a force")
+            })
+        };
+        self.normal.iter().copied().chain(hinges.iter().flat_map(component)).collect()
+    }
+
+    /// What the friction couples of hinges add to all unknowns.
+    pub fn of_couples(&self, hinges: &[HingeState]) -> DVector<f64> {
+        let mut unknowns = DVector::zeros(self.frictionless.len());
+        hinges.iter().for_each(|hinge| unknowns.axpy(hinge.couple, &self.couples[hinge.circle], 1.0));
         unknowns
     }
 

@@ -1551,6 +1551,20 @@ class Hinge(Record):
     """The body on which the force is counted."""
     force: tuple[float, float]
     """Its components (N)."""
+    friction: HingeFriction | None = None
+    """Its friction; absent of a hinge without friction."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HingeFriction(Record):
+    """Friction in a hinge that turns."""
+
+    couple: float
+    """Friction couple on the body on which the force is counted (N m): radius times hinge force, against the rotation."""
+    radius: float
+    """Radius of the friction circle, to which the hinge force is tangent (m)."""
+    angular_velocity: float
+    """Angular velocity of that body against the other one (rad/s)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

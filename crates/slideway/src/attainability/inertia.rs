@@ -1,6 +1,7 @@
 //! What the elastic guides move: the inertia that the gaps of the contacts feel, and the motions without any.
 
 use crate::configuration::null_space;
+use crate::ids::JointId;
 use crate::kinetics::{KineticEquations, MasslessMotions};
 use nalgebra::{DMatrix, LU};
 
@@ -28,14 +29,15 @@ impl Inertia {
     /// The inertia of the gaps of a mechanism whose size is `length`; none if the motions that carry no mass
     /// and the directions in which nothing resists differ in number or are dependent, which only drives can
     /// bring about.
-    pub(super) fn new(equations: &KineticEquations, length: f64) -> Option<Self> {
-        let matrix = equations.contact_inertia();
+    /// These hinges are elastic, too; the others are rigid.
+    pub(super) fn new(equations: &KineticEquations, hinges: &[JointId], length: f64) -> Option<Self> {
+        let matrix = equations.contact_inertia(hinges);
         let lengths: Vec<f64> = equations
             .massless_accelerations()
             .iter()
             .map(|index| if index % 3 == 2 { length } else { 1.0 })
             .collect();
-        let [motions, tests] = equations.massless_motions();
+        let [motions, tests] = equations.massless_motions(hinges);
         let [(right_gaps, motions), (left_gaps, tests)] = [orthonormal(motions)?, orthonormal(tests)?];
         if right_gaps.ncols() != left_gaps.ncols() {
             return None;

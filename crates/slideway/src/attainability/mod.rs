@@ -17,6 +17,7 @@
 //! `p < 0`, whatever the stiffness.
 
 mod fate;
+mod hinges;
 mod inertia;
 mod ratios;
 mod shared;
@@ -27,6 +28,7 @@ use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem};
 use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 use fate::{End, FastMotion, Rest};
+pub(crate) use hinges::ElasticHinges;
 use inertia::Inertia;
 use nalgebra::{DMatrix, DVector};
 pub(crate) use ratios::ratios;
@@ -85,7 +87,7 @@ impl<'p> ElasticGuides<'p> {
             vec![1.0; contacts.len()]
         };
         let few = contacts.len() <= MOST_CONTACTS;
-        let inertia = if few { Inertia::new(equations, mechanism.size) } else { None };
+        let inertia = if few { Inertia::new(equations, &[], mechanism.size) } else { None };
         let stable = inertia.as_ref().is_some_and(|inertia| {
             let frictionless = match &shared {
                 Some(shared) => shared.gaps.transpose(),

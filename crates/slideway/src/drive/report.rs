@@ -76,7 +76,7 @@ pub struct DriveDirection {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
     /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too
-    /// many modes.
+    /// many modes, or friction in hinges.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blow_ups: Option<Vec<BlowUp>>,
 }

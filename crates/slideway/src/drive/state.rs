@@ -2,8 +2,10 @@
 
 use super::efforts::{Efforts, efficiency, growing, power, velocities};
 use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, Frictionless, Sense};
+use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::DriveId;
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::Work;
@@ -28,7 +30,9 @@ pub(super) fn direction(
 ) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
     let options = SolveOptions::default();
     let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
-    let stages = Stages::new(model)?;
+    let mechanism = Mechanism::new(model)?;
+    let configuration = Configuration::new(&mechanism)?;
+    let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let velocities = velocities(&stages);
     let layout = stages.influence.layout();
     let frictionless: Vec<f64> = (0..velocities.len())
@@ -59,8 +63,12 @@ pub(super) fn direction(
     Ok((report.state, found))
 }
 
-/// The factors of friction at which efforts grow without bound; none if there are too many modes.
+/// The factors of friction at which efforts grow without bound; none if there are too many modes, or friction in
+/// hinges.
 fn blow_ups(stages: &Stages, work: Work<'_>) -> Result<Option<Vec<BlowUp>>, Faults> {
+    if stages.mechanism.rough_hinges().next().is_some() {
+        return Ok(None);
+    }
     let line = stages.parts(0.0)?.line_to(&stages.parts(1.0)?);
     let mut all = Vec::new();
     for range in FACTORS {

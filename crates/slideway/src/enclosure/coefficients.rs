@@ -52,13 +52,16 @@ impl Coefficients<'_> {
 
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
     /// face that is pressed when its normal force is positive, then what a unit normal force of each cut contact
-    /// adds; none if the equations are not proven to be regular.
+    /// adds, then a unit couple of each friction circle; none if the equations are not proven to be regular.
     pub(super) fn unknowns(&self) -> Option<DMatrix<Interval>> {
-        let Assembled { layout, matrix, load, friction, .. } = self.equations;
+        let Assembled { layout, matrix, load, friction, couples, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
         let units = layout.cut_units();
-        let sides: Vec<&DVector<Interval>> =
-            std::iter::once(load).chain(friction.iter().map(|faces| &faces[0])).chain(&units).collect();
+        let sides: Vec<&DVector<Interval>> = std::iter::once(load)
+            .chain(friction.iter().map(|faces| &faces[0]))
+            .chain(&units)
+            .chain(couples)
+            .collect();
         let right = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             sides[column][row] * Interval::point(rows[row])
         });
@@ -80,7 +83,7 @@ impl Coefficients<'_> {
             let is_rounding = value.contains(0.0) && (self.are_numbers || value.magnitude() <= NO_STRESS);
             if is_rounding { Interval::ZERO } else { value }
         };
-        DMatrix::from_fn(self.mechanism.contacts.len(), unknowns.ncols() - first, entry)
+        DMatrix::from_fn(self.mechanism.contacts.len(), layout.cut().len(), entry)
     }
 
     /// The rows of the normal forces among all unknowns.

@@ -28,10 +28,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod blocks;
 mod coefficients;
 mod motion;
 mod outputs;
 
+pub(crate) use blocks::{BlockCoefficients, TurningHinge, enclosed_block_problem, spin};
 pub use outputs::{EnclosedCouple, EnclosedOutput, Tipping};
 
 use crate::configuration::Configuration;
@@ -215,6 +217,17 @@ pub enum NotEnclosed {
         /// Bounds of its sliding velocity (m/s).
         velocity: Interval,
     },
+    /// The sense in which a hinge turns is not certain.
+    #[error(
+        "the sense in which {hinge} turns is not certain: its angular velocity is from {:e} to {:e} rad/s",
+        spin.lower(), spin.upper()
+    )]
+    SenseOfRotation {
+        /// The hinge.
+        hinge: String,
+        /// Bounds of the angular velocity of its first body against the second (rad/s).
+        spin: Interval,
+    },
     /// A number of the mode problem has no finite bounds.
     #[error("the mode problem could not be enclosed: {0}")]
     Problem(#[from] IntervalModeProblemError),
@@ -235,36 +248,48 @@ pub fn enclosure(
     mechanism: &Mechanism,
     configuration: &Configuration,
 ) -> Result<EnclosedModeProblem, NotEnclosed> {
+    with_coefficients(model, uncertain, mechanism, configuration, |coefficients| {
+        let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
+        let influence = coefficients.influence(&unknowns)?;
+        let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
+        let stresses = coefficients.self_stresses(&unknowns);
+        let shared = shared_load(coefficients.mechanism, stresses).map_err(NotEnclosed::Values)?;
+        let problem = match &shared {
+            Some(shared) => problem.with_shared_load(shared)?,
+            None => problem,
+        };
+        Ok(EnclosedModeProblem {
+            open: coefficients.mechanism.excess.open.clone(),
+            shared,
+            influence,
+            problem,
+            couples: coefficients.couples(&unknowns),
+            accelerations: coefficients.accelerations(&unknowns),
+            power: coefficients.power(),
+        })
+    })
+}
+
+/// What is made of the kinetic equations within intervals.
+fn with_coefficients<T>(
+    model: &Model,
+    uncertain: &UncertainParameters,
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    make: impl FnOnce(&Coefficients<'_>) -> Result<T, NotEnclosed>,
+) -> Result<T, NotEnclosed> {
     let given = uncertain.of(model)?;
     let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
     uncertain.put_coordinates(&mut mechanism)?;
     let configuration = motion::enclosed(&mechanism, configuration)?;
     uncertain.put_friction(&mut mechanism, &configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
-    let coefficients = Coefficients {
+    make(&Coefficients {
         model,
         mechanism: &mechanism,
         configuration: &configuration,
         equations: &equations,
         are_numbers: uncertain.are_numbers(),
-    };
-    let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
-    let influence = coefficients.influence(&unknowns)?;
-    let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
-    let stresses = coefficients.self_stresses(&unknowns);
-    let shared = shared_load(&mechanism, stresses).map_err(NotEnclosed::Values)?;
-    let problem = match &shared {
-        Some(shared) => problem.with_shared_load(shared)?,
-        None => problem,
-    };
-    Ok(EnclosedModeProblem {
-        open: mechanism.excess.open.clone(),
-        shared,
-        influence,
-        problem,
-        couples: coefficients.couples(&unknowns),
-        accelerations: coefficients.accelerations(&unknowns),
-        power: coefficients.power(),
     })
 }
 

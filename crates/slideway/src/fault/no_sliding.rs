@@ -15,6 +15,26 @@ pub enum NoSliding {
 }
 
 impl NoSliding {
+    /// What to do about a hinge that does not turn.
+    pub(super) fn hint_of_hinge(&self) -> String {
+        let without = "without its friction (`mu = 0` or `friction_radius = 0` there) the answer exists";
+        match self {
+            Self::AtRest(coordinates) | Self::WithoutRate(coordinates) => {
+                let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
+                format!(
+                    "give it a velocity, for instance with `{}`; {without}",
+                    rates.collect::<Vec<_>>().join(" ")
+                )
+            }
+            Self::Here => format!(
+                "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
+            ),
+            Self::Never => format!(
+                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which is computed for one such hinge alone beside at most 12 contacts; {without}"
+            ),
+        }
+    }
+
     /// What to do about it.
     pub(super) fn hint(&self) -> String {
         let rates = |coordinates: &[String]| {

@@ -2,7 +2,7 @@
 
 use super::{KineticEquations, Reaction};
 use crate::configuration::null_space;
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use nalgebra::{DMatrix, DVector};
 
 /// Motions of massless bodies that the elastic guides allow and the other joints, too, one in each column.
@@ -19,8 +19,10 @@ impl KineticEquations {
     /// Y: the normal forces that unit accelerations of the gaps of the contacts need, `N = Y gap''` (kg).
     /// Of the contacts that are not cut: the gaps of the others follow from theirs. Square; with `M` symmetric and positive definite on the motions `G_r x = 0` it is the inverse of
     /// `G_c M^-1 G_c^T` there.
-    pub(crate) fn contact_inertia(&self) -> DMatrix<f64> {
-        let rows = self.normal_rows();
+    ///
+    /// Of these hinges, which are elastic, too, both components of their gaps follow.
+    pub(crate) fn contact_inertia(&self, hinges: &[JointId]) -> DMatrix<f64> {
+        let rows = self.elastic_rows(hinges);
         let columns: Vec<DVector<f64>> = rows
             .iter()
             .map(|&row| {
@@ -41,10 +43,10 @@ impl KineticEquations {
 
     /// The motions without mass on which the elastic guides act: of `[G_r; C] x = 0`, and of the test motions
     /// `[G_r; B^T] x = 0`, which are the same without drives.
-    pub(crate) fn massless_motions(&self) -> [MasslessMotions; 2] {
+    pub(crate) fn massless_motions(&self, hinges: &[JointId]) -> [MasslessMotions; 2] {
         let massless = self.massless_accelerations();
         let matrix = self.factorization.matrix();
-        let normal = self.normal_rows();
+        let normal = self.elastic_rows(hinges);
         let first = 3 * self.layout.bodies;
         let efforts = first + self.layout.reactions.len();
         let rigid: Vec<usize> = (first..efforts).filter(|row| !normal.contains(row)).collect();
@@ -60,10 +62,12 @@ impl KineticEquations {
         })
     }
 
-    fn normal_rows(&self) -> Vec<usize> {
+    /// The rows of the normal forces of contacts that are not cut, and of the forces of these hinges.
+    fn elastic_rows(&self, hinges: &[JointId]) -> Vec<usize> {
         let contacts = (0..self.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
         let kept = contacts.filter(|normal| !self.layout.is_cut(*normal));
-        kept.filter_map(|normal| self.layout.reaction(normal)).collect()
+        let hinges = hinges.iter().flat_map(|joint| [0, 1].map(|axis| Reaction::Hinge(*joint, axis)));
+        kept.chain(hinges).filter_map(|reaction| self.layout.reaction(reaction)).collect()
     }
 }
 

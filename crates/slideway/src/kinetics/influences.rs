@@ -35,6 +35,8 @@ pub(crate) struct Influences {
     pub(crate) frictionless: DVector<f64>,
     /// For each contact: what a unit friction force adds, for both faces.
     pub(crate) columns: Vec<[DVector<f64>; 2]>,
+    /// What a unit friction couple of each friction circle adds.
+    pub(crate) couples: Vec<DVector<f64>>,
     /// What a unit normal force of each cut contact adds.
     pub(crate) self_stresses: Vec<DVector<f64>>,
     /// Ratio of the greatest to the least pivot.
@@ -88,12 +90,15 @@ impl Influences {
         let solution =
             |place: usize| DVector::from_fn(size, |row, _| elimination.solution[row * width + place]);
         let columns = places.iter().map(|places| places.map(solution)).collect();
-        let self_stresses = (width - assembled.layout.cut.len()..width).map(solution).collect();
+        let cut = width - assembled.layout.cut.len();
+        let self_stresses = (cut..width).map(solution).collect();
+        let couples = (cut - assembled.couples.len()..cut).map(solution).collect();
         let frictionless = if width == 0 { DVector::zeros(0) } else { solution(0) };
         Ok(Some(Self {
             greatest_unknown: as_normal_force(&assembled.layout, &frictionless, &elimination.columns),
             frictionless,
             columns,
+            couples,
             self_stresses,
             condition,
             greatest_load: assembled.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
@@ -118,6 +123,7 @@ impl Elimination {
             }
             places.push([first, sides.len() - 1]);
         }
+        sides.extend(&assembled.couples);
         let units: Vec<DVector<f64>> = assembled.layout.cut_units();
         sides.extend(&units);
         if self.rows.len() != size {
@@ -256,16 +262,18 @@ impl super::KineticEquations {
     /// The same from factored equations, for those that need full pivoting.
     pub(crate) fn influences(&self) -> Influences {
         let sides: Vec<&DVector<f64>> =
-            std::iter::once(&self.load).chain(self.friction.iter().flatten()).collect();
+            std::iter::once(&self.load).chain(self.friction.iter().flatten()).chain(&self.couples).collect();
         let mut solutions = self.factorization.solve(&sides).into_iter();
         let mut next = || solutions.next().expect("every side has a solution");
         let frictionless = self.without_noise(&next());
         let columns = self.contacts.iter().map(|_| [next(), next()]).collect();
+        let couples = self.couples.iter().map(|_| next()).collect();
         Influences {
             greatest_unknown: as_normal_force(&self.layout, &frictionless, self.factorization.column_scale()),
             layout: self.layout.clone(),
             frictionless,
             columns,
+            couples,
             self_stresses: self.self_stresses(),
             condition: self.condition(),
             greatest_load: self.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),

@@ -25,7 +25,7 @@ impl<T: Real> Wrench<T> {
         Self { frame, place, force, couple: T::zero() }
     }
 
-    fn couple(frame: Frame, couple: T) -> Self {
+    pub(super) fn couple(frame: Frame, couple: T) -> Self {
         Self { frame, place: Vector2::zeros(), force: Vector2::zeros(), couple }
     }
 }

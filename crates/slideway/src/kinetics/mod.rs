@@ -148,6 +148,8 @@ pub struct KineticEquations {
     /// Unit friction of each contact at its face where the normal force is positive, and where it is
     /// negative.
     friction: Vec<[DVector<f64>; 2]>,
+    /// Unit friction couple of each friction circle.
+    couples: Vec<DVector<f64>>,
     factorization: Factorization,
     coordinate_rows: Vec<ConstraintRow>,
 }
@@ -176,12 +178,22 @@ impl KineticEquations {
         factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Singular>,
     ) -> Result<Self, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
-        let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows, cut_rows } =
-            assembled;
+        let Assembled {
+            layout,
+            contacts,
+            applied,
+            matrix,
+            load,
+            friction,
+            couples,
+            coordinate_rows,
+            cut_rows,
+        } = assembled;
         let factorization = factor(matrix).map_err(|singular| {
             Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
         })?;
-        let equations = Self { layout, contacts, applied, load, friction, factorization, coordinate_rows };
+        let equations =
+            Self { layout, contacts, applied, load, friction, couples, factorization, coordinate_rows };
         equations.check_cut_rows(mechanism, &cut_rows)?;
         Ok(equations)
     }
@@ -304,6 +316,8 @@ pub(crate) struct Assembled<T> {
     /// Unit friction of each contact at its face where the normal force is positive, and where it is
     /// negative.
     pub(crate) friction: Vec<[DVector<T>; 2]>,
+    /// Unit friction couple of each friction circle, on the first body of its hinge; the opposite one is on the second.
+    pub(crate) couples: Vec<DVector<T>>,
     /// The rows that give the accelerations of the chosen coordinates: C a - right-hand side.
     pub(crate) coordinate_rows: Vec<ConstraintRow<T>>,
     /// The rows of the contacts that are cut, which are not in the matrix.
@@ -329,7 +343,9 @@ impl<T: Real> Assembled<T> {
         let cut_rows = builder.cut(&mut matrix, &mut constraints);
         let load = builder.load(&applied, &constraints, &coordinate_rows)?;
         let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
-        Ok(Self { layout, contacts, applied, matrix, load, friction, coordinate_rows, cut_rows })
+        let couples =
+            mechanism.friction_circles.iter().map(|circle| builder.friction_couple(circle.joint)).collect();
+        Ok(Self { layout, contacts, applied, matrix, load, friction, couples, coordinate_rows, cut_rows })
     }
 
     /// The rows that give the accelerations of the chosen coordinates, where every velocity is zero.
@@ -427,6 +443,15 @@ impl<T: Real> Builder<'_, T> {
         })
     }
 
+    /// A unit couple on the first body of a hinge, and its opposite on the second.
+    fn friction_couple(&self, joint: JointId) -> DVector<T> {
+        let mut column = DVector::zeros(self.layout.len());
+        for wrench in self.mechanism.friction_couple(joint, T::one()) {
+            self.add(&wrench, |row, value| column[row] += value);
+        }
+        column
+    }
+
     /// Adds a force or couple on a body to the three equations of that body.
     fn add(&self, wrench: &Wrench<T>, mut add: impl FnMut(usize, T)) {
         let Some(body) = wrench.frame.body() else { return };
@@ -481,6 +506,14 @@ impl Builder<'_> {
             })
             .collect();
         names.join(", ")
+    }
+}
+
+impl<T: Real> Mechanism<T> {
+    /// A friction couple on the first body of a hinge, and its opposite on the second.
+    pub(crate) fn friction_couple(&self, joint: JointId, couple: T) -> Vec<Wrench<T>> {
+        let JointKind::Hinge([first, second]) = &self.joints[joint.index()].kind else { return Vec::new() };
+        vec![Wrench::couple(first.frame, couple), Wrench::couple(second.frame, -couple)]
     }
 }
 

@@ -211,6 +211,7 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
             "massless: a question for `hold`, or for a model with a drive"
         }
         Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
+        Some(FaultKind::HingeDoesNotTurn { .. }) => "a hinge with friction does not turn",
         Some(
             FaultKind::OutOfRange { .. }
             | FaultKind::StaticBelowKinetic { .. }

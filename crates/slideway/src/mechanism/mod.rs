@@ -542,6 +542,12 @@ impl Mechanism {
 }
 
 impl Mechanism {
+    /// The hinges whose kinetic friction is not zero, each with the number of its friction circle.
+    pub(crate) fn rough_hinges(&self) -> impl Iterator<Item = (usize, JointId)> {
+        let circles = self.friction_circles.iter().enumerate();
+        circles.filter(|(_, circle)| circle.radius > 0.0).map(|(index, circle)| (index, circle.joint))
+    }
+
     /// Refuses friction in hinges, for questions that do not take it into account.
     ///
     /// # Errors

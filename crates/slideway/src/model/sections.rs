@@ -38,7 +38,7 @@ pub(super) struct Sections {
 #[cfg_attr(test, schemars(tag = "type", rename_all = "snake_case", rename = "JointTable"))]
 pub(super) enum JointContents {
     /// A hinge, without friction unless it is given.
-    Hinge(HingeTable),
+    Hinge(Box<HingeTable>),
     /// A carriage, sledge or bushing with a contact at each end.
     BlockSlider(Box<BlockSliderTable>),
     /// A slider pressed on one side along its whole length: one normal force and a couple.
@@ -220,7 +220,7 @@ fn type_of(value: Spanned<DeValue<'_>>) -> (String, Spanned<DeValue<'_>>) {
 fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> {
     let (kind, value) = type_of(value);
     Ok(match kind.as_str() {
-        "hinge" => JointContents::Hinge(deserialize(value)?),
+        "hinge" => JointContents::Hinge(Box::new(deserialize(value)?)),
         "block_slider" => JointContents::BlockSlider(Box::new(deserialize(value)?)),
         "guided_slider" => JointContents::GuidedSlider(Box::new(deserialize(value)?)),
         _ => JointContents::PinInSlot(Box::new(deserialize(value)?)),

@@ -67,6 +67,9 @@ impl Rows {
         for hinge in &solution.hinges {
             row("hinge", &hinge.name, "force_x", hinge.force[0], "N");
             row("hinge", &hinge.name, "force_y", hinge.force[1], "N");
+            if let Some(friction) = hinge.friction {
+                row("hinge", &hinge.name, "friction_couple", friction.couple, "N m");
+            }
         }
         for body in &solution.bodies {
             row("body", &body.name, "acceleration_x", body.acceleration[0], "m/s^2");

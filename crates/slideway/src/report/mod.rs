@@ -551,6 +551,21 @@ pub struct Hinge {
     pub on: String,
     /// Its components (N).
     pub force: [f64; 2],
+    /// Its friction; absent of a hinge without friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<HingeFriction>,
+}
+
+/// Friction in a hinge that turns.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct HingeFriction {
+    /// Friction couple on the body on which the force is counted (N m): radius times hinge force, against the rotation.
+    pub couple: f64,
+    /// Radius of the friction circle, to which the hinge force is tangent (m).
+    pub radius: f64,
+    /// Angular velocity of that body against the other one (rad/s).
+    pub angular_velocity: f64,
 }
 
 /// Acceleration of a body, and what is left over in its balance.
@@ -615,6 +630,19 @@ pub struct Continuum {
     pub directions: Vec<Vec<f64>>,
     /// The guided sliders that would tip in a part of it.
     pub tipping: Vec<String>,
+    /// The friction couple of a hinge that never turns, if it is what is free; absent otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub couple: Option<CoupleRange>,
+}
+
+/// The friction couple of a hinge that never turns, over a range.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct CoupleRange {
+    /// The hinge.
+    pub hinge: String,
+    /// The couple on its first body at each vertex (N m).
+    pub couples: Vec<f64>,
 }
 
 /// A mode with a vanishing determinant and no solution.

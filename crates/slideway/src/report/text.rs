@@ -63,7 +63,11 @@ impl SolveReport {
             Status::Several if self.partial => {
                 format!("{} solutions found; not every pattern could be decided.", self.count)
             }
+            Status::Several if self.has_friction_in_hinges() => format!("{} solutions.", self.count),
             Status::Several => format!("{} solutions, each in its own contact mode.", self.count),
+            Status::Continuum if self.continua.iter().any(|continuum| continuum.couple.is_some()) => {
+                "Infinitely many solutions: a hinge that never turns has no kinetic friction, and its couple is free within limits.".to_owned()
+            }
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
             Status::PreloadGap if self.partial || !self.undecided_modes.is_empty() => {
                 "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
@@ -78,6 +82,11 @@ impl SolveReport {
                 "On the boundary: whether there is a solution cannot be decided within rounding.".to_owned()
             }
         }
+    }
+
+    /// Whether hinges have friction: then several solutions may share a contact mode.
+    fn has_friction_in_hinges(&self) -> bool {
+        self.solutions.iter().flat_map(|solution| &solution.hinges).any(|hinge| hinge.friction.is_some())
     }
 
     /// What becomes of the speed of the only coordinate, in the only solution; none if that is not known.
@@ -370,6 +379,11 @@ impl Text<'_> {
             for direction in &continuum.directions {
                 self.line(&format!("  along {}", vector(direction, &Unit::default())));
             }
+            if let Some(couple) = &continuum.couple {
+                let unit = self.report.model.units.of("N m");
+                let at: Vec<String> = couple.couples.iter().map(|couple| unit.show(*couple)).collect();
+                self.line(&format!("  The couple of {} there: {}.", couple.hinge, at.join(", ")));
+            }
             if !continuum.tipping.is_empty() {
                 self.line(&format!("  In a part of it {} would tip.", continuum.tipping.join(", ")));
             }
@@ -574,6 +588,11 @@ fn motion_table(report: &SolveReport, solution: &Solution) -> String {
         let what = format!("hinge force on {}", hinge.on);
         let unit = units.of("N");
         row(&hinge.name, &what, pair(hinge.force, force_scale, &unit), &unit);
+        if let Some(friction) = hinge.friction {
+            let (moment, radius) = (units.of("N m"), units.of("m").show(friction.radius));
+            let what = format!("friction couple on {}, circle of {radius}", hinge.on);
+            row(&hinge.name, &what, moment.number(friction.couple), &moment);
+        }
     }
     let scale = solution.bodies.iter().flat_map(|body| body.acceleration).map(f64::abs).fold(0.0, f64::max);
     for body in &solution.bodies {

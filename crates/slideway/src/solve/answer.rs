@@ -9,7 +9,7 @@ use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
-use crate::enclosure::{EnclosedModeProblem, Tipping};
+use crate::enclosure::{EnclosedModeProblem, Tipping, spin};
 use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
@@ -26,9 +26,9 @@ use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
 #[derive(Default)]
-struct Tipped {
+pub(super) struct Tipped {
     count: u64,
-    rejected: Vec<report::Rejection>,
+    pub(super) rejected: Vec<report::Rejection>,
     /// Guided sliders of which bounds do not prove that they tip.
     unproven: Vec<String>,
 }
@@ -85,20 +85,12 @@ impl<'a> Answer<'a> {
         let undecided = !lists.undecided.is_empty() || found.is_partial();
         let outcomes = found.result.outcomes();
         Ok(SolveReport {
-            schema: report::SCHEMA,
             status: status(undecided, solutions.len(), gaps.len(), continua.len()),
-            complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
             partial: found.is_partial(),
-            open,
             count,
             gap_state_count,
             strategy: found.result.strategy(),
             nodes: found.result.nodes(),
-            model: self.model(),
-            state: self.state(),
-            rates_not_given: Vec::new(),
-            time: self.configuration.time,
-            steps_from_drawing: self.configuration.steps_from_drawing(),
             patterns: outcomes.map(|outcomes| pattern_summary(outcomes, tipping.count)),
             solutions,
             preload_gap_states: gaps,
@@ -110,6 +102,36 @@ impl<'a> Answer<'a> {
                 outcomes.closest.iter().map(|mode| self.closest_mode(mode)).collect()
             }),
             jammed_groups: self.jammed_groups(found),
+            ..self.report_without_solutions(open)
+        })
+    }
+
+    /// What a report says of the mechanism, and what is left open; no solution.
+    pub(super) fn report_without_solutions(&self, open: Vec<String>) -> SolveReport {
+        SolveReport {
+            schema: report::SCHEMA,
+            status: Status::None,
+            complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
+            partial: false,
+            open,
+            count: "0".to_owned(),
+            gap_state_count: "0".to_owned(),
+            strategy: String::new(),
+            nodes: 0,
+            model: self.model(),
+            state: self.state(),
+            rates_not_given: Vec::new(),
+            time: self.configuration.time,
+            steps_from_drawing: self.configuration.steps_from_drawing(),
+            patterns: None,
+            solutions: Vec::new(),
+            preload_gap_states: Vec::new(),
+            continua: Vec::new(),
+            undecided_modes: Vec::new(),
+            locked_modes: Vec::new(),
+            rejected: Vec::new(),
+            closest_modes: Vec::new(),
+            jammed_groups: Vec::new(),
             margins: None,
             margins_missing: None,
             from_rest: None,
@@ -117,7 +139,7 @@ impl<'a> Answer<'a> {
             uncertainty: None,
             influence: self.influence_summary(),
             condition: self.equations.condition(),
-        })
+        }
     }
 
     /// The contacts without normal force where the others do not hold the block: it floats within its play.
@@ -171,9 +193,8 @@ impl<'a> Answer<'a> {
     }
 
     /// A state as a solution, unless a guided slider would tip in it.
-    fn kept(&self, state: &State<'_>, tipping: &mut Tipped) -> Option<report::Solution> {
-        let unknowns =
-            self.equations.without_noise(&self.influence.unknowns(&self.friction(state), state.normal_force));
+    pub(super) fn kept(&self, state: &State<'_>, tipping: &mut Tipped) -> Option<report::Solution> {
+        let unknowns = self.unknowns(state);
         match self.tipping(state, &unknowns) {
             None => Some(self.solution(state, &unknowns)),
             Some(rejection) => {
@@ -185,6 +206,12 @@ impl<'a> Answer<'a> {
                 None
             }
         }
+    }
+
+    /// All unknowns of the equations in a state.
+    pub(super) fn unknowns(&self, state: &State<'_>) -> DVector<f64> {
+        let of_contacts = self.influence.unknowns(&self.friction(state), state.normal_force);
+        self.equations.without_noise(&(of_contacts + self.influence.of_couples(state.hinges)))
     }
 
     /// Whether bounds of the exact numbers prove that a guided slider tips; where there are none it is not
@@ -298,7 +325,7 @@ impl<'a> Answer<'a> {
             attainability: not_computed("the preload acts between the faces"),
             contacts: self.contacts(state, unknowns, &friction),
             joints: self.joint_modes(&state.signs),
-            hinges: self.hinges(unknowns),
+            hinges: self.hinges(state, unknowns),
             bodies: self.bodies(unknowns, &residuals),
             coordinates: self.coordinates(state, unknowns),
             friction_exceeds_loads: self.friction_exceeds_loads(state),
@@ -339,6 +366,7 @@ impl<'a> Answer<'a> {
             unknowns,
             normal_force: state.normal_force,
             friction,
+            hinges: state.hinges,
         };
         balance.residuals()
     }
@@ -393,7 +421,7 @@ impl<'a> Answer<'a> {
         self.sliders().map(one).collect()
     }
 
-    fn hinges(&self, unknowns: &DVector<f64>) -> Vec<report::Hinge> {
+    fn hinges(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Vec<report::Hinge> {
         let joints = self.mechanism.joints.iter().enumerate();
         let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
             let JointKind::Hinge(ends) = &joint.kind else { return None };
@@ -410,6 +438,13 @@ impl<'a> Answer<'a> {
                 name: joint.name.to_string(),
                 on: self.mechanism.frame_name(on).to_owned(),
                 force: [sign * component(0)?, sign * component(1)?],
+                friction: state.hinges.iter().find(|hinge| hinge.joint.index() == index).map(|hinge| {
+                    report::HingeFriction {
+                        couple: sign * hinge.couple + 0.0,
+                        radius: self.mechanism.friction_circles[hinge.circle].radius,
+                        angular_velocity: sign * spin(self.mechanism, self.configuration, hinge.joint) + 0.0,
+                    }
+                }),
             })
         };
         joints.filter_map(one).collect()
@@ -498,6 +533,7 @@ impl<'a> Answer<'a> {
             vertices: list(mode.set.vertices()),
             directions: list(mode.set.directions()),
             tipping: self.tipping_in(mode),
+            couple: None,
         })
     }
 
@@ -531,7 +567,7 @@ fn tips_everywhere(mode: &SingularMode, cut: &SingularMode) -> bool {
     mode.set.is_continuum() && cut.set == SolutionSet::Empty
 }
 
-fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
+pub(super) fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
     match (solutions, gaps, continua) {
         (_, _, 1..) => Status::Continuum,
         (0, 0, 0) if undecided => Status::Unknown,

@@ -119,5 +119,6 @@ fn vertex<'s>(mode: &'s SingularMode, normal_force: &'s DVector<f64>) -> State<'
         on_boundary: false,
         determinant: 0.0,
         certificate: &mode.certificate,
+        hinges: &[],
     }
 }

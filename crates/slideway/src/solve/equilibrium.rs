@@ -5,7 +5,7 @@
 
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
-use crate::influence::ContactFriction;
+use crate::influence::{ContactFriction, HingeState};
 use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
 use crate::mechanism::{JointKind, Mechanism};
 use nalgebra::{DVector, Vector2};
@@ -32,6 +32,8 @@ pub(super) struct Balance<'a> {
     /// The normal forces as the mode problem gives them, so that the balance tests them, too.
     pub(super) normal_force: &'a DVector<f64>,
     pub(super) friction: &'a [ContactFriction],
+    /// The hinges with friction, with their forces as the mode problem gives them.
+    pub(super) hinges: &'a [HingeState],
 }
 
 impl Balance<'_> {
@@ -53,6 +55,9 @@ impl Balance<'_> {
             let value = self.unknowns[3 * self.mechanism.bodies.len() + index];
             forces.extend(self.reaction(*reaction, value));
         }
+        for hinge in self.hinges {
+            forces.extend(self.mechanism.friction_couple(hinge.joint, hinge.couple));
+        }
         for (index, friction) in self.friction.iter().enumerate() {
             let (id, contact) = (ContactId(index), &self.contacts[index]);
             forces.extend(friction_forces(self.mechanism, id, contact, 1.0, friction.positive_face));
@@ -70,6 +75,8 @@ impl Balance<'_> {
     fn reaction(&self, reaction: Reaction, value: f64) -> Vec<Wrench> {
         match reaction {
             Reaction::Hinge(joint, axis) => {
+                let rough = self.hinges.iter().find(|hinge| hinge.joint == joint);
+                let value = rough.map_or(value, |hinge| hinge.force[axis]);
                 let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
                 self.hinge(joint, value * axis)
             }

@@ -27,6 +27,7 @@ mod faces;
 mod found;
 mod friction;
 mod from_rest;
+mod hinges;
 mod margins;
 mod mode_problem;
 mod no_sliding;
@@ -41,6 +42,7 @@ mod words;
 
 pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
+pub use hinges::exact_block_problem;
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
@@ -136,10 +138,15 @@ pub fn solve_with(
 ) -> Result<SolveReport, Faults> {
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
-    mechanism.check_frictionless_hinges()?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
+    if stages.mechanism.rough_hinges().next().is_some() {
+        let mut report = hinges::solve((model, &ranges), (&stages, &equations), options, progress)?;
+        report.rates_not_given = rates_not_given(model);
+        report.suit_units();
+        return finite(report);
+    }
     let Stages { mechanism, configuration, influence, velocity_signs, .. } = &stages;
     let enclosed = enclosure(model, &middle(&ranges), mechanism, configuration);
     let (result, jumps) = searched(&enclosed, stages.data(), &options.search, progress)?;
@@ -159,8 +166,7 @@ pub fn solve_with(
         rounded: enclosed.as_ref().err(),
         most: options.most,
     })?;
-    let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
-    report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
+    report.rates_not_given = rates_not_given(model);
     sharing::add(&mut report, &stages, options.margins)?;
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok());
@@ -188,6 +194,12 @@ fn searched(
     }
     let problem = data.problem()?;
     Ok((search(&problem, options, progress), problem.jumps_of_contacts()))
+}
+
+/// The coordinates whose rates the model does not give.
+fn rates_not_given(model: &Model) -> Vec<String> {
+    let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
+    not_given.map(|coordinate| coordinate.name.to_string()).collect()
 }
 
 /// The middle of each range, as the only value.

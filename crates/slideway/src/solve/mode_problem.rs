@@ -31,7 +31,8 @@ pub fn velocity_signs(mechanism: &Mechanism, configuration: &Configuration) -> R
         let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
         let joint = mechanism.contacts[first].joint;
         let place = mechanism.joints[joint.index()].place.clone();
-        let why = why(mechanism, configuration, first);
+        let why =
+            why(mechanism, configuration, &|mechanism, state| sliding_signs(mechanism, state)[first] != 0.0);
         let kind = FaultKind::ZeroSlidingVelocity { contacts, why };
         return Err(Fault::new(kind, place).into());
     }
@@ -139,9 +140,13 @@ pub(crate) fn influence_coefficients(
 /// the theory says so, which rounding would hide: for guided sliders, whose couple takes up the moment of
 /// friction, and wherever the moment of friction has no influence.
 pub(crate) fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
+    without_rounding(mechanism, [0, 1].map(|side| influence.eta(side)))
+}
+
+/// The same of any rows: a column for each contact.
+pub(super) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) -> BySide<DMatrix<f64>> {
     let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
-    let positive = influence.eta(0).map(without_rounding);
-    let mut negative = influence.eta(1).map(without_rounding);
+    let [positive, mut negative] = eta.map(|eta| eta.map(without_rounding));
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
         let difference = (positive.column(k) - negative.column(k)).amax();

@@ -1,5 +1,6 @@
 //! A solution of the mode problem as the answer sees it: what every contact does, and the normal forces.
 
+use crate::influence::HingeState;
 use crate::modes::{Certificate, ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet};
 use nalgebra::DVector;
 
@@ -14,6 +15,8 @@ pub(super) struct State<'s> {
     pub(super) on_boundary: bool,
     pub(super) determinant: f64,
     pub(super) certificate: &'s Certificate,
+    /// The hinges with friction.
+    pub(super) hinges: &'s [HingeState],
 }
 
 pub(super) fn pressed(pattern: &[Side]) -> Vec<ContactState> {
@@ -30,6 +33,7 @@ pub(super) fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState
         on_boundary: !solution.on_boundary.is_empty(),
         determinant: solution.determinant,
         certificate: &solution.certificate,
+        hinges: &[],
     }
 }
 
@@ -47,6 +51,7 @@ pub(super) fn in_gap(gap: &GapState) -> State<'_> {
         on_boundary: !gap.on_boundary.is_empty(),
         determinant: gap.determinant,
         certificate: &gap.certificate,
+        hinges: &[],
     }
 }
 
@@ -74,6 +79,7 @@ pub(super) fn point(mode: &SingularMode) -> Option<State<'_>> {
         on_boundary: true,
         determinant: 0.0,
         certificate: &mode.certificate,
+        hinges: &[],
     })
 }
 

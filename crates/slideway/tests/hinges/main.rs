@@ -2,4 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
+mod cases;
+mod closed_forms;
 mod reading;
+mod reference;
+mod turning;

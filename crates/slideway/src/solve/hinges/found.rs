@@ -1,0 +1,179 @@
+//! From the solutions of the block mode problem back to the mechanism.
+
+use super::super::answer::{Answer, Tipped, status};
+use super::super::attainability::not_computed;
+use super::super::state::{State, pattern, signs};
+use crate::attainability::ElasticHinges;
+use crate::enclosure::{NotEnclosed, TurningHinge};
+use crate::ids::JointId;
+use crate::influence::HingeState;
+use crate::interval::Interval;
+use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
+use crate::modes::{Certificate, ContactState};
+use crate::report::{Proof, SolveReport};
+use nalgebra::{DMatrix, DVector};
+
+/// A search, and whether it was one for bounds of the exact numbers.
+pub(super) struct BlocksFound<'f> {
+    pub(super) result: &'f BlockResult,
+    /// Why the proof refers to the rounded numbers only.
+    pub(super) rounded: Option<&'f NotEnclosed>,
+    /// The most solutions that are listed.
+    pub(super) most: usize,
+    /// Whether parameters are known within bounds.
+    pub(super) has_ranges: bool,
+}
+
+impl BlocksFound<'_> {
+    fn strategy(&self) -> String {
+        let why = match self.result.unique_for_every_load {
+            Some(UniqueForEveryLoad::BlockNorms) => {
+                "; every load has one solution, by the norms of the blocks"
+            }
+            Some(UniqueForEveryLoad::ScaledNorm) => {
+                "; every load has one solution, by scaled singular values"
+            }
+            None => "",
+        };
+        format!("friction in hinges, sectors of directions{why}")
+    }
+
+    /// What keeps the list of solutions from being proven complete.
+    fn open(&self) -> Vec<String> {
+        let mut open: Vec<String> = self.result.open.iter().map(region_in_words).collect();
+        open.extend(self.result.stopped.map(|reason| reason.to_string()));
+        if open.is_empty() && self.result.complete != Proof::Proven {
+            open.push("not every exclusion or outcome is proven".to_owned());
+        }
+        open.extend(
+            self.rounded.map(|reason| format!("what is proven holds for rounded numbers only: {reason}")),
+        );
+        if self.has_ranges {
+            open.push("parameters known within bounds are taken at the middle of their ranges".to_owned());
+        }
+        open
+    }
+}
+
+/// "fold, in the modes + ? -": a region that is not decided.
+fn region_in_words(region: &OpenRegion) -> String {
+    let sign = |state: &Option<ContactState>| state.map_or("?".to_owned(), |state| pattern(&[state]));
+    let signs: Vec<String> = region.states.iter().map(sign).collect();
+    let place = if signs.is_empty() { String::new() } else { format!(" (signs {})", signs.join(" ")) };
+    format!("a region is not decided: {}{place}", region.label.as_str())
+}
+
+/// An answer with friction in hinges.
+pub(super) struct HingedAnswer<'a> {
+    pub(super) answer: Answer<'a>,
+    pub(super) problem: &'a BlockProblem,
+    pub(super) hinges: &'a [TurningHinge],
+}
+
+impl HingedAnswer<'_> {
+    /// The report on all solutions.
+    pub(super) fn report(&self, found: &BlocksFound<'_>) -> SolveReport {
+        let joints: Vec<JointId> = self.hinges.iter().map(|hinge| hinge.joint).collect();
+        let elastic = ElasticHinges::new(self.answer.mechanism, self.answer.equations, &joints);
+        let mut tipping = Tipped::default();
+        let (mut solutions, mut gaps) = (Vec::new(), Vec::new());
+        for solution in found.result.solutions.iter().take(found.most) {
+            let directions = self.directions(solution);
+            let oriented = directions.determinant();
+            let signs: Vec<i8> = (0..solution.states.len())
+                .map(|k| if solution.on_boundary.contains(&k) { 0 } else { signs(&solution.states)[k] })
+                .collect();
+            let mut shares = vec![None; solution.states.len()];
+            solution.gaps.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
+            let state = State {
+                pattern: &solution.states,
+                patterns: vec![pattern(&solution.states)],
+                normal_force: &DVector::from_column_slice(&solution.forces),
+                shares,
+                signs,
+                on_boundary: !solution.on_boundary.is_empty(),
+                determinant: oriented * solution.states.iter().map(|state| state.sign()).product::<f64>(),
+                certificate: &certificate(solution),
+                hinges: &self.hinge_states(solution),
+            };
+            let Some(mut kept) = self.answer.kept(&state, &mut tipping) else { continue };
+            if !solution.gaps.is_empty() {
+                gaps.push(kept);
+                continue;
+            }
+            kept.attainability = if solution.on_boundary.is_empty() && solution.unloaded.is_empty() {
+                elastic.of(directions)
+            } else {
+                not_computed("a contact is about to change side, or a hinge with friction carries nothing")
+            };
+            solutions.push(kept);
+        }
+        let mut open = found.open();
+        open.extend(self.answer.guided_sliders().map(|(joint, _)| {
+            let name = &self.answer.mechanism.joints[joint.index()].name;
+            format!("whether {name} tips is computed, not proven")
+        }));
+        let undecided = !found.result.open.is_empty() || found.result.stopped.is_some();
+        let found_solutions = found.result.solutions.len();
+        let left_out = found_solutions - found_solutions.min(found.most);
+        SolveReport {
+            status: status(undecided, solutions.len(), gaps.len(), 0),
+            partial: found.result.stopped.is_some(),
+            count: (solutions.len() + left_out).to_string(),
+            gap_state_count: gaps.len().to_string(),
+            strategy: found.strategy(),
+            nodes: found.result.nodes,
+            solutions,
+            preload_gap_states: gaps,
+            rejected: tipping.rejected,
+            ..self.answer.report_without_solutions(open)
+        }
+    }
+
+    /// `I - H D`, with the directions `x_j / |x_j|` of the blocks on the diagonal of D (theory of hinges, section 4).
+    fn directions(&self, solution: &BlockSolution) -> DMatrix<f64> {
+        let contacts = self.problem.contacts();
+        let rows = contacts + 2 * self.problem.hinges();
+        let response = |row: usize, column: usize, state: ContactState| match state.side() {
+            Some(side) => self.problem.response(side).centre()[(row, column)],
+            None => 0.0,
+        };
+        DMatrix::from_fn(rows, rows, |row, column| {
+            let product = match column.checked_sub(contacts) {
+                None => response(row, column, solution.states[column]) * solution.states[column].sign(),
+                Some(component) => {
+                    let (hinge, axis) = (component / 2, component % 2);
+                    let [x, y] = solution.reactions[hinge];
+                    let length = x.hypot(y);
+                    let direction = if length > 0.0 { solution.reactions[hinge][axis] / length } else { 0.0 };
+                    response(row, contacts + hinge, ContactState::Positive) * direction
+                }
+            };
+            if row == column { 1.0 - product } else { -product }
+        })
+    }
+
+    fn hinge_states(&self, solution: &BlockSolution) -> Vec<HingeState> {
+        let one = |(hinge, force): (&TurningHinge, &[f64; 2])| {
+            let radius = self.answer.mechanism.friction_circles[hinge.circle].radius;
+            let couple = -hinge.sense * radius * force[0].hypot(force[1]);
+            HingeState { circle: hinge.circle, joint: hinge.joint, force: *force, couple }
+        };
+        self.hinges.iter().zip(&solution.reactions).map(one).collect()
+    }
+}
+
+/// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps.
+fn certificate(solution: &BlockSolution) -> Certificate {
+    let bounds = solution.states.iter().zip(&solution.enclosure);
+    let unknowns = bounds.map(|(state, bounds)| match state {
+        ContactState::Gap => *bounds,
+        ContactState::Positive | ContactState::Negative => bounds.abs(),
+    });
+    let unknowns: Vec<Interval> = unknowns.collect();
+    if solution.on_boundary.is_empty() {
+        Certificate::Proven { unknowns }
+    } else {
+        Certificate::Boundary { unknowns, zero: solution.on_boundary.clone(), full_share: Vec::new() }
+    }
+}

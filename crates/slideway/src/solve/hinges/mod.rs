@@ -1,0 +1,132 @@
+//! Solutions with friction in hinges: the block mode problem, and what its solutions are in the mechanism (theory of
+//! hinges).
+
+mod found;
+mod spin;
+mod standing;
+
+use super::answer::Answer;
+use super::mode_problem::{overflow, preload_columns, without_rounding};
+use super::stages::Stages;
+use super::{SolveOptions, middle};
+use crate::configuration::Configuration;
+use crate::enclosure::{BlockCoefficients, TurningHinge, enclosed_block_problem};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::JointId;
+use crate::kinetics::KineticEquations;
+use crate::mechanism::Mechanism;
+use crate::model::{Model, ParameterRange};
+use crate::modes::BySide;
+use crate::modes::blocks::{self, BlockProblem};
+use crate::progress::Callback;
+use crate::report::SolveReport;
+use found::{BlocksFound, HingedAnswer};
+use nalgebra::{DMatrix, DVector};
+use spin::{Spins, never_turn, spins};
+
+/// All solutions of a mechanism with friction in hinges.
+///
+/// # Errors
+/// Hinges with friction that do not turn now, or more than one that never does; friction in hinges beside guides that share a load; numbers beyond the range
+/// of floating point.
+pub(super) fn solve(
+    (model, ranges): (&Model, &[ParameterRange]),
+    (stages, equations): (&Stages, &KineticEquations),
+    options: &SolveOptions,
+    progress: &mut Callback<'_>,
+) -> Result<SolveReport, Faults> {
+    let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
+    let contacts = mechanism.contacts.len();
+    let answer = Answer {
+        mechanism,
+        configuration,
+        equations,
+        influence,
+        velocity_signs,
+        jumps: vec![false; contacts],
+        elasticity: None,
+        shared: None,
+        enclosed: None,
+    };
+    check_determinate(mechanism)?;
+    let Spins { turning, standing } = spins(stages)?;
+    if let ([hinge], [], true) = (&standing[..], &turning[..], contacts <= standing::MOST_CONTACTS) {
+        return standing::ranges(&answer, stages, *hinge);
+    }
+    never_turn(mechanism, &standing)?;
+    let problem = block_problem(stages, &turning)?;
+    let enclosed = enclosed_block_problem(model, &middle(ranges), (mechanism, configuration), &turning);
+    let result = blocks::search(enclosed.as_ref().unwrap_or(&problem), &options.search, progress);
+    let found = BlocksFound {
+        result: &result,
+        rounded: enclosed.as_ref().err(),
+        most: options.most,
+        has_ranges: !ranges.is_empty(),
+    };
+    Ok(HingedAnswer { answer, problem: &problem, hinges: &turning }.report(&found))
+}
+
+/// The block mode problem of a model with friction in hinges, in floating point: a problem with exact numbers, which
+/// differ from those of the mechanism by rounding. Blocks are the contacts, then the hinges with friction in the order of
+/// the model, with their forces on the first body of each.
+///
+/// # Errors
+/// Whatever [`solve`](crate::solve::solve) refuses.
+pub fn exact_block_problem(model: &Model) -> Result<BlockProblem, Faults> {
+    let mechanism = Mechanism::new(model)?;
+    mechanism.check_size()?;
+    check_determinate(&mechanism)?;
+    let configuration = Configuration::new(&mechanism)?;
+    let (stages, _) = Stages::with_equations(mechanism, configuration)?;
+    let Spins { turning, standing } = spins(&stages)?;
+    never_turn(&stages.mechanism, &standing)?;
+    block_problem(&stages, &turning)
+}
+
+/// Refuses friction in hinges where guides share a load.
+fn check_determinate(mechanism: &Mechanism) -> Result<(), Faults> {
+    if mechanism.excess.is_empty() {
+        return Ok(());
+    }
+    let hinges = mechanism.rough_hinges().map(|(_, joint)| mechanism.joints[joint.index()].name.to_string());
+    Err(Fault::general(FaultKind::FrictionInHingesOfRedundant { hinges: hinges.collect() }).into())
+}
+
+fn block_problem(stages: &Stages, hinges: &[TurningHinge]) -> Result<BlockProblem, Faults> {
+    let numbers = block_coefficients(stages, hinges);
+    BlockProblem::new(numbers.response(), numbers.jumps(), numbers.frictionless).map_err(|_| overflow())
+}
+
+/// What the block mode problem is made of, in floating point.
+fn block_coefficients(stages: &Stages, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
+    let Stages { mechanism, influence, velocity_signs, .. } = stages;
+    let contacts = &mechanism.contacts;
+    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
+    let rows = influence.block_rows(&joints);
+    let eta = [0, 1].map(|side| {
+        DMatrix::from_fn(rows.len(), contacts.len(), |row, k| influence.columns[k][side][rows[row]])
+    });
+    let eta = without_rounding(mechanism, eta);
+    let of_contacts = |value: &dyn Fn(usize) -> f64| DVector::from_fn(contacts.len(), |k, _| value(k));
+    BlockCoefficients {
+        eta_preload: preload_columns(mechanism, &eta),
+        eta,
+        mu: BySide {
+            positive: of_contacts(&|k| contacts[k].mu[0]),
+            negative: of_contacts(&|k| contacts[k].mu[1]),
+        },
+        preload: BySide {
+            positive: of_contacts(&|k| contacts[k].preload[0]),
+            negative: of_contacts(&|k| contacts[k].preload[1]),
+        },
+        velocity_signs: velocity_signs.clone(),
+        couples: DMatrix::from_fn(rows.len(), hinges.len(), |row, hinge| {
+            influence.couples[hinges[hinge].circle][rows[row]]
+        }),
+        leverage: DVector::from_fn(hinges.len(), |hinge, _| {
+            let TurningHinge { circle, sense, .. } = hinges[hinge];
+            -mechanism.friction_circles[circle].radius * sense
+        }),
+        frictionless: DVector::from_fn(rows.len(), |row, _| influence.frictionless[rows[row]]),
+    }
+}

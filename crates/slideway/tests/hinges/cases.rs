@@ -1,0 +1,206 @@
+//! Reference cases of `reference/hinges.toml` as models: drawn in their state.
+
+use nalgebra::{Rotation2, Vector2};
+use serde::Deserialize;
+use slideway::Model;
+use std::fmt::Write as _;
+use std::path::Path;
+
+#[derive(Deserialize)]
+struct File {
+    case: Vec<Case>,
+}
+
+#[derive(Deserialize)]
+pub(crate) struct Case {
+    pub(crate) name: String,
+    gravity: [f64; 2],
+    bodies: Vec<Body>,
+    pub(crate) hinges: Vec<Hinge>,
+    #[serde(default)]
+    contacts: Vec<Contact>,
+    #[serde(default)]
+    forces: Vec<Force>,
+    drive: Option<Drive>,
+    /// Absent of cases at rest.
+    pub(crate) count: Option<usize>,
+    #[serde(default)]
+    pub(crate) solution: Vec<Solution>,
+}
+
+#[derive(Deserialize)]
+struct Body {
+    name: String,
+    m: f64,
+    #[serde(rename = "J")]
+    inertia: f64,
+    pose: [f64; 3],
+    vel: [f64; 3],
+}
+
+#[derive(Deserialize)]
+pub(crate) struct Hinge {
+    a: String,
+    pa: [f64; 2],
+    b: String,
+    pb: [f64; 2],
+    pub(crate) r: f64,
+}
+
+#[derive(Deserialize)]
+struct Contact {
+    guide: String,
+    angle: f64,
+    block: String,
+    #[serde(rename = "P")]
+    point: [f64; 2],
+    half_height: f64,
+    mu: f64,
+}
+
+#[derive(Deserialize)]
+struct Force {
+    body: String,
+    at: [f64; 2],
+    #[serde(rename = "F")]
+    components: [f64; 2],
+    torque: f64,
+}
+
+#[derive(Deserialize)]
+struct Drive {
+    body: String,
+    angular_acceleration: f64,
+}
+
+/// Forces of hinges act on b, its second body.
+#[derive(Deserialize)]
+pub(crate) struct Solution {
+    pub(crate) sides: Vec<i32>,
+    #[serde(rename = "N")]
+    pub(crate) normal: Vec<f64>,
+    #[serde(rename = "R")]
+    pub(crate) hinge: Vec<[f64; 2]>,
+    pub(crate) acceleration: Vec<f64>,
+    #[serde(rename = "det_I_minus_HD")]
+    pub(crate) determinant: f64,
+    pub(crate) drive_torque: Option<f64>,
+}
+
+/// The cases in motion.
+pub(crate) fn moving() -> Vec<Case> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
+    let file: File = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let cases: Vec<Case> = file.case.into_iter().filter(|case| case.count.is_some()).collect();
+    assert!(cases.len() >= 8, "the reference is gone");
+    cases
+}
+
+impl Case {
+    /// The friction radius of every hinge is multiplied by a factor.
+    pub(crate) fn model(&self, factor: f64) -> Model {
+        Model::parse(&self.text(factor)).unwrap_or_else(|faults| panic!("{}: {faults:?}", self.name))
+    }
+
+    fn text(&self, factor: f64) -> String {
+        let mut text = format!("gravity = [{:?}, {:?}]\n", self.gravity[0], self.gravity[1]);
+        let mut points = String::from("[points]\n");
+        let mut owned: Vec<Vec<String>> = vec![Vec::new(); self.bodies.len()];
+        let mut point = |name: String, body: &str, at: [f64; 2]| {
+            let place = self.world(body, at);
+            writeln!(points, "{name} = [{:?}, {:?}]", place.x, place.y).unwrap();
+            if let Some(index) = self.bodies.iter().position(|other| other.name == body) {
+                owned[index].push(format!("{name:?}"));
+            }
+            format!("{body}.{name}")
+        };
+        let mut joints = String::new();
+        for (index, hinge) in self.hinges.iter().enumerate() {
+            let ends = [
+                point(format!("b{index}"), &hinge.b, hinge.pb),
+                point(format!("a{index}"), &hinge.a, hinge.pa),
+            ];
+            let radius = hinge.r * factor;
+            writeln!(
+                joints,
+                "[joints.hinge{index}]\ntype = \"hinge\"\nbetween = {ends:?}\nfriction_radius = {radius:?}"
+            )
+            .unwrap();
+        }
+        self.write_sliders(&mut joints);
+        let mut loads = String::new();
+        for (index, Force { body, at, components, torque }) in self.forces.iter().enumerate() {
+            let at = point(format!("f{index}"), body, *at);
+            writeln!(
+                loads,
+                "[loads.force{index}]\ntype = \"force\"\nat = {at:?}\ncomponents = {components:?}"
+            )
+            .unwrap();
+            writeln!(loads, "[loads.torque{index}]\ntype = \"torque\"\nbody = {body:?}\nmoment = {torque:?}")
+                .unwrap();
+        }
+        text += &points;
+        for (body, owned) in self.bodies.iter().zip(owned) {
+            let [x, y, _] = body.pose;
+            let inertia = if body.m == 0.0 {
+                "massless = true".to_owned()
+            } else {
+                format!(
+                    "mass = {:?}\nmoment_of_inertia = {:?}\ncentre_of_mass = [{x:?}, {y:?}]",
+                    body.m, body.inertia
+                )
+            };
+            writeln!(text, "[bodies.{}]\npoints = [{}]\n{inertia}", body.name, owned.join(", ")).unwrap();
+        }
+        text += &joints;
+        text += &loads;
+        let Body { name, vel, .. } = &self.bodies[0];
+        writeln!(text, "[coordinates.phi]\nrotation = {name:?}\nrate = {:?}", vel[2]).unwrap();
+        if let Some(Drive { body, angular_acceleration }) = &self.drive {
+            writeln!(
+                text,
+                "[drives.motor]\ncoordinate = \"phi\"\nacceleration = {angular_acceleration:?}\ntorque = {{ body = {body:?} }}"
+            )
+            .unwrap();
+        }
+        text
+    }
+
+    pub(crate) fn contacts(&self) -> usize {
+        self.contacts.len()
+    }
+
+    /// A contact by itself is a pin in a slot, two of one block are a block slider.
+    fn write_sliders(&self, joints: &mut String) {
+        let mut index = 0;
+        while let Some(contact) = self.contacts.get(index) {
+            let partner = self.contacts.get(index + 1).filter(|other| other.block == contact.block);
+            let first = self.world(&contact.block, contact.point);
+            let last = partner.map_or(first, |other| self.world(&other.block, other.point));
+            let (at, length) = ((first + last) / 2.0, (first - last).norm());
+            let Contact { guide, angle, block, half_height, mu, .. } = contact;
+            writeln!(
+                joints,
+                "[joints.slider{index}]\nblock = {block:?}\nguide = {guide:?}\nat = [{:?}, {:?}]\nalong = {angle:?}\nmu = {mu:?}",
+                at.x, at.y
+            )
+            .unwrap();
+            if partner.is_some() {
+                writeln!(
+                    joints,
+                    "type = \"block_slider\"\nlength = {length:?}\nheight = {:?}",
+                    2.0 * half_height
+                )
+                .unwrap();
+            } else {
+                joints.push_str("type = \"pin_in_slot\"\n");
+            }
+            index += 1 + usize::from(partner.is_some());
+        }
+    }
+
+    fn world(&self, body: &str, [x, y]: [f64; 2]) -> Vector2<f64> {
+        let pose = self.bodies.iter().find(|other| other.name == body).map_or([0.0; 3], |body| body.pose);
+        Vector2::new(pose[0], pose[1]) + Rotation2::new(pose[2]) * Vector2::new(x, y)
+    }
+}
