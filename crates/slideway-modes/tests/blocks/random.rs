@@ -1,0 +1,80 @@
+//! Random problems.
+
+use nalgebra::DVector;
+
+use crate::support::{Numbers, Plain, assert_proven, assert_same, degree, unknowns};
+
+/// Solutions by Newton's method from random starts.
+fn from_many_starts(plain: &Plain, starts: usize, numbers: &mut Numbers) -> Vec<DVector<f64>> {
+    let mut found: Vec<DVector<f64>> = Vec::new();
+    for start in 0..starts {
+        let scale = 10.0_f64.powi((start % 4) as i32 - 1);
+        let mut x = numbers.vector(plain.load.len()) * scale;
+        for _ in 0..60 {
+            let Some(step) = plain.jacobian(&x).lu().solve(&plain.residual(&x)) else { break };
+            x -= step;
+        }
+        let size = x.amax();
+        if size.is_finite() && plain.residual(&x).amax() <= 1e-12 * size.max(1.0) {
+            let known = found.iter().any(|other| (other - &x).amax() <= 1e-8 * size);
+            if !known {
+                found.push(x);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn newtons_method_from_many_starts_finds_no_other_solution() {
+    let mut numbers = Numbers(7);
+    let mut most = 0;
+    for (hinges, contacts, problems) in
+        [(2, 0, 12), (2, 2, 8), (3, 0, 6), (3, 2, 4), (4, 1, 3), (5, 0, 2), (6, 0, 1)]
+    {
+        for _ in 0..problems {
+            let plain = Plain::random(&mut numbers, contacts, hinges, 0.8);
+            let result = plain.solve();
+            println!(
+                "h {hinges}, s {contacts}: {} solutions, {} nodes",
+                result.solutions.len(),
+                result.nodes
+            );
+            assert_proven(&result);
+            most = most.max(result.solutions.len());
+            for x in from_many_starts(&plain, 300, &mut numbers) {
+                let near = |solution| (unknowns(solution) - &x).amax() <= 1e-7 * x.amax();
+                assert!(result.solutions.iter().any(near), "{x}");
+            }
+        }
+    }
+    assert!(most >= 4, "{most}");
+}
+
+#[test]
+fn another_division_of_directions_gives_the_same_answer() {
+    let mut numbers = Numbers(11);
+    for (hinges, contacts) in [(1, 2), (2, 1), (3, 1), (3, 3), (4, 0)] {
+        let plain = Plain::random(&mut numbers, contacts, hinges, 0.9);
+        let (one, other) = (plain.solve(), plain.solve_turned(0.4));
+        assert_proven(&one);
+        assert_same(&one, &other);
+    }
+}
+
+#[test]
+fn the_degree_does_not_depend_on_the_load() {
+    let mut numbers = Numbers(13);
+    for _ in 0..4 {
+        let plain = Plain::random(&mut numbers, 1, 2, 1.0);
+        let degrees: Vec<i32> = (0..6)
+            .map(|_| {
+                let load = numbers.vector(plain.load.len());
+                let result = Plain { load, ..plain.clone() }.solve();
+                assert_proven(&result);
+                degree(&result)
+            })
+            .collect();
+        assert!(degrees.iter().all(|degree| *degree == degrees[0]), "{degrees:?}");
+    }
+}
