@@ -24,7 +24,7 @@
 //! `problem.rs`, `result.rs`: what is given and returned. `sector.rs`: directions; `equations.rs`: a piece and
 //! its equations. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
 //! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load. `tree.rs`: the
-//! search; `open.rs`: what it leaves open; `solutions.rs`: what it found.
+//! search; `unloaded.rs`: blocks on which nothing acts; `open.rs`: what it leaves open; `solutions.rs`: what it found.
 
 mod at_most_one;
 mod equations;
@@ -36,6 +36,7 @@ mod sector;
 mod solutions;
 mod tree;
 mod uniqueness;
+mod unloaded;
 mod zero;
 
 pub use problem::BlockProblem;
@@ -78,18 +79,41 @@ pub fn search_turned(
     angle: f64,
 ) -> BlockResult {
     let unique = uniqueness::unique_for_every_load(problem);
-    if unique.is_some()
-        && let Some(zero) = zero::proven_everywhere(problem)
-    {
-        let zeros = vec![zero];
-        let found = Found { zeros, undecided: Vec::new(), stopped: None, nodes: 1 };
-        return answer(problem, found, unique);
+    let unloaded = unloaded::unloaded_blocks(problem);
+    let mut nodes = 0;
+    if (1..problem.blocks()).contains(&unloaded.len()) {
+        let at_rest = found(&unloaded::part(problem, &unloaded), unique.is_some(), options, progress, angle);
+        nodes = at_rest.nodes;
+        if let Some(orientation) = at_rest.only_rests() {
+            let loaded: Vec<usize> =
+                (0..problem.blocks()).filter(|block| !unloaded.contains(block)).collect();
+            let part = found(&unloaded::part(problem, &loaded), unique.is_some(), options, progress, angle);
+            let mut all = unloaded::embed(problem, &loaded, part, orientation);
+            all.nodes += nodes;
+            return answer(problem, all, unique);
+        }
+    }
+    let mut all = found(problem, unique.is_some(), options, progress, angle);
+    all.nodes += nodes;
+    answer(problem, all, unique)
+}
+
+/// What is found; `unique` says whether there is exactly one solution for every load.
+fn found(
+    problem: &BlockProblem,
+    unique: bool,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+    angle: f64,
+) -> Found {
+    if unique && let Some(zero) = zero::proven_everywhere(problem) {
+        return Found { zeros: vec![zero], undecided: Vec::new(), stopped: None, nodes: 1 };
     }
     let mut found = Tree::new(problem, options, progress, angle).search(Piece::all(problem));
     if problem.has_no_load() {
         found.zeros.insert(0, zero::Zero::at_rest(problem));
     }
-    answer(problem, found, unique)
+    found
 }
 
 fn answer(problem: &BlockProblem, found: Found, unique: Option<UniqueForEveryLoad>) -> BlockResult {

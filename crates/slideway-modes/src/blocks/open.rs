@@ -17,7 +17,7 @@ const NO_FORCE: f64 = 1e-8;
 const SINGULAR_ON_CURVE: f64 = 1e-7;
 const SINGULAR_NEAR_FOLD: f64 = 1e-4;
 /// Residuals below this share of the forces count as zero.
-const NO_RESIDUAL: f64 = 1e-11;
+const NO_RESIDUAL: f64 = 1e-14;
 /// The relative length of the step along a curve of solutions.
 const STEP: f64 = 1e-3;
 /// Steps of the Gauss-Newton method.
@@ -39,7 +39,12 @@ impl Undecided {
             return Self { label: OpenLabel::TooSmall, piece, point: vec![0.0; problem.rows()] };
         };
         let label = label(problem, &piece, &relaxed);
-        Self { label, piece, point: relaxed.unknowns }
+        let near = || gauss_newton(problem, &piece, DVector::from_column_slice(&relaxed.unknowns));
+        let point = match label {
+            OpenLabel::LockingDirection | OpenLabel::TooSmall => None,
+            _ => near().map(|point| point.as_slice().to_vec()),
+        };
+        Self { label, point: point.unwrap_or(relaxed.unknowns), piece }
     }
 }
 
@@ -133,7 +138,7 @@ pub(super) fn regions(pieces: Vec<Undecided>) -> Vec<OpenRegion> {
 fn region(piece: Undecided) -> OpenRegion {
     OpenRegion {
         label: piece.label,
-        half_angle: piece.piece.half_angle(),
+        half_angle: piece.piece.sectors.iter().fold(0.0, |most, sector| sector.half_angle().max(most)),
         sectors: piece.piece.sectors.iter().map(|sector| sector.edges()).collect(),
         states: piece.piece.states,
         point: piece.point,

@@ -146,6 +146,15 @@ impl BlockProblem {
         [first, first + 1]
     }
 
+    /// Whether a block acts on any, for some value within the bounds.
+    pub(super) fn has_friction(&self, block: usize) -> bool {
+        let parts = [&self.response.positive, &self.response.negative];
+        let largest = |part: &IntervalMatrix| {
+            part.centre().column(block).amax().max(part.radius().column(block).amax())
+        };
+        parts.into_iter().any(|part| largest(part) > 0.0)
+    }
+
     /// Whether the load is zero for every pattern of sides.
     pub(super) fn has_no_load(&self) -> bool {
         let zero =

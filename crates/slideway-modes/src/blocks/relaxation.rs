@@ -9,10 +9,14 @@
 //!
 //! The program looks for the least sum of errors of these equations with `sum lambda + mu = 1` instead of
 //! `mu = 1`, which includes solutions at infinity. If it is positive, its multipliers `v` have a positive
-//! product with every column and a negative one with every load. Whether `v` proves anything is then decided
+//! product with every column and a negative one with every load. The equations of small pieces are combined so
+//! that the columns of each thin sector are far apart; otherwise the sum of errors would fall with the square of
+//! its angle, below what the simplex method tells from zero. Whether `v` proves anything is then decided
 //! for the sectors themselves, in interval arithmetic (theory of hinges, section 8, (i), (ii)).
 
-use super::equations::Piece;
+use nalgebra::{DMatrix, DVector};
+
+use super::equations::{Piece, Slopes, matrix};
 use super::problem::BlockProblem;
 use super::sector::length;
 use crate::interval::Interval;
@@ -22,6 +26,9 @@ use crate::simplex::{Bounds, LinearOutcome, LinearProgram};
 
 /// A piece is not excluded if the least sum of errors is below this.
 const LEAST: f64 = 1e-15;
+
+/// Equations are combined where all sectors have at most this half angle, in rad.
+const SMALL: f64 = 0.3;
 
 /// A point of the relaxation.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +85,8 @@ pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> 
         (0..problem.contacts()).filter(|&contact| shares(problem, piece, contact)).collect();
     let rows = problem.rows();
     let all = rows + 1 + jumping.len();
-    let columns = columns(problem, piece, &jumping);
+    let combination = combination(problem, piece);
+    let columns = columns(problem, piece, &jumping, combination.as_ref());
     let mut right = vec![0.0; all];
     right[rows] = 1.0;
     let program = LinearProgram::new(&columns.columns, right, columns.cost);
@@ -91,8 +99,9 @@ pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> 
     let errors: f64 = values[count - 2 * rows..].iter().sum();
     if errors > LEAST {
         let multipliers = basis.multipliers(&program);
-        let vector: Vec<f64> = multipliers[..rows].iter().map(|value| -value).collect();
-        if excludes(problem, piece, &vector) {
+        let vector = -DVector::from_column_slice(&multipliers[..rows]);
+        let vector = combination.map_or(vector.clone(), |combination| combination.tr_mul(&vector));
+        if excludes(problem, piece, vector.as_slice()) {
             return Relaxed::Empty;
         }
     }
@@ -114,9 +123,43 @@ fn sides(state: Option<ContactState>) -> &'static [Side] {
     }
 }
 
-fn columns(problem: &BlockProblem, piece: &Piece, jumping: &[usize]) -> Columns {
+/// The combination `P` of the equations of a small piece: the inverse of the slopes in its middle, and for each
+/// hinge the component along its sector, and the one across it divided by the half angle.
+fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
+    let is_small = |hinge: usize| {
+        !problem.has_friction(problem.contacts() + hinge) || piece.sectors[hinge].half_angle() <= SMALL
+    };
+    if !(0..problem.hinges()).all(is_small) {
+        return None;
+    }
+    let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
+    let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
+    let mut combination = matrix(problem, &piece.states, &slopes).try_inverse()?;
+    for (hinge, sector) in piece.sectors.iter().enumerate() {
+        let ([x, y], [one, other]) = (sector.middle(), problem.rows_of_hinge(hinge));
+        if [x, y] != [0.0; 2] {
+            let half_angle = sector.half_angle();
+            let (first, second) = (combination.row(one).into_owned(), combination.row(other).into_owned());
+            combination.set_row(one, &(&first * x + &second * y));
+            combination.set_row(other, &((second * x - first * y) / half_angle));
+        }
+    }
+    combination.iter().all(|value| value.is_finite()).then_some(combination)
+}
+
+/// The columns of the program, with combined equations.
+fn columns(
+    problem: &BlockProblem,
+    piece: &Piece,
+    jumping: &[usize],
+    combination: Option<&DMatrix<f64>>,
+) -> Columns {
     let rows = problem.rows();
     let all = rows + 1 + jumping.len();
+    let combined = |column: Vec<f64>| match combination {
+        Some(combination) => (combination * DVector::from_vec(column)).as_slice().to_vec(),
+        None => column,
+    };
     let mut columns = Columns { meanings: Vec::new(), columns: Vec::new(), cost: Vec::new() };
     let with_sum = |mut column: Vec<f64>| {
         let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(f64::MIN_POSITIVE);
@@ -129,7 +172,7 @@ fn columns(problem: &BlockProblem, piece: &Piece, jumping: &[usize]) -> Columns 
             let mut column: Vec<f64> =
                 centre(problem.response(side), contact).iter().map(|value| -value).collect();
             column[contact] += side.sign();
-            let (factor, column) = with_sum(column);
+            let (factor, column) = with_sum(combined(column));
             columns.add(Meaning::Pressed(contact, side), factor, column, 0.0);
         }
     }
@@ -140,11 +183,11 @@ fn columns(problem: &BlockProblem, piece: &Piece, jumping: &[usize]) -> Columns 
             for (row, component) in problem.rows_of_hinge(hinge).into_iter().zip(direction) {
                 column[row] += component;
             }
-            let (factor, column) = with_sum(column);
+            let (factor, column) = with_sum(combined(column));
             columns.add(Meaning::Ray(hinge, direction, length), factor, column, 0.0);
         }
     }
-    add_loads(&mut columns, problem, piece, jumping);
+    add_loads(&mut columns, problem, piece, jumping, &combined);
     for row in 0..rows {
         for sign in [1.0, -1.0] {
             let mut column = vec![0.0; all];
@@ -156,7 +199,13 @@ fn columns(problem: &BlockProblem, piece: &Piece, jumping: &[usize]) -> Columns 
 }
 
 /// `-mu (b + d)`, where shares of both jump vectors of a contact add up to `mu`.
-fn add_loads(columns: &mut Columns, problem: &BlockProblem, piece: &Piece, jumping: &[usize]) {
+fn add_loads(
+    columns: &mut Columns,
+    problem: &BlockProblem,
+    piece: &Piece,
+    jumping: &[usize],
+    combined: &dyn Fn(Vec<f64>) -> Vec<f64>,
+) {
     if problem.has_no_load() {
         return;
     }
@@ -170,17 +219,19 @@ fn add_loads(columns: &mut Columns, problem: &BlockProblem, piece: &Piece, jumpi
             *load -= jump;
         }
     }
-    let jumps =
-        jumping.iter().flat_map(|&contact| Side::BOTH.map(|side| centre(problem.jumps(side), contact)));
-    let size =
-        load.iter().chain(jumps.flatten()).fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    let mut load = combined(load);
+    let jump = |&contact: &usize| {
+        let negated = |side| centre(problem.jumps(side), contact).iter().map(|value| -value).collect();
+        Side::BOTH.map(|side| combined(negated(side)))
+    };
+    let jumps: Vec<[Vec<f64>; 2]> = jumping.iter().map(jump).collect();
+    let numbers = load.iter().chain(jumps.iter().flatten().flatten());
+    let size = numbers.fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
     load.resize(all, 0.0);
     load[rows] = size;
-    for (at, &contact) in jumping.iter().enumerate() {
+    for (at, both) in jumps.into_iter().enumerate() {
         load[rows + 1 + at] = -size;
-        for side in Side::BOTH {
-            let mut column: Vec<f64> =
-                centre(problem.jumps(side), contact).iter().map(|value| -value).collect();
+        for mut column in both {
             column.resize(all, 0.0);
             column[rows + 1 + at] = size;
             columns.add(Meaning::Other, 1.0 / size, column, 0.0);
@@ -273,7 +324,7 @@ fn centre(part: &IntervalMatrix, column: usize) -> &[f64] {
     slice(part.centre(), column)
 }
 
-fn slice(matrix: &nalgebra::DMatrix<f64>, column: usize) -> &[f64] {
+fn slice(matrix: &DMatrix<f64>, column: usize) -> &[f64] {
     let rows = matrix.nrows();
     &matrix.as_slice()[column * rows..][..rows]
 }

@@ -7,6 +7,7 @@ use super::problem::BlockProblem;
 use super::relaxation::{Relaxed, RelaxedPoint, relax};
 use super::result::OpenLabel;
 use super::zero::{Zero, newton, prove, start};
+use crate::certificate::Sign;
 use crate::interval::Interval;
 use crate::problem::ContactState;
 use crate::progress::{Callback, Progress};
@@ -34,6 +35,9 @@ pub(super) struct Tree<'a, 'c> {
     problem: &'a BlockProblem,
     options: &'a SearchOptions,
     progress: &'a mut Callback<'c>,
+    /// The blocks with friction: contacts, and hinges. The others have no part in the equations.
+    contacts: Vec<usize>,
+    hinges: Vec<usize>,
     first_angle: f64,
     smallest: f64,
     pivots: u64,
@@ -58,7 +62,10 @@ impl<'a, 'c> Tree<'a, 'c> {
         // A relaxation is off by the square of the half angle.
         let smallest = SMALLEST.max(0.1 * problem.relative_radius().sqrt());
         let found = Found { zeros: Vec::new(), undecided: Vec::new(), stopped: None, nodes: 0 };
-        Self { problem, options, progress, first_angle, smallest, pivots: 0, found }
+        let contacts = (0..problem.contacts()).filter(|&at| problem.has_friction(at) || problem.has_jump(at));
+        let hinges = (0..problem.hinges()).filter(|&hinge| problem.has_friction(problem.contacts() + hinge));
+        let (contacts, hinges) = (contacts.collect(), hinges.collect());
+        Self { problem, options, progress, contacts, hinges, first_angle, smallest, pivots: 0, found }
     }
 
     /// Searches the tree below a piece.
@@ -106,7 +113,7 @@ impl<'a, 'c> Tree<'a, 'c> {
         if has_at_most_one(self.problem, piece) && self.settles(piece) {
             return Decision::Done;
         }
-        let half_angle = piece.half_angle();
+        let half_angle = self.half_angle(piece);
         if half_angle <= LOOK_FOR_CURVES
             && half_angle > 0.25 * LOOK_FOR_CURVES
             && let Some(point) =
@@ -173,7 +180,7 @@ impl<'a, 'c> Tree<'a, 'c> {
     fn parts(&self, piece: &Piece, relaxed: Option<&RelaxedPoint>) -> Option<Vec<Piece>> {
         let contacts = self.problem.contacts();
         let gap = |block: usize| relaxed.map_or(0.0, |point| point.gaps[block]);
-        let open = (0..contacts).filter(|&contact| piece.states[contact].is_none());
+        let open = self.contacts.iter().copied().filter(|&contact| piece.states[contact].is_none());
         let contact = open.max_by(|&one, &other| gap(one).total_cmp(&gap(other)));
         let limit = if contact.is_some() { DECIDE_CONTACTS } else { self.smallest };
         let wide = (0..self.problem.hinges()).filter(|&hinge| {
@@ -203,6 +210,12 @@ impl<'a, 'c> Tree<'a, 'c> {
         Some(states.iter().map(part).collect())
     }
 
+    /// Half the angle of the widest sector of a hinge with friction.
+    fn half_angle(&self, piece: &Piece) -> f64 {
+        let angles = self.hinges.iter().map(|&hinge| piece.sectors[hinge].half_angle());
+        angles.fold(0.0, f64::max)
+    }
+
     /// Whether the direction of a hinge matters: its reaction does not vanish, or its sector is wide.
     fn is_loaded(&self, hinge: usize, relaxed: Option<&RelaxedPoint>, limit: f64) -> bool {
         let Some(point) = relaxed.filter(|_| limit < LOOK_FOR_CURVES) else { return true };
@@ -222,6 +235,13 @@ fn with_zero(problem: &BlockProblem, piece: &Piece, zero: &Zero) -> Piece {
 }
 
 impl Found {
+    /// The orientation of the solution without forces, if it is proven to be the only one: the outer `None` if
+    /// not.
+    pub(super) fn only_rests(&self) -> Option<Option<Sign>> {
+        let [zero] = self.zeros.as_slice() else { return None };
+        (self.undecided.is_empty() && self.stopped.is_none()).then_some(zero.determinant)
+    }
+
     /// Adds a solution unless it is known.
     ///
     /// Two zeros are one if one box without another zero contains the enclosure of the other, and the equations

@@ -135,7 +135,7 @@ pub(super) fn prove(
             .all(|(inner, outer)| outer.lower() < inner.lower() && inner.upper() < outer.upper());
         is_inside.then(|| Zero {
             states: states.to_vec(),
-            point: point.clone(),
+            point: DVector::from_iterator(point.len(), enclosure.iter().map(|value| value.middle())),
             enclosure,
             isolation,
             determinant: Some(steps.determinant),

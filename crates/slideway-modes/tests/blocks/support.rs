@@ -53,6 +53,26 @@ impl Plain {
         Self { contacts, positive, negative, load: numbers.vector(rows) }
     }
 
+    /// Random columns, whose own blocks oppose the load: problems with many solutions.
+    pub(crate) fn opposed(numbers: &mut Numbers, contacts: usize, hinges: usize) -> Self {
+        let mut plain = Self::random(numbers, contacts, hinges, 0.12);
+        for block in 0..contacts + hinges {
+            let rows = if block < contacts {
+                block..block + 1
+            } else {
+                2 * block - contacts..2 * block - contacts + 2
+            };
+            let length = plain.load.rows(rows.start, rows.len()).norm();
+            let size = 1.3 + 0.3 * numbers.next();
+            for row in rows {
+                let opposed = -size * plain.load[row] / length;
+                plain.positive[(row, block)] += opposed;
+                plain.negative[(row, block)] += opposed;
+            }
+        }
+        plain
+    }
+
     pub(crate) fn hinges(&self) -> usize {
         self.positive.ncols() - self.contacts
     }
