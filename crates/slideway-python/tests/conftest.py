@@ -34,12 +34,14 @@ DIMENSIONS = {
     "screw": ("d_mean", "20 mm", "23 mm"),
     "sleeve-on-arm": ("L", "60 mm", "100 mm"),
     "slider-crank": ("l", "150 mm", "200 mm"),
+    "slider-crank-with-pins": ("l", "150 mm", "200 mm"),
     "soft-closing-drawer": ("k", "150 N/m", "250 N/m"),
     "stick-slip": ("k", "80 N/m", "120 N/m"),
     "stribeck-belt": ("m", "0.8 kg", "1.2 kg"),
     "telescopic-boom": ("L", "0.9 m", "1.1 m"),
     "three-pad-telescope": ("L", "0.7 m", "0.9 m"),
     "thrown-drawer": ("m", "4 kg", "6 kg"),
+    "toggle-press": ("Q", "5 kN", "15 kN"),
     "wedge": ("alpha", "10 deg", "20 deg"),
 }
 

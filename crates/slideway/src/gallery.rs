@@ -38,6 +38,8 @@ pub const MODELS: &[GalleryModel] = gallery![
     "screw",
     "wedge",
     "slider-crank",
+    "slider-crank-with-pins",
+    "toggle-press",
     "scotch-yoke",
     "elliptic-trammel",
     "sleeve-on-arm",

@@ -958,6 +958,18 @@ class Continuum(Record):
     """Directions in which the normal forces may grow without bound."""
     tipping: tuple[str, ...]
     """The guided sliders that would tip in a part of it."""
+    couple: CoupleRange | None = None
+    """The friction couple of a hinge that never turns, if it is what is free; absent otherwise."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoupleRange(Record):
+    """The friction couple of a hinge that never turns, over a range."""
+
+    hinge: str
+    """The hinge."""
+    couples: NDArray[np.float64]
+    """The couple on its first body at each vertex (N m)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -44,8 +44,11 @@ pub(crate) struct Varied {
 
 impl Varied {
     /// # Errors
-    /// An unknown name; with a factor of friction whatever `solve` refuses.
+    /// An unknown name; friction in hinges; with a factor of friction whatever `solve` refuses.
     pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
+        if let Ok(mechanism) = Mechanism::new(model) {
+            mechanism.check_frictionless_hinges()?;
+        }
         let mut varied = Self::at_rest(model, name)?;
         if varied.is_friction_factor() {
             varied.stages = Some(Stages::new(model)?);

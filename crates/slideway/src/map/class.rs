@@ -212,6 +212,7 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
         }
         Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
         Some(FaultKind::HingeDoesNotTurn { .. }) => "a hinge with friction does not turn",
+        Some(FaultKind::FrictionInHinges { .. }) => "friction in hinges, which maps do not take into account",
         Some(
             FaultKind::OutOfRange { .. }
             | FaultKind::StaticBelowKinetic { .. }

@@ -168,6 +168,7 @@ impl Sweep {
     ) -> Result<Option<Self>, Faults> {
         let mechanism = Mechanism::new(model)?;
         mechanism.check_size()?;
+        mechanism.check_frictionless_hinges()?;
         let axes = axes(model, &options.points)?;
         let varied: Vec<_> = axes.iter().map(|axis| axis.quantity.kind).collect();
         let friction = FrictionFormulas::new(model, &varied)?;

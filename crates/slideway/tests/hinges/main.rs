@@ -4,6 +4,7 @@
 
 mod cases;
 mod closed_forms;
+mod gallery;
 mod reading;
 mod reference;
 mod turning;
