@@ -14,16 +14,21 @@
 //! # Files
 //! `pattern` is what `standstill` and `motion` share: what joints and contacts do (`phase.rs`), as linear
 //! equations and inequalities. `friction.rs` is Coulomb's law of a contact, with preloads, and when a guided
-//! slider tips; `affine.rs` solves the equations, of statics or of motion, that are added; `program.rs` asks
+//! slider tips, `friction_circle.rs` the same of a hinge; `affine.rs` solves the equations, of statics or of motion, that are added; `program.rs` asks
 //! the linear programs of what they leave open, the only place that knows their solver (`simplex.rs`).
 
 mod affine;
 mod friction;
+mod friction_circle;
 pub(crate) mod phase;
 mod program;
 mod simplex;
 
 pub(crate) use affine::{Affine, AffineExpression, AffineSet};
 pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipping};
+pub(crate) use friction_circle::Pin;
 pub(crate) use phase::{ContactPhase, JointPhase, Phase};
 pub(crate) use program::{NOTHING, Region, Unsolved};
+
+/// Least and greatest value; nothing where there is none.
+pub(crate) type Extent = [Option<f64>; 2];

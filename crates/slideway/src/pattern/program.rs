@@ -1,7 +1,8 @@
 //! A region of points within linear inequalities, and the linear programs that ask for its extent.
 
-use super::Affine;
+use super::friction_circle::{Pin, Pinned};
 use super::simplex::{Optimum, least};
+use super::{Affine, Extent};
 use nalgebra::Vector3;
 
 /// Greater slacks are not sought: the reactions of a wedged block may grow without bound.
@@ -17,11 +18,35 @@ const RECESSION: f64 = 1e-10;
 /// Optima below this are rounding errors of terms of order one.
 pub(crate) const NOTHING: f64 = 1e-12;
 
-/// The points at which every one of some functions, the slacks, is at least zero.
+/// The points at which every one of some functions, the slacks, is at least zero, and the couples of pins are within
+/// their friction circles.
 #[derive(Debug, Clone)]
 pub(crate) struct Region {
     dimension: usize,
     slacks: Vec<Affine>,
+    pins: Vec<Pin>,
+}
+
+/// Where a function of a region is least or greatest.
+#[derive(Debug, Clone)]
+pub(super) struct End {
+    /// The least or greatest value; nothing where there is none.
+    pub(super) value: Option<f64>,
+    /// The point where the function has it, or the direction in which it grows without bound.
+    pub(super) at: Vec<f64>,
+    /// Whether it is a direction.
+    pub(super) is_ray: bool,
+}
+
+impl End {
+    /// Another function there, or how it changes in the direction.
+    pub(super) fn value_of(&self, function: &Affine) -> f64 {
+        function.at(&self.at) - if self.is_ray { function.constant } else { 0.0 }
+    }
+
+    fn negated(self) -> Self {
+        Self { value: self.value.map(|value| -value), ..self }
+    }
 }
 
 /// The solver gave up, or its answer contradicts what is known.
@@ -31,7 +56,17 @@ pub(crate) struct Unsolved;
 impl Region {
     /// The points of so many coordinates at which every function is at least zero.
     pub(crate) fn new(dimension: usize, slacks: Vec<Affine>) -> Self {
-        Self { dimension, slacks }
+        Self { dimension, slacks, pins: Vec::new() }
+    }
+
+    /// The region in which the couples of these pins, too, are within their friction circles.
+    pub(crate) fn with_pins(self, pins: Vec<Pin>) -> Self {
+        Self { pins, ..self }
+    }
+
+    /// The part in which further slacks are at least zero, without pins.
+    pub(super) fn within(&self, further: impl Iterator<Item = Affine>) -> Self {
+        Self::new(self.dimension, self.slacks.iter().cloned().chain(further).collect())
     }
 
     /// The point at which the least slack is greatest, but no more than 1, and that slack; negative if the
@@ -40,6 +75,9 @@ impl Region {
     /// # Errors
     /// If the linear program, which has a solution, was not solved.
     pub(crate) fn highest(&self) -> Result<(f64, Vec<f64>), Unsolved> {
+        if !self.pins.is_empty() {
+            return Pinned { convex: self, pins: &self.pins }.highest();
+        }
         let found = match self.dimension {
             0 => Some(Vec::new()),
             1 => of_one(&self.slacks).map(|z| vec![z]),
@@ -71,7 +109,22 @@ impl Region {
         for slack in &mut self.slacks {
             slack.constant += amount;
         }
+        for pin in &mut self.pins {
+            pin.allowance += amount;
+        }
         self
+    }
+
+    /// The values of a function in the region, which must not be empty: intervals in ascending order, of which there is
+    /// one unless friction circles divide the region.
+    ///
+    /// # Errors
+    /// As [`Region::extent`].
+    pub(crate) fn extents(&self, function: &Affine) -> Result<Vec<Extent>, Unsolved> {
+        if self.pins.is_empty() {
+            return Ok(vec![self.convex_extent(function)?]);
+        }
+        Pinned { convex: self, pins: &self.pins }.extents(function)
     }
 
     /// Least and greatest value of a function in the region, which must not be empty; nothing where it is
@@ -82,34 +135,48 @@ impl Region {
     ///
     /// # Errors
     /// If a linear program was not solved.
-    pub(crate) fn extent(&self, function: &Affine) -> Result<[Option<f64>; 2], Unsolved> {
-        let least = self.least(function, 1.0)?;
-        let greatest = self.least(function, -1.0)?;
-        Ok([least, greatest.map(|value| -value)])
+    pub(crate) fn extent(&self, function: &Affine) -> Result<Extent, Unsolved> {
+        let parts = self.extents(function)?;
+        let whole = |place: usize, pick: fn(f64, f64) -> f64| {
+            let ends: Option<Vec<f64>> = parts.iter().map(|part| part[place]).collect();
+            ends.and_then(|ends| ends.into_iter().reduce(pick))
+        };
+        Ok([whole(0, f64::min), whole(1, f64::max)])
     }
 
-    /// Least value of `sign` times a function.
-    fn least(&self, function: &Affine, sign: f64) -> Result<Option<f64>, Unsolved> {
-        let constant = sign * function.constant;
+    /// The extent without regard to pins.
+    pub(super) fn convex_extent(&self, function: &Affine) -> Result<Extent, Unsolved> {
+        Ok(self.ends(function)?.map(|end| end.value))
+    }
+
+    /// Where a function is least and greatest, without regard to pins.
+    pub(super) fn ends(&self, function: &Affine) -> Result<[End; 2], Unsolved> {
+        Ok([self.least(function, 1.0)?, self.least(function, -1.0)?.negated()])
+    }
+
+    /// Where `sign` times a function is least.
+    fn least(&self, function: &Affine, sign: f64) -> Result<End, Unsolved> {
         if !function.varies() {
-            return Ok(Some(constant));
+            let (_, at) = self.highest()?;
+            return Ok(End { value: Some(sign * function.constant), at, is_ray: false });
         }
-        if self.recedes(function, sign)? {
-            return Ok(None);
+        if let Some(at) = self.recession(function, sign)? {
+            return Ok(End { value: None, at, is_ray: true });
         }
         let cost: Vec<f64> = function.coefficients.iter().map(|coefficient| sign * coefficient).collect();
         let rows: Vec<Affine> = self.slacks.iter().filter(|slack| slack.varies()).cloned().collect();
         let (_, inside) = self.highest()?;
-        let Optimum::At(point) = least(&cost, &rows, &inside)? else { return Ok(None) };
-        let least = sign * function.at(&point);
+        let Optimum::At(at) = least(&cost, &rows, &inside)? else {
+            return Ok(End { value: None, at: inside, is_ray: false });
+        };
+        let least = sign * function.at(&at);
         let without_noise = if least.abs() <= NOTHING { 0.0 } else { least };
-        Ok(Some(without_noise).filter(|least| least.abs() < UNBOUNDED))
+        Ok(End { value: Some(without_noise).filter(|least| least.abs() < UNBOUNDED), at, is_ray: false })
     }
 
-    /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function
-    /// falls: the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d <= -1` is not
-    /// positive.
-    fn recedes(&self, function: &Affine, sign: f64) -> Result<bool, Unsolved> {
+    /// The direction in which every constraint stays satisfied and `sign` times the function falls, if there is one:
+    /// the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d <= -1` is not positive.
+    fn recession(&self, function: &Affine, sign: f64) -> Result<Option<Vec<f64>>, Unsolved> {
         let homogeneous = |slack: &Affine| Affine { coefficients: slack.coefficients.clone(), constant: 0.0 };
         let falls = Affine {
             coefficients: function.coefficients.iter().map(|coefficient| -sign * coefficient).collect(),
@@ -124,7 +191,10 @@ impl Region {
         rows.push(Affine { coefficients: last(self.dimension, 1.0), constant: 1.0 });
         start.push(missed);
         match least(&last(self.dimension, 1.0), &rows, &start)? {
-            Optimum::At(point) => Ok(point[self.dimension] <= RECESSION),
+            Optimum::At(mut point) => {
+                let missed = point.pop();
+                Ok((missed <= Some(RECESSION)).then_some(point))
+            }
             Optimum::Unbounded => Err(Unsolved),
         }
     }

@@ -1,0 +1,288 @@
+//! Couples of hinges within their friction circles, `|M| <= r |R|`, beside linear inequalities.
+//!
+//! The set is not convex where `R` varies, and what it holds of a load may be disconnected. But
+//!
+//! ```text
+//! |M| <= r t.R for some |t| <= 1   =>   |M| <= r |R|   =>   |M| <= r c.R for some of the c below
+//! ```
+//!
+//! with directions `e` in the middle of sectors of half-angle `d` that cover the plane, and `c = e / cos d`: `c.R >= |R|`
+//! where `R` lies in the sector, and outside it the inequality is the stricter one. So the set is the union of convex
+//! regions over directions, known from inside and from outside, and sectors are halved until the two agree (theory of
+//! friction in hinges, section 7). The difference is of second order in `d`.
+
+use super::program::{End, NOTHING, Region, Unsolved};
+use super::{Affine, Extent};
+use std::f64::consts::FRAC_PI_4;
+
+/// Half-angle below which `1 / cos d - 1` is less than the accuracy of the programs, 1e-12.
+const FINEST: f64 = 1.4e-6;
+/// Ends of extents that are known from inside and outside agree to this, relative to the greater of 1 and the end.
+const AGREEMENT: f64 = 1e-11;
+/// More sectors are not tried.
+const MOST_SECTORS: usize = 20_000;
+
+/// A hinge whose couple stays within the friction circle.
+#[derive(Debug, Clone)]
+pub(crate) struct Pin {
+    /// The force at the hinge.
+    pub(crate) reaction: [Affine; 2],
+    /// The couple of friction.
+    pub(crate) couple: Affine,
+    /// Radius of the friction circle.
+    pub(crate) radius: f64,
+    /// By how much the couple may be greater.
+    pub(crate) allowance: f64,
+}
+
+impl Pin {
+    /// `r c.R - M` and `r c.R + M`.
+    fn slacks(&self, direction: [f64; 2]) -> [Affine; 2] {
+        let [x, y] = &self.reaction;
+        let along = |x: f64, y: f64| self.radius * (direction[0] * x + direction[1] * y);
+        [-1.0, 1.0].map(|sign| {
+            let coefficients = x.coefficients.iter().zip(&y.coefficients).zip(&self.couple.coefficients);
+            Affine {
+                coefficients: coefficients.map(|((x, y), couple)| along(*x, *y) + sign * couple).collect(),
+                constant: along(x.constant, y.constant) + sign * self.couple.constant + self.allowance,
+            }
+        })
+    }
+
+    fn reaction_at(&self, end: &End) -> [f64; 2] {
+        self.reaction.each_ref().map(|component| end.value_of(component))
+    }
+
+    /// By how much the couple exceeds the friction circle.
+    fn excess(&self, end: &End) -> f64 {
+        let [x, y] = self.reaction_at(end);
+        end.value_of(&self.couple).abs() - self.radius * x.hypot(y)
+    }
+}
+
+/// Directions of a reaction within an angle of one in the middle; nothing where every direction is meant.
+#[derive(Debug, Clone, Copy)]
+struct Sector {
+    middle: f64,
+    half: f64,
+}
+
+impl Sector {
+    fn outer(self) -> [f64; 2] {
+        [self.middle.cos() / self.half.cos(), self.middle.sin() / self.half.cos()]
+    }
+
+    fn divided(sector: Option<Self>) -> Vec<Self> {
+        match sector {
+            None => {
+                (0..4_u8).map(|k| Self { middle: 2.0 * f64::from(k) * FRAC_PI_4, half: FRAC_PI_4 }).collect()
+            }
+            Some(Self { middle, half }) => {
+                [-0.5, 0.5].map(|side| Self { middle: middle + side * half, half: 0.5 * half }).to_vec()
+            }
+        }
+    }
+}
+
+/// One sector for each pin.
+type Sectors = Vec<Option<Sector>>;
+
+/// A convex region and the pins that bound it further.
+pub(super) struct Pinned<'a> {
+    pub(super) convex: &'a Region,
+    pub(super) pins: &'a [Pin],
+}
+
+impl Pinned<'_> {
+    /// The point at which the least slack is greatest, those of the friction circles among them, and that slack.
+    ///
+    /// # Errors
+    /// If a linear program was not solved, or too many sectors would be needed.
+    pub(super) fn highest(&self) -> Result<(f64, Vec<f64>), Unsolved> {
+        let mut best = (f64::NEG_INFINITY, Vec::new());
+        let mut open = vec![self.node(vec![None; self.pins.len()])?];
+        for _ in 0..MOST_SECTORS {
+            let upper = |node: &(f64, End, Sectors)| node.0;
+            let next = (0..open.len()).max_by(|a, b| upper(&open[*a]).total_cmp(&upper(&open[*b])));
+            let Some((upper, at, sectors)) = next.map(|next| open.swap_remove(next)) else { return Ok(best) };
+            if upper <= best.0 + NOTHING {
+                return Ok(best);
+            }
+            let (inner, point) = self.inside(&at).highest()?;
+            if inner > best.0 {
+                best = (inner, point);
+            }
+            if upper <= best.0 + NOTHING {
+                continue;
+            }
+            match self.divided(&sectors, &at) {
+                Some(parts) => {
+                    for part in parts {
+                        open.push(self.node(part)?);
+                    }
+                }
+                None => best = (upper, at.at),
+            }
+        }
+        Err(Unsolved)
+    }
+
+    /// A bound on the greatest least slack of sectors, and where it is attained.
+    fn node(&self, sectors: Sectors) -> Result<(f64, End, Sectors), Unsolved> {
+        let (slack, at) = self.around(&sectors).highest()?;
+        Ok((slack, End { value: Some(slack), at, is_ray: false }, sectors))
+    }
+
+    /// Least and greatest values of a function in the parts of the set, which may overlap.
+    ///
+    /// # Errors
+    /// If a linear program was not solved, or too many sectors would be needed.
+    pub(super) fn extents(&self, function: &Affine) -> Result<Vec<Extent>, Unsolved> {
+        let mut found: Vec<Extent> = Vec::new();
+        let mut open = vec![vec![None; self.pins.len()]];
+        for _ in 0..MOST_SECTORS {
+            let Some(sectors) = open.pop() else { return Ok(found) };
+            let outer = self.around(&sectors);
+            let Some(outer) = nearly_possible(outer)? else { continue };
+            let ends = outer.ends(function)?;
+            for end in &ends {
+                if !covers(&found, [end.value; 2])
+                    && let Some(inner) = nearly_possible(self.inside(end))?
+                {
+                    found.push(inner.convex_extent(function)?);
+                }
+            }
+            let extent = ends.each_ref().map(|end| end.value);
+            if covers(&found, extent) {
+                continue;
+            }
+            let missed = ends.iter().find(|end| !covers(&found, [end.value; 2])).unwrap_or(&ends[0]);
+            match self.divided(&sectors, missed) {
+                Some(parts) => open.extend(parts),
+                None => found.push(extent),
+            }
+        }
+        Err(Unsolved)
+    }
+
+    /// The region from outside.
+    fn around(&self, sectors: &Sectors) -> Region {
+        let bounds = self.pins.iter().zip(sectors).filter_map(|(pin, sector)| Some((pin, (*sector)?)));
+        self.convex.within(bounds.flat_map(|(pin, sector)| pin.slacks(sector.outer())))
+    }
+
+    /// The region from inside, with the directions that the reactions have somewhere.
+    fn inside(&self, end: &End) -> Region {
+        let slacks = |pin: &Pin| {
+            let [x, y] = pin.reaction_at(end);
+            let size = x.hypot(y);
+            pin.slacks(if size > 0.0 { [x / size, y / size] } else { [0.0; 2] })
+        };
+        self.convex.within(self.pins.iter().flat_map(slacks))
+    }
+
+    /// The parts of the sector of the pin whose couple is too great by most, or of the widest one where none is; nothing
+    /// if every sector is of the finest.
+    fn divided(&self, sectors: &Sectors, end: &End) -> Option<Vec<Sectors>> {
+        let width = |k: usize| sectors[k].map_or(f64::INFINITY, |sector| sector.half);
+        let wide = (0..sectors.len()).filter(|&k| width(k) > FINEST);
+        let rank = |k: usize| (self.pins[k].excess(end).max(0.0), width(k));
+        let chosen = wide.max_by(|&a, &b| {
+            let (a, b) = (rank(a), rank(b));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })?;
+        let part = |sector: Sector| {
+            let mut part = sectors.clone();
+            part[chosen] = Some(sector);
+            part
+        };
+        Some(Sector::divided(sectors[chosen]).into_iter().map(part).collect())
+    }
+}
+
+/// A region that is not empty but for rounding, relaxed by that.
+fn nearly_possible(region: Region) -> Result<Option<Region>, Unsolved> {
+    let (slack, _) = region.highest()?;
+    Ok((slack >= -NOTHING).then(|| region.relaxed(-slack.min(0.0))))
+}
+
+/// Whether an extent lies within the union of others.
+fn covers(found: &[Extent], extent: Extent) -> bool {
+    let bounds =
+        |[least, greatest]: Extent| [least.unwrap_or(f64::NEG_INFINITY), greatest.unwrap_or(f64::INFINITY)];
+    let [mut from, to] = bounds(extent);
+    let mut sorted: Vec<[f64; 2]> = found.iter().copied().map(bounds).collect();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let reaches = |end: f64, other: f64| end >= other || end + AGREEMENT * end.abs().max(1.0) >= other;
+    let mut is_inside = false;
+    for [least, greatest] in sorted {
+        if reaches(from, least) && reaches(greatest, from) {
+            is_inside = true;
+            from = from.max(greatest);
+        }
+    }
+    is_inside && reaches(from, to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn affine(coefficients: &[f64], constant: f64) -> Affine {
+        Affine { coefficients: coefficients.to_vec(), constant }
+    }
+
+    /// One body hinged at the origin, without weight: a force `f_a` at `p_a`, and a load factor times `f_b` at `p_b`; in
+    /// units of 100 N and 100 mm, so that all is of order one.
+    fn lever(radius: f64, [p_a, f_a, p_b, f_b]: [[f64; 2]; 4]) -> Region {
+        let moment = |p: [f64; 2], f: [f64; 2]| p[0] * f[1] - p[1] * f[0];
+        let reaction = [0, 1].map(|axis| affine(&[-f_b[axis]], -f_a[axis]));
+        let couple = affine(&[-moment(p_b, f_b)], -moment(p_a, f_a));
+        Region::new(1, Vec::new()).with_pins(vec![Pin { reaction, couple, radius, allowance: 0.0 }])
+    }
+
+    /// In each part; sorted, and joined where they overlap.
+    fn held(region: &Region) -> Vec<[f64; 2]> {
+        let mut parts: Vec<[f64; 2]> = region
+            .extents(&affine(&[1.0], 0.0))
+            .expect("it is solved")
+            .into_iter()
+            .map(|[least, greatest]| [least.unwrap_or(f64::NEG_INFINITY), greatest.unwrap_or(f64::INFINITY)])
+            .collect();
+        parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut joined: Vec<[f64; 2]> = Vec::new();
+        for part in parts {
+            match joined.last_mut().filter(|last| part[0] <= last[1]) {
+                Some(last) => last[1] = last[1].max(part[1]),
+                None => joined.push(part),
+            }
+        }
+        joined
+    }
+
+    fn near(found: f64, expected: f64) -> bool {
+        found == expected || (found - expected).abs() <= 1e-9 * expected.abs()
+    }
+
+    /// `M^2 = r^2 |R|^2` is a quadratic in the factor: held between its roots (reference/hinges.toml, bell_crank_hold).
+    #[test]
+    fn a_bell_crank_is_held_between_two_factors() {
+        let found = held(&lever(0.04, [[1.0, 0.0], [0.0, -1.0], [0.0, 0.6], [-1.0, 0.0]]));
+        assert!(
+            matches!(found[..], [[a, b]] if near(a, 1.544_028_551_03) && near(b, 1.804_185_734_68)),
+            "{found:?}"
+        );
+    }
+
+    /// Where the load acts within the friction circle, it is held outside the roots: by hand -16 and 24/7
+    /// (reference/hinges.toml, `eccentric_hold_disconnected`).
+    #[test]
+    fn what_is_held_may_be_disconnected() {
+        let found = held(&lever(0.2, [[1.0, 0.0], [0.0, -1.0], [0.15, 0.0], [0.0, 1.0]]));
+        assert!(
+            matches!(found[..], [[from, a], [b, to]]
+                if from == f64::NEG_INFINITY && near(a, -16.0) && near(b, 24.0 / 7.0) && to == f64::INFINITY),
+            "{found:?}"
+        );
+    }
+}
