@@ -2,13 +2,14 @@
 
 use super::{
     Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
-    FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
+    FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, StaticLaw,
+    length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
 use crate::model::{
-    self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
-    Moment, PreloadLine, SliderKind, Stop,
+    self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, HingeFriction, Inertia,
+    LoadKind as ModelLoadKind, Model, Moment, PreloadLine, SliderKind, Stop,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -154,8 +155,15 @@ impl<T: Real> Evaluation<'_, T> {
     fn friction_circles(&self) -> Vec<FrictionCircle<T>> {
         let circle = |(index, joint): (usize, &model::Joint)| match &joint.kind {
             model::JointKind::Hinge(hinge) => {
-                let [radius, static_radius] = hinge.friction?.radii(|id| self.value(id));
-                Some(FrictionCircle { joint: JointId(index), radius, static_radius })
+                let friction = hinge.friction?;
+                let [radius, static_radius] = friction.radii(|id| self.value(id));
+                let static_law = match friction {
+                    HingeFriction::Circle(_) => StaticLaw::Radius,
+                    HingeFriction::Pin { mu: [_, mu], radius, law } => {
+                        StaticLaw::Pin { mu: self.value(mu), radius: self.value(radius), law }
+                    }
+                };
+                Some(FrictionCircle { joint: JointId(index), radius, static_radius, static_law })
             }
             model::JointKind::Slider(_) => None,
         };

@@ -14,7 +14,7 @@ use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{
-    CarriedBy, CrossingDirection, Face, Formula, Model, OutlineCorner, PreloadLine, SliderKind, Stop,
+    CarriedBy, CrossingDirection, Face, Formula, Model, OutlineCorner, PinLaw, PreloadLine, SliderKind, Stop,
 };
 use crate::units::Units;
 use evaluation::Evaluation;
@@ -232,6 +232,42 @@ pub struct FrictionCircle<T = f64> {
     pub radius: T,
     /// Radius of the friction circle at rest (m).
     pub static_radius: T,
+    /// What the static radius follows from.
+    pub static_law: StaticLaw<T>,
+}
+
+/// What the radius of a friction circle at rest follows from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StaticLaw<T = f64> {
+    /// It is given.
+    Radius,
+    /// A pin.
+    Pin {
+        /// Its static friction coefficient.
+        mu: T,
+        /// Its radius (m).
+        radius: T,
+        /// How the radius of the friction circle follows from them.
+        law: PinLaw,
+    },
+}
+
+impl FrictionCircle {
+    /// What is varied where static friction is: the coefficient of a pin, else the radius.
+    pub(crate) fn static_friction(&self) -> f64 {
+        match self.static_law {
+            StaticLaw::Radius => self.static_radius,
+            StaticLaw::Pin { mu, .. } => mu,
+        }
+    }
+
+    /// The radius of the friction circle at rest with another value of [`Self::static_friction`].
+    pub(crate) fn static_radius_with(&self, friction: f64) -> f64 {
+        match self.static_law {
+            StaticLaw::Radius => friction,
+            StaticLaw::Pin { radius, law, .. } => law.friction_radius(friction, radius),
+        }
+    }
 }
 
 /// A number that may depend on the motion.
@@ -587,6 +623,14 @@ impl<T: Real> Mechanism<T> {
         match &self.joints[joint.index()].kind {
             JointKind::Slider(slider) => Some(slider),
             JointKind::Hinge(_) => None,
+        }
+    }
+
+    /// The hinged points of a joint, if it is a hinge.
+    pub(crate) fn hinge(&self, joint: JointId) -> Option<&[Attachment<T>; 2]> {
+        match &self.joints[joint.index()].kind {
+            JointKind::Hinge(ends) => Some(ends),
+            JointKind::Slider(_) => None,
         }
     }
 

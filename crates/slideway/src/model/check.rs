@@ -149,8 +149,19 @@ impl Model {
 
     /// Whether a parameter changes nothing but coefficients of friction and preloads.
     pub(crate) fn changes_friction_alone(&self, parameter: usize) -> bool {
+        self.changes_nothing_but(&self.contacts().flat_map(Contact::friction).collect::<Vec<_>>(), parameter)
+    }
+
+    /// Whether nothing but the friction of contacts and hinges depends on a parameter, counted from 0.
+    pub(crate) fn changes_friction_and_pins_alone(&self, parameter: usize) -> bool {
+        let of_hinges = self.hinge_friction().flat_map(|friction| friction.kinetic_and_static());
+        let friction: Vec<FormulaId> = self.contacts().flat_map(Contact::friction).chain(of_hinges).collect();
+        self.changes_nothing_but(&friction, parameter)
+    }
+
+    fn changes_nothing_but(&self, formulas: &[FormulaId], parameter: usize) -> bool {
         let own = self.parameters.iter().map(|parameter| parameter.value);
-        let left_out: Vec<FormulaId> = own.chain(self.contacts().flat_map(Contact::friction)).collect();
+        let left_out: Vec<FormulaId> = own.chain(formulas.iter().copied()).collect();
         let mut others = (0..self.formulas.len()).map(FormulaId).filter(|id| !left_out.contains(id));
         !others.any(|id| self.uses(id, parameter))
     }

@@ -29,27 +29,31 @@ pub enum HingeFriction {
     Circle([FormulaId; 2]),
 }
 
-impl HingeFriction {
-    /// The radii of the friction circle (m), kinetic and static.
+impl PinLaw {
+    /// The radius of the friction circle of a pin (m).
     ///
     /// With the total reaction `R` tangent to the circle, `|M| = r |R|`: a loose pin touches along a line, where
     /// the reaction leans by `atan mu` against the normal, so that `r = rho sin(atan mu) = rho mu / sqrt(1 +
     /// mu^2)`. Textbooks put the total reaction in place of the normal part: `r = mu rho`.
+    pub(crate) fn friction_radius<T: Real>(self, mu: T, radius: T) -> T {
+        match self {
+            Self::MuRho => mu * radius,
+            Self::TotalReaction => mu * radius / (T::exactly(1.0) + mu.square()).sqrt(),
+        }
+    }
+}
+
+impl HingeFriction {
+    /// The radii of the friction circle (m), kinetic and static.
     pub(crate) fn radii<T: Real>(&self, value: impl Fn(FormulaId) -> T) -> [T; 2] {
         match *self {
             Self::Circle(radii) => radii.map(value),
-            Self::Pin { mu, radius, law } => mu.map(|mu| {
-                let (mu, radius) = (value(mu), value(radius));
-                match law {
-                    PinLaw::MuRho => mu * radius,
-                    PinLaw::TotalReaction => mu * radius / (T::exactly(1.0) + mu.square()).sqrt(),
-                }
-            }),
+            Self::Pin { mu, radius, law } => mu.map(|mu| law.friction_radius(value(mu), value(radius))),
         }
     }
 
     /// Its coefficients, or its radii: kinetic and static.
-    pub(super) fn kinetic_and_static(&self) -> [FormulaId; 2] {
+    pub(crate) fn kinetic_and_static(&self) -> [FormulaId; 2] {
         match *self {
             Self::Circle(values) | Self::Pin { mu: values, .. } => values,
         }

@@ -31,32 +31,51 @@ pub(crate) struct Pin {
     pub(crate) couple: Affine,
     /// Radius of the friction circle.
     pub(crate) radius: f64,
+    /// Which way the hinge turns, if it does: then the couple is `-r |R|` times that sign.
+    pub(crate) turning: Option<f64>,
     /// By how much the couple may be greater.
     pub(crate) allowance: f64,
 }
 
 impl Pin {
-    /// `r c.R - M` and `r c.R + M`.
-    fn slacks(&self, direction: [f64; 2]) -> [Affine; 2] {
+    /// `|M| <= r c.R`.
+    fn within(&self, direction: [f64; 2]) -> Vec<Affine> {
+        [-1.0, 1.0].map(|sign| self.slack(1.0, direction, sign)).to_vec()
+    }
+
+    /// What holds of all reactions within a sector: of a hinge that sticks `|M| <= r c.R`, of one that turns besides
+    /// `-s M >= r e.R` for directions `e` of the sector, since `|R| >= e.R` for every `e`.
+    fn around(&self, sector: Option<Sector>) -> Vec<Affine> {
+        let at_rest = sector.map_or_else(Vec::new, |sector| self.within(sector.outer()));
+        let Some(sign) = self.turning else { return at_rest };
+        let parts = Sector::divided(None);
+        let edges = sector.map_or_else(
+            || parts.iter().map(|part| part.direction(0.0)).collect(),
+            |sector| [-1.0, 0.0, 1.0].map(|side| sector.direction(side)).to_vec(),
+        );
+        at_rest.into_iter().chain(edges.into_iter().map(|edge| self.slack(-1.0, edge, -sign))).collect()
+    }
+
+    /// `side r c.R + sign M`.
+    fn slack(&self, side: f64, direction: [f64; 2], sign: f64) -> Affine {
         let [x, y] = &self.reaction;
-        let along = |x: f64, y: f64| self.radius * (direction[0] * x + direction[1] * y);
-        [-1.0, 1.0].map(|sign| {
-            let coefficients = x.coefficients.iter().zip(&y.coefficients).zip(&self.couple.coefficients);
-            Affine {
-                coefficients: coefficients.map(|((x, y), couple)| along(*x, *y) + sign * couple).collect(),
-                constant: along(x.constant, y.constant) + sign * self.couple.constant + self.allowance,
-            }
-        })
+        let along = |x: f64, y: f64| side * self.radius * (direction[0] * x + direction[1] * y);
+        let coefficients = x.coefficients.iter().zip(&y.coefficients).zip(&self.couple.coefficients);
+        Affine {
+            coefficients: coefficients.map(|((x, y), couple)| along(*x, *y) + sign * couple).collect(),
+            constant: along(x.constant, y.constant) + sign * self.couple.constant + self.allowance,
+        }
     }
 
     fn reaction_at(&self, end: &End) -> [f64; 2] {
         self.reaction.each_ref().map(|component| end.value_of(component))
     }
 
-    /// By how much the couple exceeds the friction circle.
+    /// By how much the couple exceeds the friction circle, or is off it where the hinge turns.
     fn excess(&self, end: &End) -> f64 {
         let [x, y] = self.reaction_at(end);
-        end.value_of(&self.couple).abs() - self.radius * x.hypot(y)
+        let excess = end.value_of(&self.couple).abs() - self.radius * x.hypot(y);
+        if self.turning.is_some() { excess.abs() } else { excess.max(0.0) }
     }
 }
 
@@ -68,8 +87,15 @@ struct Sector {
 }
 
 impl Sector {
+    /// `c`, with `c.R >= |R|` in the sector.
     fn outer(self) -> [f64; 2] {
-        [self.middle.cos() / self.half.cos(), self.middle.sin() / self.half.cos()]
+        self.direction(0.0).map(|component| component / self.half.cos())
+    }
+
+    /// The direction so many half-angles from the middle.
+    fn direction(self, side: f64) -> [f64; 2] {
+        let angle = self.middle + side * self.half;
+        [angle.cos(), angle.sin()]
     }
 
     fn divided(sector: Option<Self>) -> Vec<Self> {
@@ -165,10 +191,32 @@ impl Pinned<'_> {
         Err(Unsolved)
     }
 
+    /// Regions in the union of which turning hinges have their couples, with the directions of their reactions known to
+    /// 1e-6: where those are isolated, a region about each solution, or a few that share it.
+    ///
+    /// # Errors
+    /// If a linear program was not solved, or too many sectors would be needed.
+    pub(super) fn parts(&self) -> Result<Vec<Region>, Unsolved> {
+        let mut found = Vec::new();
+        let mut open = vec![vec![None; self.pins.len()]];
+        for _ in 0..MOST_SECTORS {
+            let Some(sectors) = open.pop() else { return Ok(found) };
+            let region = self.around(&sectors);
+            let (slack, at) = region.highest()?;
+            if slack < -NOTHING {
+                continue;
+            }
+            match self.divided(&sectors, &End { value: Some(slack), at, is_ray: false }) {
+                Some(parts) => open.extend(parts),
+                None => found.push(region),
+            }
+        }
+        Err(Unsolved)
+    }
+
     /// The region from outside.
     fn around(&self, sectors: &Sectors) -> Region {
-        let bounds = self.pins.iter().zip(sectors).filter_map(|(pin, sector)| Some((pin, (*sector)?)));
-        self.convex.within(bounds.flat_map(|(pin, sector)| pin.slacks(sector.outer())))
+        self.convex.within(self.pins.iter().zip(sectors).flat_map(|(pin, sector)| pin.around(*sector)))
     }
 
     /// The region from inside, with the directions that the reactions have somewhere.
@@ -176,7 +224,7 @@ impl Pinned<'_> {
         let slacks = |pin: &Pin| {
             let [x, y] = pin.reaction_at(end);
             let size = x.hypot(y);
-            pin.slacks(if size > 0.0 { [x / size, y / size] } else { [0.0; 2] })
+            pin.within(if size > 0.0 { [x / size, y / size] } else { [0.0; 2] })
         };
         self.convex.within(self.pins.iter().flat_map(slacks))
     }
@@ -186,7 +234,7 @@ impl Pinned<'_> {
     fn divided(&self, sectors: &Sectors, end: &End) -> Option<Vec<Sectors>> {
         let width = |k: usize| sectors[k].map_or(f64::INFINITY, |sector| sector.half);
         let wide = (0..sectors.len()).filter(|&k| width(k) > FINEST);
-        let rank = |k: usize| (self.pins[k].excess(end).max(0.0), width(k));
+        let rank = |k: usize| (self.pins[k].excess(end), width(k));
         let chosen = wide.max_by(|&a, &b| {
             let (a, b) = (rank(a), rank(b));
             a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
@@ -238,7 +286,13 @@ mod tests {
         let moment = |p: [f64; 2], f: [f64; 2]| p[0] * f[1] - p[1] * f[0];
         let reaction = [0, 1].map(|axis| affine(&[-f_b[axis]], -f_a[axis]));
         let couple = affine(&[-moment(p_b, f_b)], -moment(p_a, f_a));
-        Region::new(1, Vec::new()).with_pins(vec![Pin { reaction, couple, radius, allowance: 0.0 }])
+        Region::new(1, Vec::new()).with_pins(vec![Pin {
+            reaction,
+            couple,
+            radius,
+            turning: None,
+            allowance: 0.0,
+        }])
     }
 
     /// In each part; sorted, and joined where they overlap.

@@ -64,6 +64,20 @@ impl Region {
         Self { pins, ..self }
     }
 
+    /// The region without its turning pins, in parts that hold their couples to 1e-12; itself if there are none.
+    ///
+    /// # Errors
+    /// If a linear program was not solved.
+    pub(crate) fn parts(self) -> Result<Vec<Self>, Unsolved> {
+        let (turning, sticking): (Vec<Pin>, Vec<Pin>) =
+            self.pins.iter().cloned().partition(|pin| pin.turning.is_some());
+        if turning.is_empty() {
+            return Ok(vec![self]);
+        }
+        let parts = Pinned { convex: &self, pins: &turning }.parts()?;
+        Ok(parts.into_iter().map(|part| part.with_pins(sticking.clone())).collect())
+    }
+
     /// The part in which further slacks are at least zero, without pins.
     pub(super) fn within(&self, further: impl Iterator<Item = Affine>) -> Self {
         Self::new(self.dimension, self.slacks.iter().cloned().chain(further).collect())

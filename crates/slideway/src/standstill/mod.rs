@@ -15,6 +15,10 @@
 //! about 1e-12 of the greatest force; a state that misses its inequalities by less than 1e-9 of it counts as
 //! possible.
 //!
+//! A hinge with friction sticks while `|M| <= r_static |R|`, a set that is not convex (theory of friction in hinges,
+//! section 7): a union of linear programs over directions of the reaction, so that what is held may be disconnected. Where
+//! it begins to turn, `|M| = r |R|`.
+//!
 //! Of redundant guides a contact may also be open, and the deflections of all contacts must fit together
 //! (theory, section 10). Where the guides came to rest within their play is not known: that, too, is a range. Without
 //! stiffness nothing bounds how hard they are pressed against each other, and such guides are refused.
@@ -37,9 +41,10 @@
 //! # Files
 //! `standstill` stands beside `solve` and takes `kinetics::Assembled`, the equations without factorization:
 //! at rest they need no inertia. `setup.rs` is the mechanism at rest with its varied load, `state.rs` the
-//! equations of one state of joints and contacts; `rest.rs`, `threshold.rs` and `release.rs` are the
+//! equations of one state of joints and contacts, `directions.rs` which way joints may move together; `rest.rs`, `threshold.rs` and `release.rs` are the
 //! questions.
 
+mod directions;
 mod reactions;
 mod release;
 mod report;
@@ -62,10 +67,11 @@ use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::sharing::load_sharing;
+use directions::{directions, most_directions};
 use nalgebra::DMatrix;
 use rest::Over;
 use setup::Setup;
-use state::side_options;
+use state::{Pattern, side_options};
 
 /// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations
 /// below this as none.
@@ -144,21 +150,23 @@ pub(crate) fn hold_within(
 ) -> Result<HoldReport, Faults> {
     let options = &with_load(model, options)?;
     let setup = Setup::new(model, options)?;
-    let [rest_patterns, all_patterns] = check_states(&setup, most_states)?;
+    let rest_patterns = check_states(&setup, most_states)?;
+    let motions = held_motions(&setup);
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
     let load = load_report(model, options, &setup, work.part(1, 4).part(0, 2))?;
     let wedging = threshold::wedging(model, options, &setup, work.part(1, 4).part(1, 2))?;
-    let motions_without_inertia = undriven_without_inertia(&setup);
-    let release = if motions_without_inertia.is_empty() {
-        release::releases(&setup, nominal, rest.found.is_some(), work.part(2, 4))
-    } else {
-        Over { found: Vec::new(), undecided: 0 }
-    };
-    let verdict = if motions_without_inertia.is_empty() {
-        let found = (rest.found.is_some(), !release.found.is_empty());
-        verdict(&setup, nominal, found, work.part(3, 4))
-    } else if rest.found.is_some() {
+    let motions_without_inertia = undriven_without_inertia(&setup, &motions);
+    let has_inertia = motions_without_inertia.is_empty();
+    let directions = if has_inertia { directions(&setup, &motions) } else { Vec::new() };
+    let is_held = rest.found.is_some();
+    let release = release::releases(&setup, &directions, (nominal, is_held), work.part(2, 4));
+    let verdict = if has_inertia {
+        let moves = !release.found.is_empty();
+        verdict(is_held, moves, || {
+            slips_against_static_friction(&setup, &directions, nominal, work.part(3, 4))
+        })
+    } else if is_held {
         HoldVerdict::MayHold
     } else {
         HoldVerdict::DoesNotHold
@@ -186,7 +194,7 @@ pub(crate) fn hold_within(
         load: load.map(|load| load.found),
         at_rest: rest.found,
         releases: release.found,
-        release_patterns: if motions_without_inertia.is_empty() { all_patterns } else { 0 },
+        release_patterns: directions.len() * rest_patterns,
         motions_without_inertia,
         rest_patterns,
     };
@@ -253,13 +261,14 @@ pub fn only_load(model: &Model) -> Result<String, Faults> {
     }
 }
 
-/// Patterns of sides, and of states of joints and sides.
-fn check_states(setup: &Setup, most: u64) -> Result<[usize; 2], Faults> {
-    let product = |counts: &mut dyn Iterator<Item = u64>| counts.fold(1_u64, u64::saturating_mul);
-    let sides = product(&mut side_options(setup).iter().map(|options| options.len() as u64));
-    let states = product(&mut setup.sliders.iter().map(|_| 3)).saturating_mul(sides);
-    match (usize::try_from(sides), usize::try_from(states)) {
-        (Ok(sides), Ok(all)) if states <= most => Ok([sides, all]),
+/// The number of patterns of sides, if no more states of joints and sides than these have to be tried.
+fn check_states(setup: &Setup, most: u64) -> Result<usize, Faults> {
+    let options = side_options(setup);
+    let sides = options.iter().fold(1_u64, |sides, options| sides.saturating_mul(options.len() as u64));
+    let joints = setup.sliders.len() + setup.mechanism.friction_circles.len();
+    let states = most_directions(held_motions(setup).ncols(), joints).saturating_mul(sides);
+    match usize::try_from(sides) {
+        Ok(sides) if states <= most => Ok(sides),
         _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: most }).into()),
     }
 }
@@ -293,10 +302,10 @@ fn told_wedging(threshold: Threshold) -> Wedging {
     Wedging { possible: threshold.value.is_some_and(reached), threshold }
 }
 
-fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> HoldVerdict {
+fn verdict(holds: bool, moves: bool, slips_against_static_friction: impl FnOnce() -> bool) -> HoldVerdict {
     match (holds, moves) {
         (true, false) => HoldVerdict::Holds,
-        (true, true) if slips_against_static_friction(setup, factor, work) => HoldVerdict::HoldsOrSlips,
+        (true, true) if slips_against_static_friction() => HoldVerdict::HoldsOrSlips,
         (true, true) => HoldVerdict::HoldsUntilPushed,
         (false, true) => HoldVerdict::Moves,
         (false, false) => HoldVerdict::Neither,
@@ -304,12 +313,15 @@ fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<
 }
 
 /// Whether it begins to slide even where kinetic friction is as great as static friction.
-fn slips_against_static_friction(setup: &Setup, factor: f64, work: Work<'_>) -> bool {
+fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], factor: f64, work: Work<'_>) -> bool {
     let mut rough = setup.clone();
     for contact in &mut rough.mechanism.contacts {
         contact.mu = contact.mu_static;
     }
-    !release::releases(&rough, factor, true, work).found.is_empty()
+    for circle in &mut rough.mechanism.friction_circles {
+        circle.radius = circle.static_radius;
+    }
+    !release::releases(&rough, directions, (factor, true), work).found.is_empty()
 }
 
 fn state(setup: &Setup) -> Vec<CoordinateValue> {
@@ -332,14 +344,13 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 }
 
 /// Motions that the joints leave and that have no kinetic energy, unless drives hold them.
-fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
-    let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
-    let motions = held_motions(setup, free_motions(mechanism, configuration));
-    motions_without_inertia(mechanism, configuration, &motions, &setup.loads())
+fn undriven_without_inertia(setup: &Setup, motions: &DMatrix<f64>) -> Vec<String> {
+    motions_without_inertia(&setup.mechanism, &setup.configuration, motions, &setup.loads())
 }
 
-/// The motions that drives leave.
-fn held_motions(setup: &Setup, motions: DMatrix<f64>) -> DMatrix<f64> {
+/// The motions that joints and drives leave, one in each column.
+fn held_motions(setup: &Setup) -> DMatrix<f64> {
+    let motions = free_motions(&setup.mechanism, &setup.configuration);
     let drives = setup.mechanism.drives.len();
     if drives == 0 || motions.is_empty() {
         return motions;

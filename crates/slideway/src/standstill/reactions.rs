@@ -5,7 +5,7 @@ use super::setup::Setup;
 use super::state::State;
 use crate::ids::{DriveId, JointId};
 use crate::kinetics::Reaction;
-use crate::mechanism::{Effort, Joint, JointKind};
+use crate::mechanism::Effort;
 use crate::pattern::{AffineExpression, GuidedCouple, Region, Unsolved};
 
 /// The range of an expression in a region of a state, in this unit.
@@ -21,11 +21,22 @@ pub(super) fn range(
     Ok(Range { least, greatest }.times(unit))
 }
 
+/// The ranges of an expression in a region that friction circles may divide, in this unit.
+pub(super) fn ranges(
+    state: &State<'_>,
+    region: &Region,
+    expression: &AffineExpression,
+    unit: f64,
+) -> Result<Vec<Range>, Unsolved> {
+    let extents = region.extents(&state.function(expression))?;
+    Ok(extents.into_iter().map(|[least, greatest]| Range { least, greatest }.times(unit)).collect())
+}
+
 /// The ranges of all reactions in a region of a state.
 pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Reactions, Unsolved> {
     let contacts = (0..setup.mechanism.contacts.len()).map(|k| contact(setup, state, region, k));
-    let joints = setup.mechanism.joints.iter().enumerate();
-    let hinges = joints.filter_map(|(index, joint)| hinge(setup, (JointId(index), joint), state, region));
+    let joints = (0..setup.mechanism.joints.len()).map(JointId);
+    let hinges = joints.filter_map(|joint| hinge(setup, joint, state, region));
     let drives = (0..setup.mechanism.drives.len()).map(|index| drive(setup, DriveId(index), state, region));
     Ok(Reactions {
         contacts: contacts.collect::<Result<_, _>>()?,
@@ -54,11 +65,11 @@ fn contact(setup: &Setup, state: &State<'_>, region: &Region, k: usize) -> Resul
 /// On ground the force is of no interest: it is counted on the body then.
 fn hinge(
     setup: &Setup,
-    (id, joint): (JointId, &Joint),
+    id: JointId,
     state: &State<'_>,
     region: &Region,
 ) -> Option<Result<HingeRange, Unsolved>> {
-    let JointKind::Hinge(ends) = &joint.kind else { return None };
+    let ends = setup.mechanism.hinge(id)?;
     let on_first = ends[0].frame.body().is_some();
     let component = |axis| {
         let place = setup.assembled.layout.reaction(Reaction::Hinge(id, axis));
@@ -68,11 +79,27 @@ fn hinge(
     };
     let on = if on_first { ends[0].frame } else { ends[1].frame };
     let both = component(0).and_then(|x| Ok([x, component(1)?]));
-    Some(both.map(|force| HingeRange {
-        name: joint.name.to_string(),
-        on: setup.mechanism.frame_name(on).to_owned(),
-        force,
+    let couple = friction_couple(setup, id, state, region);
+    Some(both.and_then(|force| {
+        Ok(HingeRange {
+            name: setup.mechanism.joints[id.index()].name.to_string(),
+            on: setup.mechanism.frame_name(on).to_owned(),
+            force,
+            couple: couple?.map(|range| if on_first { range } else { range.negated() }),
+        })
     }))
+}
+
+/// The couple of friction of a hinge that has some, on its first body.
+fn friction_couple(
+    setup: &Setup,
+    hinge: JointId,
+    state: &State<'_>,
+    region: &Region,
+) -> Result<Option<Range>, Unsolved> {
+    let circle = setup.mechanism.friction_circles.iter().position(|circle| circle.joint == hinge);
+    let unit = setup.units.force * setup.units.length;
+    circle.map(|circle| range(state, region, &state.friction_couple(circle), unit)).transpose()
 }
 
 fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region) -> Result<DriveRange, Unsolved> {

@@ -3,34 +3,38 @@
 use super::TOLERANCE;
 use super::reactions::{range, reactions};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
-use super::rest::{Over, possible, static_coefficients, symbols, until_over};
+use super::rest::{Over, possible, static_friction, symbols, until_over};
 use super::setup::{Setup, SlidingJoint};
-use super::state::{State, StateQuestion, sides};
+use super::state::{Pattern, State, StateQuestion, sides};
 use super::words::slip_in_words;
 use crate::configuration::unit;
-use crate::pattern::{JointPhase, Phase, Region, Unsolved};
+use crate::pattern::{JointPhase, Region, Unsolved};
 use crate::progress::Work;
 
 /// Two states are the same if no number differs by more than this, relative to the units of the programs.
 const SAME: f64 = 1e-7;
 
-/// All states in which something begins to move, with a factor of the varied load.
+/// All states in which something begins to move in one of these directions, with a factor of the varied load.
 ///
 /// Without `at_rest` the state in which all joints stick is tried, too: bodies may begin to move in hinges
-/// alone.
-pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool, work: Work<'_>) -> Over<Vec<Release>> {
+/// without friction alone.
+pub(super) fn releases(
+    setup: &Setup,
+    directions: &[Pattern],
+    (factor, at_rest): (f64, bool),
+    work: Work<'_>,
+) -> Over<Vec<Release>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
-    let states = sliding_states(setup.sliders.len());
-    let all = states.len();
-    for (index, sliding) in states.into_iter().enumerate() {
-        if at_rest && sliding.iter().all(|joint| *joint == JointPhase::Sticking) {
+    let all = directions.len();
+    for (index, signs) in directions.iter().enumerate() {
+        let mut joints = signs.joints.iter().chain(&signs.hinges);
+        if at_rest && joints.all(|joint| *joint == JointPhase::Sticking) {
             continue;
         }
         for sides in until_over(sides(setup), work.part(index, all)) {
-            let pattern = Phase { joints: sliding.clone(), contacts: sides };
-            match release(setup, &pattern, factor) {
-                Ok(Some(release)) => add(&mut over.found, release, setup),
-                Ok(None) => {}
+            let pattern = Pattern { contacts: sides, ..signs.clone() };
+            match released(setup, &pattern, factor) {
+                Ok(releases) => releases.into_iter().for_each(|release| add(&mut over.found, release, setup)),
                 Err(Unsolved) => over.undecided += 1,
             }
         }
@@ -38,30 +42,30 @@ pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool, work: Work<'_>
     over
 }
 
-/// Every combination of sticking and slipping either way.
-fn sliding_states(joints: usize) -> Vec<Vec<JointPhase>> {
-    let mut all = vec![Vec::new()];
-    for _ in 0..joints {
-        let extended = |states: Vec<JointPhase>| {
-            let options = [JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)];
-            options.into_iter().map(move |option| states.iter().copied().chain([option]).collect())
-        };
-        all = all.into_iter().flat_map(extended).collect();
-    }
-    all
+/// The ways in which a mechanism begins to move with a pattern: one for each part into which turning hinges divide its
+/// region.
+fn released(setup: &Setup, pattern: &Pattern, factor: f64) -> Result<Vec<Release>, Unsolved> {
+    let question = StateQuestion { moving: true, ..StateQuestion::rest(Some(factor)) };
+    let Some(state) = State::new(setup, pattern, question) else { return Ok(Vec::new()) };
+    let parts = state.region(&static_friction(setup)).parts()?;
+    let releases = parts.into_iter().map(|part| release(setup, pattern, &state, part));
+    releases.filter_map(Result::transpose).collect()
 }
 
-fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release>, Unsolved> {
-    let question = StateQuestion { moving: true, ..StateQuestion::rest(Some(factor)) };
-    let Some(state) = State::new(setup, pattern, question) else { return Ok(None) };
-    let Some(region) = possible(state.region(&static_coefficients(setup)))? else { return Ok(None) };
-    let Some(region) = really_slipping(setup, pattern, &state, region)? else { return Ok(None) };
+fn release(
+    setup: &Setup,
+    pattern: &Pattern,
+    state: &State<'_>,
+    region: Region,
+) -> Result<Option<Release>, Unsolved> {
+    let Some(region) = possible(region)? else { return Ok(None) };
+    let Some(region) = really_slipping(setup, pattern, state, region)? else { return Ok(None) };
     let of_joint = |(index, slider): (usize, &SlidingJoint)| {
         let expression = state.sliding_acceleration(index);
         let (slip, acceleration) = match pattern.joints[index] {
             JointPhase::Sticking => (0, Range { least: Some(0.0), greatest: Some(0.0) }),
             JointPhase::Sliding(sign) => {
-                let range = range(&state, &region, &expression, setup.units.acceleration)?;
+                let range = range(state, &region, &expression, setup.units.acceleration)?;
                 (if sign < 0.0 { -1 } else { 1 }, range)
             }
         };
@@ -73,11 +77,11 @@ fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release
         })
     };
     let joints = setup.sliders.iter().enumerate().map(of_joint).collect::<Result<_, _>>()?;
-    let reactions = reactions(setup, &state, &region)?;
+    let reactions = reactions(setup, state, &region)?;
     Ok(Some(Release {
         joints,
         patterns: vec![symbols(setup, pattern, &reactions)],
-        coordinates: coordinates(setup, &state, &region)?,
+        coordinates: coordinates(setup, state, &region)?,
         reactions,
     }))
 }
@@ -86,15 +90,19 @@ fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release
 /// coordinate must accelerate.
 fn really_slipping(
     setup: &Setup,
-    pattern: &Phase,
+    pattern: &Pattern,
     state: &State<'_>,
     region: Region,
 ) -> Result<Option<Region>, Unsolved> {
     let mut some = false;
-    for (index, joint) in pattern.joints.iter().enumerate() {
+    let sliding =
+        pattern.joints.iter().enumerate().map(|(index, joint)| (joint, state.sliding_acceleration(index)));
+    let turning =
+        pattern.hinges.iter().enumerate().map(|(index, hinge)| (hinge, state.turning_acceleration(index)));
+    for (joint, acceleration) in sliding.chain(turning) {
         let JointPhase::Sliding(sign) = joint else { continue };
         some = true;
-        let acceleration = state.sliding_acceleration(index).times(*sign);
+        let acceleration = acceleration.times(*sign);
         let [_, greatest] = region.extent(&state.function(&acceleration))?;
         if greatest.is_some_and(|greatest| greatest <= TOLERANCE) {
             return Ok(None);

@@ -235,6 +235,8 @@ pub struct HingeRange {
     pub on: String,
     /// Its components along x and y (N).
     pub force: [Range; 2],
+    /// The couple of its friction on the same body (N m); nothing if it has none.
+    pub couple: Option<Range>,
 }
 
 /// Effort of a drive that holds.

@@ -1,11 +1,11 @@
 //! States of rest: statics with friction, one linear program for each pattern of contact sides.
 
 use super::TOLERANCE;
-use super::reactions::{range, reactions};
+use super::reactions::{ranges, reactions};
 use super::report::{AtRest, Range, Reactions};
 use super::setup::Setup;
-use super::state::{State, StateQuestion, sides};
-use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
+use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
+use crate::pattern::{ContactPhase, JointPhase, Region, Unsolved};
 use crate::progress::Work;
 
 /// Ends of intervals that differ by less than this, relative to the greater, are the same.
@@ -20,13 +20,20 @@ pub(super) struct Over<T> {
 }
 
 /// Every joint sticks, with these sides.
-pub(super) fn resting(setup: &Setup, sides: Vec<ContactPhase>) -> Phase {
-    Phase { joints: vec![JointPhase::Sticking; setup.sliders.len()], contacts: sides }
+pub(super) fn resting(setup: &Setup, sides: Vec<ContactPhase>) -> Pattern {
+    Pattern {
+        joints: vec![JointPhase::Sticking; setup.sliders.len()],
+        hinges: vec![JointPhase::Sticking; setup.mechanism.friction_circles.len()],
+        contacts: sides,
+    }
 }
 
-/// The static coefficients of the contacts.
-pub(super) fn static_coefficients(setup: &Setup) -> Vec<[f64; 2]> {
-    setup.mechanism.contacts.iter().map(|contact| contact.mu_static).collect()
+/// The static friction of contacts and hinges.
+pub(super) fn static_friction(setup: &Setup) -> StaticFriction {
+    StaticFriction {
+        mu: setup.mechanism.contacts.iter().map(|contact| contact.mu_static).collect(),
+        radii: setup.mechanism.friction_circles.iter().map(|circle| circle.static_radius).collect(),
+    }
 }
 
 /// The region of a state if it is not empty, relaxed by as little as rounding asks for.
@@ -36,7 +43,7 @@ pub(super) fn possible(region: Region) -> Result<Option<Region>, Unsolved> {
 }
 
 /// One sign for each contact. One that shares a load and has no normal force is open, or just touches.
-pub(super) fn symbols(setup: &Setup, pattern: &Phase, reactions: &Reactions) -> String {
+pub(super) fn symbols(setup: &Setup, pattern: &Pattern, reactions: &Reactions) -> String {
     let nothing = TOLERANCE * setup.units.force;
     let has_none = |end: Option<f64>| end.is_some_and(|force| force.abs() <= nothing);
     let one = |(k, contact): (usize, &ContactPhase)| {
@@ -61,7 +68,7 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        let region = state.region(&static_coefficients(setup));
+        let region = state.region(&static_friction(setup));
         let found =
             possible(region).and_then(|region| region.map(|r| reactions(setup, &state, &r)).transpose());
         match found {
@@ -109,7 +116,7 @@ pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<
         let question = StateQuestion::rest(Some(factor));
         let pattern = resting(setup, sides);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        match possible(state.region(&static_coefficients(setup))) {
+        match possible(state.region(&static_friction(setup))) {
             Ok(Some(_)) => return Some(true),
             Ok(None) => {}
             Err(Unsolved) => undecided = true,
@@ -125,10 +132,10 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(None);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        let region = state.region(&static_coefficients(setup));
-        let extent = |region: Region| range(&state, &region, &state.factor(), state.factor_unit());
-        match possible(region).and_then(|region| region.map(extent).transpose()) {
-            Ok(found) => over.found.extend(found),
+        let region = state.region(&static_friction(setup));
+        let extents = |region: Region| ranges(&state, &region, &state.factor(), state.factor_unit());
+        match possible(region).and_then(|region| region.map(extents).transpose()) {
+            Ok(found) => over.found.extend(found.into_iter().flatten()),
             Err(Unsolved) => over.undecided += 1,
         }
     }

@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
-use crate::mechanism::{Effort, JointKind, Mechanism, Quantity};
+use crate::mechanism::{Attachment, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
@@ -78,7 +78,6 @@ impl Setup {
     pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
-        original.check_frictionless_hinges()?;
         let configuration = Configuration::new(&original)?;
         let mut mechanism = original.clone();
         configuration.put_misalignments(&mut mechanism)?;
@@ -137,11 +136,23 @@ impl Setup {
         varied.map_or_else(|| self.given.clone(), |varied| &self.given + varied)
     }
 
+    /// The place of the moment that a couple exerts on each body of a hinge among the equations of motion, and its sign;
+    /// the couple is counted on the first body.
+    pub(super) fn couple(&self, circle: &FrictionCircle) -> impl Iterator<Item = (usize, f64)> {
+        let ends = self.mechanism.hinge(circle.joint).map(|[first, second]| [(first, 1.0), (second, -1.0)]);
+        let on_body =
+            |(end, sign): (&Attachment, f64)| end.frame.body().map(|body| (3 * body.index() + 2, sign));
+        ends.into_iter().flatten().filter_map(on_body)
+    }
+
     /// The same with all coefficients of friction multiplied by a factor.
     pub(super) fn rougher(mut self, factor: f64) -> Self {
         for contact in &mut self.mechanism.contacts {
             contact.mu = contact.mu.map(|mu| mu * factor);
             contact.mu_static = contact.mu_static.map(|mu| mu * factor);
+        }
+        for circle in &mut self.mechanism.friction_circles {
+            circle.static_radius = circle.static_radius_with(factor * circle.static_friction());
         }
         self
     }

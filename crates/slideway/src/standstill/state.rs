@@ -4,13 +4,32 @@
 use super::setup::{Setup, SlidingJoint};
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
-use crate::mechanism::Effort;
+use crate::mechanism::{Effort, FrictionCircle};
 use crate::modes::SharedLoad;
 use crate::pattern::{
-    Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING, Phase, Region,
+    Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING, Pin, Region,
     without_tipping,
 };
 use nalgebra::{DMatrix, DVector};
+
+/// What every joint and contact does.
+#[derive(Debug, Clone)]
+pub(super) struct Pattern {
+    /// The sliding joints.
+    pub(super) joints: Vec<JointPhase>,
+    /// The hinges with friction: turning, with the sign of the first body's angle against the second's, or sticking.
+    pub(super) hinges: Vec<JointPhase>,
+    /// The contacts.
+    pub(super) contacts: Vec<ContactPhase>,
+}
+
+/// Static friction of contacts and hinges.
+pub(super) struct StaticFriction {
+    /// Coefficients of each contact and side.
+    pub(super) mu: Vec<[f64; 2]>,
+    /// Radii of the friction circles (m).
+    pub(super) radii: Vec<f64>,
+}
 
 /// What is asked of a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,31 +52,37 @@ impl StateQuestion {
 /// A pattern with its equations solved as far as they go.
 pub(super) struct State<'s> {
     setup: &'s Setup,
-    pattern: &'s Phase,
+    pattern: &'s Pattern,
     question: StateQuestion,
     friction: Vec<Friction>,
     /// Where an open contact is, an unknown: its share of the way from the negative to the positive face, or the distance
     /// of the open face of a press fit.
     between: Vec<Option<usize>>,
+    /// The couple of each hinge with friction, an unknown.
+    couples: Vec<usize>,
     columns: usize,
     solutions: AffineSet,
 }
 
 impl<'s> State<'s> {
     /// The state with its equations; nothing where they contradict each other.
-    pub(super) fn new(setup: &'s Setup, pattern: &'s Phase, question: StateQuestion) -> Option<Self> {
+    pub(super) fn new(setup: &'s Setup, pattern: &'s Pattern, question: StateQuestion) -> Option<Self> {
         let mut state = Self {
             setup,
             pattern,
             question,
             friction: Vec::new(),
             between: Vec::new(),
+            couples: Vec::new(),
             columns: 0,
             solutions: AffineSet::empty(),
         };
         state.columns = state.first_force() + setup.assembled.layout.len() - setup.equations_of_motion();
         state.friction = (0..setup.mechanism.contacts.len()).map(|k| state.new_friction(k)).collect();
         state.between = (0..setup.mechanism.contacts.len()).map(|k| state.new_place(k)).collect();
+        let first_couple = state.columns;
+        state.columns += setup.mechanism.friction_circles.len();
+        state.couples = (first_couple..state.columns).collect();
         state.columns += usize::from(question.factor.is_none());
         let (matrix, right_hand_side) = state.equations();
         state.solutions = AffineSet::of(matrix, right_hand_side)?;
@@ -215,6 +240,11 @@ impl<'s> State<'s> {
                 right_hand_side.axpy(force.constant * unit, &face, 1.0);
             }
         }
+        for (circle, &unknown) in setup.mechanism.friction_circles.iter().zip(&self.couples) {
+            for (row, sign) in setup.couple(circle) {
+                matrix[(row, unknown)] -= sign * unit * setup.units.length;
+            }
+        }
         if let Some(load) = &setup.load {
             if let Some(factor) = self.question.factor {
                 right_hand_side += &load.forces * factor;
@@ -226,7 +256,7 @@ impl<'s> State<'s> {
         (matrix, right_hand_side)
     }
 
-    /// G a = 0, C a = 0 and, for joints that stick, S_j a = 0.
+    /// G a = 0, C a = 0 and, for joints and hinges that stick, S_j a = 0.
     fn kinematics(&self) -> Vec<DVector<f64>> {
         let setup = self.setup;
         let rows = setup.equations_of_motion();
@@ -240,6 +270,11 @@ impl<'s> State<'s> {
         for (index, joint) in self.pattern.joints.iter().enumerate() {
             if *joint == JointPhase::Sticking {
                 found.push(self.dense(&self.sliding_acceleration(index)));
+            }
+        }
+        for (index, hinge) in self.pattern.hinges.iter().enumerate() {
+            if *hinge == JointPhase::Sticking {
+                found.push(self.dense(&self.turning_acceleration(index)));
             }
         }
         found
@@ -338,6 +373,18 @@ impl State<'_> {
         self.of_accelerations(along, self.setup.units.acceleration)
     }
 
+    /// Angular acceleration of the first body of a hinge with friction against the second.
+    pub(super) fn turning_acceleration(&self, hinge: usize) -> AffineExpression {
+        let circle = &self.setup.mechanism.friction_circles[hinge];
+        let units = &self.setup.units;
+        self.of_accelerations(self.setup.couple(circle), units.acceleration / units.length)
+    }
+
+    /// The couple of a hinge with friction, on its first body.
+    pub(super) fn friction_couple(&self, hinge: usize) -> AffineExpression {
+        AffineExpression::unknown(self.couples[hinge], 1.0)
+    }
+
     /// A linear form of the accelerations, in this unit.
     pub(super) fn of_accelerations(
         &self,
@@ -357,11 +404,10 @@ impl State<'_> {
 
 /// Inequalities of a state.
 impl State<'_> {
-    /// What the equations leave open within every inequality of the state, with these coefficients of static
-    /// friction.
-    pub(super) fn region(&self, mu_static: &[[f64; 2]]) -> Region {
+    /// What the equations leave open within every inequality of the state, with this static friction.
+    pub(super) fn region(&self, static_friction: &StaticFriction) -> Region {
         let mut slacks = Vec::new();
-        for (friction, mu_static) in self.friction.iter().zip(mu_static) {
+        for (friction, mu_static) in self.friction.iter().zip(&static_friction.mu) {
             slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
         }
         for (k, place) in self.between.iter().enumerate() {
@@ -388,8 +434,36 @@ impl State<'_> {
                 slacks.push(self.sliding_acceleration(index).times(*sign));
             }
         }
+        for (index, hinge) in self.pattern.hinges.iter().enumerate() {
+            if let JointPhase::Sliding(sign) = hinge {
+                slacks.push(self.turning_acceleration(index).times(*sign));
+            }
+        }
         let functions = slacks.iter().map(|slack| self.function(slack)).collect();
-        Region::new(self.solutions.dimension(), functions)
+        Region::new(self.solutions.dimension(), functions).with_pins(self.pins(&static_friction.radii))
+    }
+
+    /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones.
+    fn pins(&self, static_radii: &[f64]) -> Vec<Pin> {
+        let circles = self.setup.mechanism.friction_circles.iter().zip(static_radii).enumerate();
+        let pin = |(index, (circle, static_radius)): (usize, (&FrictionCircle, &f64))| {
+            let (turning, radius) = match self.pattern.hinges[index] {
+                JointPhase::Sticking => (None, *static_radius),
+                JointPhase::Sliding(sign) => (Some(sign), circle.radius),
+            };
+            let reaction = [0, 1].map(|axis| {
+                let place = self.setup.assembled.layout.reaction(Reaction::Hinge(circle.joint, axis));
+                self.function(&self.reaction(place.expect("every hinge has its reactions")))
+            });
+            Pin {
+                reaction,
+                couple: self.function(&self.friction_couple(index)),
+                radius: radius / self.setup.units.length,
+                turning,
+                allowance: 0.0,
+            }
+        };
+        circles.map(pin).collect()
     }
 }
 

@@ -18,13 +18,13 @@
 
 use super::HoldOptions;
 use super::report::{Coefficients, Threshold};
-use super::rest::{Over, resting, static_coefficients, until_over};
+use super::rest::{Over, resting, static_friction, until_over};
 use super::setup::Setup;
-use super::state::{State, StateQuestion, sides};
+use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::model::Model;
-use crate::pattern::{Phase, Unsolved};
+use crate::pattern::Unsolved;
 use crate::progress::Work;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
@@ -37,18 +37,33 @@ const SECANT: [f64; 2] = [1e-6, 1e-8];
 const NEAR: f64 = 1e-9;
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
-/// Static coefficients as a function `constant + slope p` of what is varied, for each contact and side.
+/// Static friction as a function `constant + slope p` of what is varied.
 struct Law {
     varied: String,
     present: f64,
+    /// The coefficients of each contact and side.
     lines: Vec<[[f64; 2]; 2]>,
+    /// The coefficient of each pin, or the radius of a friction circle that is given.
+    hinges: Vec<[f64; 2]>,
 }
 
 impl Law {
     fn coefficients(&self, value: f64) -> Vec<[f64; 2]> {
-        let at = |[constant, slope]: [f64; 2]| (constant + slope * value).max(0.0);
-        self.lines.iter().map(|sides| sides.map(at)).collect()
+        self.lines.iter().map(|sides| sides.map(|line| on(line, value))).collect()
     }
+
+    fn friction(&self, setup: &Setup, value: f64) -> StaticFriction {
+        let circles = setup.mechanism.friction_circles.iter().zip(&self.hinges);
+        StaticFriction {
+            mu: self.coefficients(value),
+            radii: circles.map(|(circle, line)| circle.static_radius_with(on(*line, value))).collect(),
+        }
+    }
+}
+
+/// Friction on a line; it is never negative.
+fn on([constant, slope]: [f64; 2], value: f64) -> f64 {
+    (constant + slope * value).max(0.0)
 }
 
 /// The threshold for the varied load of a setup, or nothing if none is varied.
@@ -93,7 +108,11 @@ fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Fault
         None => Ok(Law {
             varied: "static friction".to_owned(),
             present: 1.0,
-            lines: static_coefficients(setup).iter().map(|mu| mu.map(|mu| [0.0, mu])).collect(),
+            lines: static_friction(setup).mu.iter().map(|mu| mu.map(|mu| [0.0, mu])).collect(),
+            hinges: {
+                let circles = setup.mechanism.friction_circles.iter();
+                circles.map(|circle| [0.0, circle.static_friction()]).collect()
+            },
         }),
         Some(name) => parameter_law(model, setup, name),
     }
@@ -139,12 +158,12 @@ fn least_value(alone: &Setup, law: &Law, question: StateQuestion, work: Work<'_>
 /// The least value for which a pattern answers the question, if it is less than the one already found.
 fn least_in(
     alone: &Setup,
-    pattern: &Phase,
+    pattern: &Pattern,
     law: &Law,
     (question, found): (StateQuestion, Option<f64>),
 ) -> Result<Option<f64>, Unsolved> {
     let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
-    let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);
+    let missing = |value| state.region(&law.friction(alone, value)).highest().map(|(slack, _)| -slack);
     least_of(found.unwrap_or(GREATEST), missing)
 }
 
@@ -197,7 +216,7 @@ fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults
         return Err(Fault::general(kind).into());
     };
     let refused = || Faults::from(Fault::general(FaultKind::NotOnlyFriction { parameter: name.to_owned() }));
-    if !model.changes_friction_alone(parameter) {
+    if !model.changes_friction_and_pins_alone(parameter) {
         return Err(refused());
     }
     let line = |formula: FormulaId| model.line_of(formula, parameter).filter(|[_, slope]| *slope >= 0.0);
@@ -209,9 +228,11 @@ fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults
         })
         .collect();
     let lines = lines.filter(|lines| lines.len() == setup.mechanism.contacts.len()).ok_or_else(refused)?;
-    if lines.iter().flatten().all(|[_, slope]| *slope == 0.0) {
+    let of_hinges = model.hinge_friction().map(|friction| line(friction.kinetic_and_static()[1]));
+    let hinges: Vec<[f64; 2]> = of_hinges.collect::<Option<_>>().ok_or_else(refused)?;
+    if lines.iter().flatten().chain(&hinges).all(|[_, slope]| *slope == 0.0) {
         return Err(refused());
     }
     let present = model.parameter_values(&model.constants()?)[parameter];
-    Ok(Law { varied: name.to_owned(), present, lines })
+    Ok(Law { varied: name.to_owned(), present, lines, hinges })
 }

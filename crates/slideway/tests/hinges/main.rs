@@ -7,4 +7,5 @@ mod closed_forms;
 mod gallery;
 mod reading;
 mod reference;
+mod standstill;
 mod turning;
