@@ -19,6 +19,8 @@ use std::f64::consts::FRAC_PI_4;
 const FINEST: f64 = 1.4e-6;
 /// Ends of extents that are known from inside and outside agree to this, relative to the greater of 1 and the end.
 const AGREEMENT: f64 = 1e-11;
+/// The greatest least slack of an empty region is known to this part of it.
+const SLACK_AGREEMENT: f64 = 1e-6;
 /// More sectors are not tried.
 const MOST_SECTORS: usize = 20_000;
 
@@ -46,7 +48,11 @@ impl Pin {
     /// What holds of all reactions within a sector: of a hinge that sticks `|M| <= r c.R`, of one that turns besides
     /// `-s M >= r e.R` for directions `e` of the sector, since `|R| >= e.R` for every `e`.
     fn around(&self, sector: Option<Sector>) -> Vec<Affine> {
-        let at_rest = sector.map_or_else(Vec::new, |sector| self.within(sector.outer()));
+        let at_rest = match sector {
+            Some(sector) => self.within(sector.outer()),
+            None if self.radius == 0.0 => self.within([0.0; 2]),
+            None => Vec::new(),
+        };
         let Some(sign) = self.turning else { return at_rest };
         let parts = Sector::divided(None);
         let edges = sector.map_or_else(
@@ -120,7 +126,8 @@ pub(super) struct Pinned<'a> {
 }
 
 impl Pinned<'_> {
-    /// The point at which the least slack is greatest, those of the friction circles among them, and that slack.
+    /// The point at which the least slack is greatest, those of the friction circles among them, and that slack; once one
+    /// is positive, greater ones are not sought.
     ///
     /// # Errors
     /// If a linear program was not solved, or too many sectors would be needed.
@@ -131,14 +138,18 @@ impl Pinned<'_> {
             let upper = |node: &(f64, End, Sectors)| node.0;
             let next = (0..open.len()).max_by(|a, b| upper(&open[*a]).total_cmp(&upper(&open[*b])));
             let Some((upper, at, sectors)) = next.map(|next| open.swap_remove(next)) else { return Ok(best) };
-            if upper <= best.0 + NOTHING {
+            let agree = NOTHING.max(SLACK_AGREEMENT * upper.abs());
+            if upper <= best.0 + agree {
                 return Ok(best);
             }
             let (inner, point) = self.inside(&at).highest()?;
             if inner > best.0 {
                 best = (inner, point);
             }
-            if upper <= best.0 + NOTHING {
+            if best.0 > NOTHING {
+                return Ok(best);
+            }
+            if upper <= best.0 + agree {
                 continue;
             }
             match self.divided(&sectors, &at) {

@@ -84,7 +84,7 @@ impl Region {
     }
 
     /// The point at which the least slack is greatest, but no more than 1, and that slack; negative if the
-    /// region is empty.
+    /// region is empty. With pins it is some point of the region, unless it is empty.
     ///
     /// # Errors
     /// If the linear program, which has a solution, was not solved.
