@@ -13,6 +13,8 @@
 
 use super::program::{End, NOTHING, Region, Unsolved};
 use super::{Affine, Extent};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 use std::f64::consts::FRAC_PI_4;
 
 /// Half-angle below which `1 / cos d - 1` is less than the accuracy of the programs, 1e-12.
@@ -21,8 +23,16 @@ const FINEST: f64 = 1.4e-6;
 const AGREEMENT: f64 = 1e-11;
 /// The greatest least slack of an empty region is known to this part of it.
 const SLACK_AGREEMENT: f64 = 1e-6;
+/// Smaller forces at a hinge are rounding errors of linear programs.
+const UNLOADED: f64 = 1e-9;
 /// More sectors are not tried.
-const MOST_SECTORS: usize = 20_000;
+const MOST_SECTORS: usize = 100_000;
+/// Half-angle of sectors in which Newton's method is begun.
+const NARROW: f64 = 1e-3;
+/// More steps of Newton's method are not taken.
+const MOST_STEPS: usize = 50;
+/// Directions that differ by less are the same.
+const SAME_DIRECTION: f64 = 1e-9;
 
 /// A hinge whose couple stays within the friction circle.
 #[derive(Debug, Clone)]
@@ -118,6 +128,35 @@ impl Sector {
 
 /// One sector for each pin.
 type Sectors = Vec<Option<Sector>>;
+/// One direction for each pin.
+type Directions = Vec<[f64; 2]>;
+
+/// Sectors, with a bound on the greatest least slack in them and where it is attained.
+struct Node {
+    upper: f64,
+    at: End,
+    sectors: Sectors,
+}
+
+impl PartialEq for Node {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Node {}
+
+impl PartialOrd for Node {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Node {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.upper.total_cmp(&other.upper)
+    }
+}
 
 /// A convex region and the pins that bound it further.
 pub(super) struct Pinned<'a> {
@@ -133,11 +172,9 @@ impl Pinned<'_> {
     /// If a linear program was not solved, or too many sectors would be needed.
     pub(super) fn highest(&self) -> Result<(f64, Vec<f64>), Unsolved> {
         let mut best = (f64::NEG_INFINITY, Vec::new());
-        let mut open = vec![self.node(vec![None; self.pins.len()])?];
+        let mut open = BinaryHeap::from([self.node(vec![None; self.pins.len()])?]);
         for _ in 0..MOST_SECTORS {
-            let upper = |node: &(f64, End, Sectors)| node.0;
-            let next = (0..open.len()).max_by(|a, b| upper(&open[*a]).total_cmp(&upper(&open[*b])));
-            let Some((upper, at, sectors)) = next.map(|next| open.swap_remove(next)) else { return Ok(best) };
+            let Some(Node { upper, at, sectors }) = open.pop() else { return Ok(best) };
             let agree = NOTHING.max(SLACK_AGREEMENT * upper.abs());
             if upper <= best.0 + agree {
                 return Ok(best);
@@ -152,7 +189,7 @@ impl Pinned<'_> {
             if upper <= best.0 + agree {
                 continue;
             }
-            match self.divided(&sectors, &at) {
+            match self.divided((&sectors, FINEST), &at) {
                 Some(parts) => {
                     for part in parts {
                         open.push(self.node(part)?);
@@ -164,10 +201,9 @@ impl Pinned<'_> {
         Err(Unsolved)
     }
 
-    /// A bound on the greatest least slack of sectors, and where it is attained.
-    fn node(&self, sectors: Sectors) -> Result<(f64, End, Sectors), Unsolved> {
-        let (slack, at) = self.around(&sectors).highest()?;
-        Ok((slack, End { value: Some(slack), at, is_ray: false }, sectors))
+    fn node(&self, sectors: Sectors) -> Result<Node, Unsolved> {
+        let (upper, at) = self.around(&sectors).highest()?;
+        Ok(Node { upper, at: End { value: Some(upper), at, is_ray: false }, sectors })
     }
 
     /// Least and greatest values of a function in the parts of the set, which may overlap.
@@ -194,7 +230,7 @@ impl Pinned<'_> {
                 continue;
             }
             let missed = ends.iter().find(|end| !covers(&found, [end.value; 2])).unwrap_or(&ends[0]);
-            match self.divided(&sectors, missed) {
+            match self.divided((&sectors, FINEST), missed) {
                 Some(parts) => open.extend(parts),
                 None => found.push(extent),
             }
@@ -202,27 +238,85 @@ impl Pinned<'_> {
         Err(Unsolved)
     }
 
-    /// Regions in the union of which turning hinges have their couples, with the directions of their reactions known to
-    /// 1e-6: where those are isolated, a region about each solution, or a few that share it.
+    /// Regions in which turning hinges have their couples with fixed directions of their reactions: one for each of the
+    /// isolated choices of these, found from sectors of [`NARROW`] width by Newton's method, in which `|R|` is replaced by
+    /// `t.R`. Solutions that lie closer together may be found once.
     ///
     /// # Errors
-    /// If a linear program was not solved, or too many sectors would be needed.
+    /// If a linear program was not solved, too many sectors would be needed, or Newton's method does not end.
     pub(super) fn parts(&self) -> Result<Vec<Region>, Unsolved> {
-        let mut found = Vec::new();
+        let mut found: Vec<(Directions, Region)> = Vec::new();
         let mut open = vec![vec![None; self.pins.len()]];
         for _ in 0..MOST_SECTORS {
-            let Some(sectors) = open.pop() else { return Ok(found) };
+            let Some(sectors) = open.pop() else {
+                return Ok(found.into_iter().map(|(_, region)| region).collect());
+            };
             let region = self.around(&sectors);
             let (slack, at) = region.highest()?;
             if slack < -NOTHING {
                 continue;
             }
-            match self.divided(&sectors, &End { value: Some(slack), at, is_ray: false }) {
+            let end = End { value: Some(slack), at, is_ray: false };
+            match self
+                .divided((&sectors, NARROW), &end)
+                .filter(|_| !self.is_unloaded(&region).unwrap_or(false))
+            {
                 Some(parts) => open.extend(parts),
-                None => found.push(region),
+                None => {
+                    let new = self.tangent(end)?;
+                    let is_new = |new: &(Directions, Region)| {
+                        found.iter().all(|(directions, _)| change(directions, &new.0) > SAME_DIRECTION)
+                    };
+                    found.extend(new.filter(is_new));
+                }
             }
         }
         Err(Unsolved)
+    }
+
+    /// The region in which couples are `-s r t.R`, with the directions `t` of its own reactions; nothing if it is empty.
+    fn tangent(&self, mut end: End) -> Result<Option<(Directions, Region)>, Unsolved> {
+        let mut directions = self.directions(&end);
+        for _ in 0..MOST_STEPS {
+            let both = |(pin, t): (&Pin, &[f64; 2])| {
+                let sign = pin.turning.unwrap_or_default();
+                [pin.slack(1.0, *t, sign), pin.slack(-1.0, *t, -sign)]
+            };
+            let region = self.convex.within(self.pins.iter().zip(&directions).flat_map(both));
+            let (slack, at) = region.highest()?;
+            if slack < -UNLOADED {
+                return Ok(None);
+            }
+            end.at = at;
+            let next = self.directions(&end);
+            if change(&directions, &next) <= SAME_DIRECTION {
+                return Ok(Some((next, region)));
+            }
+            directions = next;
+        }
+        Err(Unsolved)
+    }
+
+    /// The directions that the reactions have somewhere; of none, nothing.
+    fn directions(&self, end: &End) -> Directions {
+        let direction = |pin: &Pin| {
+            let [x, y] = pin.reaction_at(end);
+            let size = x.hypot(y);
+            if size > 0.0 { [x / size, y / size] } else { [0.0; 2] }
+        };
+        self.pins.iter().map(direction).collect()
+    }
+
+    /// Whether no pin is loaded anywhere in a region that is not empty: then directions make no difference.
+    fn is_unloaded(&self, region: &Region) -> Result<bool, Unsolved> {
+        let region = region.clone().relaxed(NOTHING);
+        for component in self.pins.iter().flat_map(|pin| &pin.reaction) {
+            let ends = region.convex_extent(component)?;
+            if !ends.iter().all(|end| end.is_some_and(|end| end.abs() <= UNLOADED)) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// The region from outside.
@@ -232,19 +326,16 @@ impl Pinned<'_> {
 
     /// The region from inside, with the directions that the reactions have somewhere.
     fn inside(&self, end: &End) -> Region {
-        let slacks = |pin: &Pin| {
-            let [x, y] = pin.reaction_at(end);
-            let size = x.hypot(y);
-            pin.within(if size > 0.0 { [x / size, y / size] } else { [0.0; 2] })
-        };
-        self.convex.within(self.pins.iter().flat_map(slacks))
+        let directions = self.directions(end);
+        self.convex
+            .within(self.pins.iter().zip(directions).flat_map(|(pin, direction)| pin.within(direction)))
     }
 
     /// The parts of the sector of the pin whose couple is too great by most, or of the widest one where none is; nothing
     /// if every sector is of the finest.
-    fn divided(&self, sectors: &Sectors, end: &End) -> Option<Vec<Sectors>> {
+    fn divided(&self, (sectors, finest): (&Sectors, f64), end: &End) -> Option<Vec<Sectors>> {
         let width = |k: usize| sectors[k].map_or(f64::INFINITY, |sector| sector.half);
-        let wide = (0..sectors.len()).filter(|&k| width(k) > FINEST);
+        let wide = (0..sectors.len()).filter(|&k| self.pins[k].radius > 0.0 && width(k) > finest);
         let rank = |k: usize| (self.pins[k].excess(end), width(k));
         let chosen = wide.max_by(|&a, &b| {
             let (a, b) = (rank(a), rank(b));
@@ -257,6 +348,12 @@ impl Pinned<'_> {
         };
         Some(Sector::divided(sectors[chosen]).into_iter().map(part).collect())
     }
+}
+
+/// The greatest difference of two choices of directions.
+fn change(one: &Directions, other: &Directions) -> f64 {
+    let differences = one.iter().flatten().zip(other.iter().flatten()).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
 }
 
 /// A region that is not empty but for rounding, relaxed by that.

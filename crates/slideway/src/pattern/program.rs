@@ -64,7 +64,7 @@ impl Region {
         Self { pins, ..self }
     }
 
-    /// The region without its turning pins, in parts that hold their couples to 1e-12; itself if there are none.
+    /// The region without its turning pins, in parts that hold their couples; itself if there are none.
     ///
     /// # Errors
     /// If a linear program was not solved.
