@@ -33,7 +33,8 @@ const ROUNDING: f64 = 1e-13;
 const WIDTH: f64 = 1e-14;
 /// Distances below the end of the bisection, relative to it, of the points of the last secant.
 const SECANT: [f64; 2] = [1e-6, 1e-8];
-/// The secant changes the end of the bisection by no more than this.
+/// The secant changes the end of the bisection by no more than this, relative to it; margins that are not decided nearer
+/// to the threshold end the bisection.
 const NEAR: f64 = 1e-9;
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
@@ -188,9 +189,15 @@ fn least_of(
         if middle <= below || middle >= above {
             break;
         }
-        if margin(middle)? > ROUNDING { below = middle } else { above = middle }
+        match margin(middle) {
+            Ok(margin) if margin > ROUNDING => below = middle,
+            Ok(_) => above = middle,
+            // Friction circles decide the sign of a margin near zero with ever more sectors.
+            Err(Unsolved) if above - below <= NEAR * above => break,
+            Err(Unsolved) => return Err(Unsolved),
+        }
     }
-    Ok(Some(polished(above, &mut margin)?))
+    Ok(Some(polished(above, &mut margin).unwrap_or(above)))
 }
 
 /// The root near `value` from the secant through two points below it, where the margin is well above
