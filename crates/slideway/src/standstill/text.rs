@@ -217,14 +217,20 @@ impl Text<'_> {
         if !rows.is_empty() {
             self.lines(&table(&header, &rows, 1));
         }
+        let has_friction = reactions.hinges.iter().any(|hinge| hinge.couple.is_some());
         let hinges = reactions.hinges.iter().map(|hinge| {
             let what = format!("hinge force on {}", hinge.on);
             let [x, y] = hinge.force.map(|component| words(component, scale, &force));
-            vec![hinge.name.clone(), what, x, y]
+            let couple = hinge.couple.map_or(String::new(), |couple| words(couple, scale, &torque));
+            [vec![hinge.name.clone(), what, x, y], if has_friction { vec![couple] } else { Vec::new() }]
+                .concat()
         });
         let rows: Vec<Vec<String>> = hinges.collect();
         if !rows.is_empty() {
-            self.lines(&table(&["", "", &force.title("x"), &force.title("y")], &rows, 2));
+            let mut header = vec![String::new(), String::new(), force.title("x"), force.title("y")];
+            header.extend(has_friction.then(|| torque.title("friction couple")));
+            let header: Vec<&str> = header.iter().map(String::as_str).collect();
+            self.lines(&table(&header, &rows, 2));
         }
         for drive in &reactions.drives {
             let unit = self.report.units.of(drive.unit);

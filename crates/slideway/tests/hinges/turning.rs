@@ -163,7 +163,6 @@ fn at_rest_friction_has_no_sense() {
 
 /// Whatever does not take friction in hinges into account says so and names them.
 #[rstest]
-#[case(|model: &Model| hold(model, &HoldOptions::default()).map(drop))]
 #[case(|model: &Model| simulate(model, &SimulateOptions::new(1.0)).map(drop))]
 #[case(|model: &Model| limits(model, &LimitsOptions::new("phi=0..0.1".parse().unwrap())).map(drop))]
 fn other_questions_are_refused(#[case] question: fn(&Model) -> Result<(), Faults>) {
