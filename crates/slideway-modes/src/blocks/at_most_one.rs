@@ -4,12 +4,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Piece, Slopes, matrix};
 use super::problem::BlockProblem;
+use crate::certificate::enclose_solution;
 use crate::interval::Interval;
 use crate::interval_matrix::{IntervalMatrix, product, rounding, upper_product};
 use crate::problem::Side;
 
 /// Steps of the power iteration for the weights.
-const STEPS: usize = 12;
+const STEPS: usize = 30;
 
 /// Whether the equations of a piece have at most one solution, for any load; proven.
 ///
@@ -21,11 +22,45 @@ const STEPS: usize = 12;
 /// |x - x'| <= B |x - x'|,   B_ij = |(I - C A_0)_ij| + |(C G_j)_i| r_j,
 /// ```
 ///
-/// so that `x = x'` if `B u < u` for some `u > 0`.
+/// so that `x = x'` if `B u < u` for some `u > 0`. Otherwise the matrices are tried entry by entry.
 pub(super) fn has_at_most_one(problem: &BlockProblem, piece: &Piece) -> bool {
     if piece.may_jump(problem) {
         return false;
     }
+    norms_contract(problem, piece) || is_regular_in_frames(problem, piece)
+}
+
+/// Whether the matrix of slopes is regular, with the unknowns of each hinge along and across its sector.
+///
+/// With `x_j = y_1 m + y_2 n`, columns `m - H_j (s.m)` and `n - H_j (s.n)`: slopes `s` in a sector of half angle `d` have
+/// `cos d <= s.m <= 1`, which varies by the square of `d` only. This decides near locking directions.
+fn is_regular_in_frames(problem: &BlockProblem, piece: &Piece) -> bool {
+    let any = Interval::new(-1.0, 1.0).unwrap_or(Interval::REAL_LINE);
+    let slopes = Slopes {
+        contacts: vec![any; problem.contacts()],
+        hinges: vec![[Interval::ZERO; 2]; problem.hinges()],
+    };
+    let mut all = matrix(problem, &piece.states, &slopes);
+    for (hinge, sector) in piece.sectors.iter().enumerate() {
+        let rows = problem.rows_of_hinge(hinge);
+        for (at, vector) in sector.frame().into_iter().enumerate() {
+            let exact = vector.map(Interval::point);
+            let least = sector.least(exact, Interval::ZERO);
+            let most = -sector.least(exact.map(|value| -value), Interval::ZERO);
+            let slope = Interval::new(least, most).unwrap_or(Interval::REAL_LINE);
+            for row in 0..problem.rows() {
+                let own = rows.iter().position(|&own| own == row).map_or(Interval::ZERO, |at| exact[at]);
+                let response = problem.response(Side::Positive).entry(row, problem.contacts() + hinge);
+                all[(row, rows[at])] = own - response * slope;
+            }
+        }
+    }
+    let nothing = IntervalMatrix::exact(DMatrix::zeros(problem.rows(), 0));
+    IntervalMatrix::from_intervals(&all).is_some_and(|all| enclose_solution(&all, &nothing).is_some())
+}
+
+/// Whether `B u < u` for the norms of blocks.
+fn norms_contract(problem: &BlockProblem, piece: &Piece) -> bool {
     let discs: Vec<_> = piece.sectors.iter().map(|sector| sector.disc()).collect();
     let hinges = discs.iter().map(|(centre, _)| centre.map(Interval::point)).collect();
     let slopes = Slopes { contacts: vec![Interval::ZERO; problem.contacts()], hinges };

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Piece, load, matrix, residual};
+use super::equations::{Piece, Slopes, load, matrix, residual};
 use super::problem::BlockProblem;
 use super::relaxation::RelaxedPoint;
 use super::result::{OpenLabel, OpenRegion};
@@ -20,6 +20,8 @@ const SINGULAR_NEAR_FOLD: f64 = 1e-4;
 const NO_RESIDUAL: f64 = 1e-14;
 /// The relative length of the step along a curve of solutions.
 const STEP: f64 = 1e-3;
+/// Singular values below this share of the largest have no part in a step.
+const CUT: f64 = 1e-6;
 /// Steps of the Gauss-Newton method.
 const STEPS: usize = 60;
 /// Regions whose sectors are at most this many of their half angles apart are one.
@@ -38,6 +40,9 @@ impl Undecided {
         let Some(relaxed) = relaxed else {
             return Self { label: OpenLabel::TooSmall, piece, point: vec![0.0; problem.rows()] };
         };
+        if let Some(point) = point_of_continuum(problem, &piece) {
+            return Self { label: OpenLabel::Continuum, piece, point };
+        }
         let label = label(problem, &piece, &relaxed);
         let near = || gauss_newton(problem, &piece, DVector::from_column_slice(&relaxed.unknowns));
         let point = match label {
@@ -71,18 +76,18 @@ fn label(problem: &BlockProblem, piece: &Piece, relaxed: &RelaxedPoint) -> OpenL
     }
 }
 
-/// A point of a curve of solutions near a point of the relaxation; `None` if there seems to be none.
+/// A point of a curve of solutions near the middle of a piece; `None` if there seems to be none.
 ///
 /// The matrix of slopes is singular there, and a step along its null vector leads back to another solution.
-pub(super) fn point_of_continuum(
-    problem: &BlockProblem,
-    piece: &Piece,
-    near: &RelaxedPoint,
-) -> Option<Vec<f64>> {
-    if near.load < NO_LOAD || piece.may_jump(problem) {
+pub(super) fn point_of_continuum(problem: &BlockProblem, piece: &Piece) -> Option<Vec<f64>> {
+    if problem.has_no_load() || piece.may_jump(problem) {
         return None;
     }
-    let point = gauss_newton(problem, piece, DVector::from_column_slice(&near.unknowns))?;
+    let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
+    let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
+    let middle: DMatrix<f64> = matrix(problem, &piece.states, &slopes);
+    let start = middle.svd(true, true).solve(&load(problem, &piece.states), CUT).ok()?;
+    let point = gauss_newton(problem, piece, start)?;
     let decomposition = matrix(problem, &piece.states, &slopes_at(problem, &point)).svd(false, true);
     let values = &decomposition.singular_values;
     let (at, least) = values.argmin();
@@ -106,7 +111,7 @@ fn gauss_newton(problem: &BlockProblem, piece: &Piece, start: DVector<f64>) -> O
         }
         let slopes: DMatrix<f64> = matrix(problem, &piece.states, &slopes_at(problem, &point));
         let decomposition = slopes.svd(true, true);
-        let cut = 1e-6 * decomposition.singular_values.max();
+        let cut = CUT * decomposition.singular_values.max();
         point -= decomposition.solve(&error, cut).ok()?;
         if !point.amax().is_finite() {
             return None;

@@ -53,6 +53,15 @@ impl Sector {
         }
     }
 
+    /// Unit vectors along its middle and across; any two if it has every direction.
+    pub(super) fn frame(self) -> [Vector; 2] {
+        let [x, y] = match self {
+            Self::All => [1.0, 0.0],
+            Self::Between(first, last) => middle(first, last),
+        };
+        [[x, y], [-y, x]]
+    }
+
     /// A disc that contains all its unit vectors, and therefore also their mixtures: centre, and a bound on
     /// the radius.
     ///

@@ -116,8 +116,7 @@ impl<'a, 'c> Tree<'a, 'c> {
         let half_angle = self.half_angle(piece);
         if half_angle <= LOOK_FOR_CURVES
             && half_angle > 0.25 * LOOK_FOR_CURVES
-            && let Some(point) =
-                relaxed.as_ref().and_then(|point| point_of_continuum(self.problem, piece, point))
+            && let Some(point) = point_of_continuum(self.problem, piece)
         {
             let undecided = Undecided { label: OpenLabel::Continuum, piece: piece.clone(), point };
             self.found.undecided.push(undecided);

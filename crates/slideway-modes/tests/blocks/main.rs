@@ -1,8 +1,9 @@
-//! Block problems: all solutions, proven, compared with closed forms, Groebner bases and Newton's method from
+//! Block problems: all solutions, proven, compared with closed forms, resultants and Newton's method from
 //! many starts.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod degenerate;
+mod jumps;
 mod one_hinge;
 mod random;
 mod reference;

@@ -86,7 +86,7 @@ fn as_many_solutions_as_the_bound_allows() {
     let mut numbers = Numbers(3);
     let response = DMatrix::from_fn(9, 6, |row, column| {
         let opposed = row == column || (column >= 3 && row == 2 * column - 3);
-        if opposed { -1.25 } else { 0.02 * numbers.next() }
+        if opposed { -1.5 } else { 0.01 * numbers.next() }
     });
     let load = DVector::from_fn(9, |row, _| if row < 3 || row % 2 == 1 { 1.0 } else { 0.1 });
     let result = Plain::same(contacts, response, load).solve();
