@@ -7,6 +7,7 @@ use dashu_int::IBig;
 
 use super::proof_cells::{Cell, ProofCells, corners};
 use super::share_entries::ShareEntries;
+use super::short_vector::small_integers;
 use super::states::StateSet;
 use crate::certificate::{Decision, LiftedSystem};
 use crate::problem::ContactState;
@@ -77,17 +78,37 @@ impl ProofLog {
         true
     }
 
+    /// `f`: a node is excluded by a vector whose entries are those of small integers, if they are; for problems
+    /// without jumps. Returns whether it is.
+    pub(super) fn exclude_by_ratios(
+        &mut self,
+        system: &LiftedSystem,
+        vector: &[f64],
+        allowed: &ContactSet,
+    ) -> bool {
+        if system.rows() != vector.len() {
+            return false;
+        }
+        let Some(whole) = small_integers(vector) else { return false };
+        let shift = |row: usize| self.rows[row] - system.exponents()[row];
+        let least = (0..whole.len()).map(shift).min().unwrap_or(0);
+        let lifted = whole.iter().enumerate().map(|(row, &entry)| {
+            IBig::try_from(entry).unwrap_or_default() << usize::try_from(shift(row) - least).unwrap_or(0)
+        });
+        let lifted: Vec<IBig> = lifted.collect();
+        let excess: IBig = lifted.iter().zip(system.right()).map(|(a, b)| a * b).sum();
+        let left = not_excluded(system, &lifted);
+        if excess <= IBig::ZERO || !left.is_disjoint(allowed) {
+            return false;
+        }
+        self.write_vector('f', &whole);
+        self.try_again(left);
+        true
+    }
+
     /// `f`: a node is excluded by a vector for the lifted equations in integers.
     pub(super) fn exclude_exactly(&mut self, system: &LiftedSystem, vector: &[IBig]) {
-        let mut left = ContactSet::none_of(system.width());
-        let entries: Vec<(usize, &IBig)> =
-            vector.iter().enumerate().filter(|(_, entry)| !entry.is_zero()).collect();
-        for column in 0..system.width() {
-            let terms = entries.iter().map(|&(row, entry)| entry * &system.column(column)[row]);
-            if terms.sum::<IBig>() > IBig::ZERO {
-                left.insert(column);
-            }
-        }
+        let left = not_excluded(system, vector);
         let vector = self.for_rows(system, vector);
         self.write_vector('f', &vector);
         self.try_again(left);
@@ -226,4 +247,19 @@ impl ProofLog {
         self.text.push('\n');
         self.vectors += 1;
     }
+}
+
+/// The columns whose products with a vector are positive.
+fn not_excluded(system: &LiftedSystem, vector: &[IBig]) -> ContactSet {
+    let mut left = ContactSet::none_of(system.width());
+    let entries: Vec<(usize, &IBig)> =
+        vector.iter().enumerate().filter(|(_, entry)| !entry.is_zero()).collect();
+    for column in 0..system.width() {
+        let entries_of_column = system.column(column);
+        let terms = entries.iter().filter(|(row, _)| !entries_of_column[*row].is_zero());
+        if terms.map(|&(row, entry)| entry * &entries_of_column[row]).sum::<IBig>() > IBig::ZERO {
+            left.insert(column);
+        }
+    }
+    left
 }

@@ -8,6 +8,10 @@ use crate::solutions::ContactSet;
 /// Rounding to multiples of the unit changes products by at most half the sum of sizes of a column's entries;
 /// slightly more, for the rounding of the estimate.
 const HALF_AND_MORE: f64 = 0.51;
+/// Ratios of entries may be off by this.
+const RATIO_ERROR: f64 = 1e-9;
+/// The largest of the smallest entries of integers with given ratios.
+const LARGEST_LEAST: u8 = 6;
 /// Entries up to this are exact, and so are their sums.
 const GREATEST_ENTRY: f64 = 9.0e15;
 
@@ -63,4 +67,18 @@ impl Relaxation {
         let left = self.not_excluded_by(&rounded)?;
         left.is_disjoint(allowed).then_some((rounded, left))
     }
+}
+
+/// The integers whose ratios are those of the entries of a vector, up to rounding, if the smallest of them is at
+/// most 6: those of the basis of a problem with small integers. They prove something only once verified.
+pub(super) fn small_integers(vector: &[f64]) -> Option<Vec<f64>> {
+    let largest = vector.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+    let sizes = vector.iter().map(|entry| entry.abs()).filter(|&size| size > RATIO_ERROR * largest);
+    let least = sizes.fold(f64::INFINITY, f64::min);
+    (1..=LARGEST_LEAST).map(f64::from).find_map(|factor| {
+        let scaled = || vector.iter().map(|entry| entry / least * factor);
+        let is_whole = |entry: f64| (entry - entry.round()).abs() <= RATIO_ERROR * entry.abs().max(1.0);
+        // No negative zeros.
+        scaled().all(is_whole).then(|| scaled().map(|entry| entry.round() + 0.0).collect())
+    })
 }

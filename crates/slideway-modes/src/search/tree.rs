@@ -279,6 +279,9 @@ impl<'a> Tree<'a> {
         {
             return true;
         }
+        if log.exclude_by_ratios(faces.system(), farkas, &allowed) {
+            return true;
+        }
         let vector = faces.excluding(states, &mut || monitor.goes_on());
         if let Some(vector) = &vector {
             log.exclude_exactly(faces.system(), vector);
