@@ -12,8 +12,8 @@ use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
 use crate::sharing::{NO_STRESS, shared_load};
 use nalgebra::{DMatrix, DVector};
 
-/// Sliding velocities below this multiple of the greatest velocity count as zero.
-const AT_REST: f64 = 1e-12;
+/// Velocities of sliding and turning below this multiple of the greatest velocity count as zero.
+pub(super) const AT_REST: f64 = 1e-12;
 /// Versions of an influence column that differ by less than this multiple of it are the same.
 pub(crate) const SAME_COLUMN: f64 = 1e-12;
 /// Influence coefficients (force for force) below this are rounding: the friction has no influence there.

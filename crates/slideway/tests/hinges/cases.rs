@@ -87,6 +87,22 @@ pub(crate) struct Solution {
     pub(crate) drive_torque: Option<f64>,
 }
 
+/// From where a case is looked at.
+pub(crate) struct View {
+    pub(crate) turn: f64,
+    pub(crate) mirror: bool,
+}
+
+impl View {
+    fn sense(&self) -> f64 {
+        if self.mirror { -1.0 } else { 1.0 }
+    }
+
+    fn of(&self, vector: Vector2<f64>) -> Vector2<f64> {
+        Rotation2::new(self.turn) * Vector2::new(vector.x, self.sense() * vector.y)
+    }
+}
+
 /// The cases in motion.
 pub(crate) fn moving() -> Vec<Case> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
@@ -99,15 +115,21 @@ pub(crate) fn moving() -> Vec<Case> {
 impl Case {
     /// The friction radius of every hinge is multiplied by a factor.
     pub(crate) fn model(&self, factor: f64) -> Model {
-        Model::parse(&self.text(factor)).unwrap_or_else(|faults| panic!("{}: {faults:?}", self.name))
+        self.seen(factor, &View { turn: 0.0, mirror: false })
     }
 
-    fn text(&self, factor: f64) -> String {
-        let mut text = format!("gravity = [{:?}, {:?}]\n", self.gravity[0], self.gravity[1]);
+    /// The same turned by an angle, and before that in the mirror image, `y` to `-y`.
+    pub(crate) fn seen(&self, factor: f64, view: &View) -> Model {
+        Model::parse(&self.text(factor, view)).unwrap_or_else(|faults| panic!("{}: {faults:?}", self.name))
+    }
+
+    fn text(&self, factor: f64, view: &View) -> String {
+        let gravity = view.of(self.gravity.into());
+        let mut text = format!("gravity = [{:?}, {:?}]\n", gravity.x, gravity.y);
         let mut points = String::from("[points]\n");
         let mut owned: Vec<Vec<String>> = vec![Vec::new(); self.bodies.len()];
         let mut point = |name: String, body: &str, at: [f64; 2]| {
-            let place = self.world(body, at);
+            let place = view.of(self.world(body, at));
             writeln!(points, "{name} = [{:?}, {:?}]", place.x, place.y).unwrap();
             if let Some(index) = self.bodies.iter().position(|other| other.name == body) {
                 owned[index].push(format!("{name:?}"));
@@ -127,10 +149,12 @@ impl Case {
             )
             .unwrap();
         }
-        self.write_sliders(&mut joints);
+        self.write_sliders(&mut joints, view);
         let mut loads = String::new();
         for (index, Force { body, at, components, torque }) in self.forces.iter().enumerate() {
             let at = point(format!("f{index}"), body, *at);
+            let components: [f64; 2] = view.of((*components).into()).into();
+            let torque = view.sense() * torque;
             writeln!(
                 loads,
                 "[loads.force{index}]\ntype = \"force\"\nat = {at:?}\ncomponents = {components:?}"
@@ -141,7 +165,7 @@ impl Case {
         }
         text += &points;
         for (body, owned) in self.bodies.iter().zip(owned) {
-            let [x, y, _] = body.pose;
+            let [x, y]: [f64; 2] = view.of(Vector2::new(body.pose[0], body.pose[1])).into();
             let inertia = if body.m == 0.0 {
                 "massless = true".to_owned()
             } else {
@@ -155,7 +179,7 @@ impl Case {
         text += &joints;
         text += &loads;
         let Body { name, vel, .. } = &self.bodies[0];
-        writeln!(text, "[coordinates.phi]\nrotation = {name:?}\nrate = {:?}", vel[2]).unwrap();
+        writeln!(text, "[coordinates.phi]\nrotation = {name:?}\nrate = {:?}", view.sense() * vel[2]).unwrap();
         if let Some(Drive { body, angular_acceleration }) = &self.drive {
             writeln!(
                 text,
@@ -171,14 +195,15 @@ impl Case {
     }
 
     /// A contact by itself is a pin in a slot, two of one block are a block slider.
-    fn write_sliders(&self, joints: &mut String) {
+    fn write_sliders(&self, joints: &mut String, view: &View) {
         let mut index = 0;
         while let Some(contact) = self.contacts.get(index) {
             let partner = self.contacts.get(index + 1).filter(|other| other.block == contact.block);
-            let first = self.world(&contact.block, contact.point);
-            let last = partner.map_or(first, |other| self.world(&other.block, other.point));
+            let first = view.of(self.world(&contact.block, contact.point));
+            let last = partner.map_or(first, |other| view.of(self.world(&other.block, other.point)));
             let (at, length) = ((first + last) / 2.0, (first - last).norm());
-            let Contact { guide, angle, block, half_height, mu, .. } = contact;
+            let Contact { guide, block, half_height, mu, .. } = contact;
+            let angle = view.turn + view.sense() * contact.angle;
             writeln!(
                 joints,
                 "[joints.slider{index}]\nblock = {block:?}\nguide = {guide:?}\nat = [{:?}, {:?}]\nalong = {angle:?}\nmu = {mu:?}",

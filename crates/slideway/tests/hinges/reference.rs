@@ -1,6 +1,6 @@
 //! Against the reference cases, which two independent prototypes have computed.
 
-use super::cases::{Case, moving};
+use super::cases::{Case, View, moving};
 use slideway::modes::Side;
 use slideway::report::{Proof, Solution, Status, Verdict};
 use slideway::solve::exact_block_problem;
@@ -121,6 +121,31 @@ fn small_friction_circles_change_little() {
                 for axis in 0..2 {
                     assert!((one.force[axis] - other.force[axis]).abs() < 1e-6 * scale, "{}", case.name);
                 }
+            }
+        }
+    }
+}
+
+/// Turned, and in the mirror image, the same solutions are there. Normals change sides in the mirror image, as the
+/// contacts' tangents stay where they slide to.
+#[test]
+fn directions_in_space_do_not_matter() {
+    for case in moving() {
+        let mut lengths = [(0.0, false), (0.7, false), (-2.0, true)].map(|(turn, mirror)| {
+            let report = solve(&case.seen(1.0, &View { turn, mirror })).unwrap();
+            assert_eq!(report.complete, Proof::Proven, "{}: {:?}", case.name, report.open);
+            let of = |solution: &Solution| -> Vec<f64> {
+                let hinges = solution.hinges.iter().map(|hinge| hinge.force[0].hypot(hinge.force[1]));
+                hinges.chain(solution.contacts.iter().map(|contact| contact.normal_force.abs())).collect()
+            };
+            report.solutions.iter().map(of).collect::<Vec<_>>()
+        });
+        lengths.iter_mut().for_each(|all| all.sort_by(|one, other| one[0].total_cmp(&other[0])));
+        let [straight, others @ ..] = &lengths;
+        for other in others {
+            assert_eq!(straight.len(), other.len(), "{}", case.name);
+            for (one, other) in straight.iter().flatten().zip(other.iter().flatten()) {
+                assert_close(&case.name, *other, *one, straight[0].iter().copied().fold(0.0, f64::max));
             }
         }
     }

@@ -1,5 +1,6 @@
 //! In which sense the hinges with friction turn.
 
+use super::super::mode_problem::AT_REST;
 use super::super::no_sliding::why;
 use super::super::stages::Stages;
 use crate::configuration::{Configuration, free_motions};
@@ -9,8 +10,6 @@ use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
 
-/// Angular velocities and accelerations below this multiple of the greatest count as zero.
-const AT_REST: f64 = 1e-12;
 /// Of a hinge that no free motion turns, what rounding leaves of its angular acceleration, as a part of the greatest.
 const NO_ACCELERATION: f64 = 1e-9;
 
