@@ -111,12 +111,11 @@ pub(super) fn residual<T: Real>(
     let mut residual = -load::<T>(problem, states);
     for (contact, state) in states.iter().enumerate() {
         let value = exact[contact];
-        let (identity, part, factor) = match state {
-            Some(ContactState::Positive) => (value, problem.response(Side::Positive), value),
-            Some(ContactState::Negative) => (value, problem.response(Side::Negative), -value),
-            None if point[contact] >= 0.0 => (value, problem.response(Side::Positive), value),
-            None => (value, problem.response(Side::Negative), -value),
-            Some(ContactState::Gap) => (T::zero(), problem.jumps(Side::Positive), value),
+        let side = if point[contact] >= 0.0 { ContactState::Positive } else { ContactState::Negative };
+        let (identity, part, factor) = match state.unwrap_or(side) {
+            ContactState::Positive => (value, problem.response(Side::Positive), value),
+            ContactState::Negative => (value, problem.response(Side::Negative), -value),
+            ContactState::Gap => (T::zero(), problem.jumps(Side::Positive), value),
         };
         residual[contact] += identity;
         for row in 0..problem.rows() {

@@ -84,11 +84,11 @@ pub fn search_turned(
     if (1..problem.blocks()).contains(&unloaded.len()) {
         let at_rest = found(&unloaded::part(problem, &unloaded), unique.is_some(), options, progress, angle);
         nodes = at_rest.nodes;
-        if let Some(orientation) = at_rest.only_rests() {
+        if let Some(rest) = at_rest.only() {
             let loaded: Vec<usize> =
                 (0..problem.blocks()).filter(|block| !unloaded.contains(block)).collect();
             let part = found(&unloaded::part(problem, &loaded), unique.is_some(), options, progress, angle);
-            let mut all = unloaded::embed(problem, &loaded, part, orientation);
+            let mut all = unloaded::embed(problem, &loaded, part, rest.determinant);
             all.nodes += nodes;
             return answer(problem, all, unique);
         }

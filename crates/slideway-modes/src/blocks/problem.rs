@@ -52,7 +52,7 @@ impl BlockProblem {
             positive: IntervalMatrix::exact(part.positive),
             negative: IntervalMatrix::exact(part.negative),
         };
-        let load = DMatrix::from_column_slice(load.len(), 1, load.as_slice());
+        let load = DMatrix::from_vec(load.len(), 1, load.data.into());
         Self::within_bounds(exact(response), exact(jumps), IntervalMatrix::exact(load))
     }
 

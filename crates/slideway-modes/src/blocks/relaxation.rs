@@ -66,14 +66,14 @@ enum Meaning {
 /// The columns of the program.
 struct Columns {
     meanings: Vec<(Meaning, f64)>,
-    columns: Vec<Vec<f64>>,
+    vectors: Vec<Vec<f64>>,
     cost: Vec<f64>,
 }
 
 impl Columns {
     /// Adds a column, scaled by a factor.
     fn add(&mut self, meaning: Meaning, factor: f64, column: Vec<f64>, cost: f64) {
-        self.columns.push(column.into_iter().map(|value| value * factor).collect());
+        self.vectors.push(column.into_iter().map(|value| value * factor).collect());
         self.meanings.push((meaning, factor));
         self.cost.push(cost);
     }
@@ -89,7 +89,7 @@ pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> 
     let columns = columns(problem, piece, &jumping, combination.as_ref());
     let mut right = vec![0.0; all];
     right[rows] = 1.0;
-    let program = LinearProgram::new(&columns.columns, right, columns.cost);
+    let program = LinearProgram::new(&columns.vectors, right, columns.cost);
     let count = program.columns();
     let bounds = Bounds { lower: vec![0.0; count], upper: vec![f64::INFINITY; count] };
     let mut basis = program.artificial_basis();
@@ -160,7 +160,7 @@ fn columns(
         Some(combination) => (combination * DVector::from_vec(column)).as_slice().to_vec(),
         None => column,
     };
-    let mut columns = Columns { meanings: Vec::new(), columns: Vec::new(), cost: Vec::new() };
+    let mut columns = Columns { meanings: Vec::new(), vectors: Vec::new(), cost: Vec::new() };
     let with_sum = |mut column: Vec<f64>| {
         let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(f64::MIN_POSITIVE);
         column.resize(all, 0.0);

@@ -7,7 +7,6 @@ use super::problem::BlockProblem;
 use super::relaxation::{Relaxed, RelaxedPoint, relax};
 use super::result::OpenLabel;
 use super::zero::{Zero, newton, prove, start};
-use crate::certificate::Sign;
 use crate::interval::Interval;
 use crate::problem::ContactState;
 use crate::progress::{Callback, Progress};
@@ -234,11 +233,10 @@ fn with_zero(problem: &BlockProblem, piece: &Piece, zero: &Zero) -> Piece {
 }
 
 impl Found {
-    /// The orientation of the solution without forces, if it is proven to be the only one: the outer `None` if
-    /// not.
-    pub(super) fn only_rests(&self) -> Option<Option<Sign>> {
+    /// The solution, if it is proven to be the only one.
+    pub(super) fn only(&self) -> Option<&Zero> {
         let [zero] = self.zeros.as_slice() else { return None };
-        (self.undecided.is_empty() && self.stopped.is_none()).then_some(zero.determinant)
+        (self.undecided.is_empty() && self.stopped.is_none()).then_some(zero)
     }
 
     /// Adds a solution unless it is known.

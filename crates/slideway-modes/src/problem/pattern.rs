@@ -172,7 +172,7 @@ impl<P> SetPart<P> {
 
 impl<V: Clone> SetPart<Vec<V>> {
     /// Only the contacts from `first` on, counted from there; `None` if there are none.
-    pub(crate) fn from_contact(self, first: usize) -> Option<Self> {
+    pub(crate) fn starting_at(self, first: usize) -> Option<Self> {
         self.restricted(&|contact| contact >= first).map(|part| part.renumbered(|contact| contact - first))
     }
 

@@ -192,7 +192,7 @@ fn without_first(decision: Decision, first: usize) -> Decision {
             }
         }
         Decision::Singular { set: ExactSet::Product(parts) } => {
-            let later = parts.into_iter().filter_map(|part| part.from_contact(first)).collect();
+            let later = parts.into_iter().filter_map(|part| part.starting_at(first)).collect();
             Decision::Singular { set: ExactSet::Product(later) }
         }
         Decision::Singular { set } => Decision::Singular { set: set.map(&|point| point[first..].to_vec()) },

@@ -257,19 +257,16 @@ impl Pinned<'_> {
                 continue;
             }
             let end = End { value: Some(slack), at, is_ray: false };
-            match self
-                .divided((&sectors, NARROW), &end)
-                .filter(|_| !self.is_unloaded(&region).unwrap_or(false))
-            {
-                Some(parts) => open.extend(parts),
-                None => {
-                    let new = self.tangent(end)?;
-                    let is_new = |new: &(Directions, Region)| {
-                        found.iter().all(|(directions, _)| change(directions, &new.0) > SAME_DIRECTION)
-                    };
-                    found.extend(new.filter(is_new));
-                }
+            let is_loaded = !self.is_unloaded(&region).unwrap_or(false);
+            if let Some(parts) = self.divided((&sectors, NARROW), &end).filter(|_| is_loaded) {
+                open.extend(parts);
+                continue;
             }
+            let new = self.tangent(end)?;
+            let is_new = |new: &(Directions, Region)| {
+                found.iter().all(|(directions, _)| change(directions, &new.0) > SAME_DIRECTION)
+            };
+            found.extend(new.filter(is_new));
         }
         Err(Unsolved)
     }

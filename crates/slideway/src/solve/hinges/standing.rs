@@ -58,7 +58,7 @@ pub(super) fn ranges(
         match modes.mode(&sides) {
             Some(mode) => continua.extend(modes.ranges(&sides, &mode)),
             None => {
-                open.push(format!("the mode {} is singular and was not examined", pattern(&states(&sides))))
+                open.push(format!("the mode {} is singular and was not examined", pattern(&states(&sides))));
             }
         }
     }
