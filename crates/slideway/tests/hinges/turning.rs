@@ -4,10 +4,7 @@ use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
 use slideway::report::{Proof, Status};
-use slideway::{
-    Faults, HoldOptions, LimitsOptions, Model, Settings, SimulateOptions, gallery, hold, limits, simulate,
-    solve,
-};
+use slideway::{Faults, LimitsOptions, Model, Settings, SimulateOptions, gallery, limits, simulate, solve};
 use std::path::Path;
 
 /// A slider-crank, drawn with the crank at a right angle to the piston: the rod only shifts there.
