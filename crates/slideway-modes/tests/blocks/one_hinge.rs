@@ -45,6 +45,7 @@ impl Quadratic {
 #[test]
 fn the_number_of_solutions_is_that_of_the_closed_form() {
     let mut numbers = Numbers(1);
+    #[expect(clippy::cast_possible_truncation, reason = "these are small integers")]
     let mut integer = |most: f64| (numbers.next() * most).round() as i64;
     let mut counts = [0; 3];
     for _ in 0..2000 {

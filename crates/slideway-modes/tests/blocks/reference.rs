@@ -43,7 +43,6 @@ fn all_solutions_are_those_of_resultants() {
         let plain = Plain::same(problem.contacts, response, DVector::from_vec(problem.load));
         let result = plain.solve();
         assert_proven(&result);
-        println!("{}: {} nodes", problem.name, result.nodes);
         assert_eq!(result.solutions.len(), problem.solutions.len(), "{}", problem.name);
         for expected in &problem.solutions {
             let is_it = |found: &&BlockSolution| {
