@@ -65,6 +65,21 @@ pub(crate) fn solve<'py>(
     answer(py, RawKind::Ave, arrays, options)
 }
 
+/// All solutions of `A x + B |x| = b` with the lengths of blocks.
+#[pyfunction]
+#[pyo3(signature = (matrices: "tuple[ArrayLike, ArrayLike | None]", right_hand_side: "ArrayLike", blocks: "ArrayLike", options: "dict[str, Any]") -> "reports.RawReport")]
+pub(crate) fn blocks<'py>(
+    py: Python<'py>,
+    matrices: (Bound<'_, PyAny>, Option<Bound<'_, PyAny>>),
+    right_hand_side: &Bound<'_, PyAny>,
+    blocks: &Bound<'_, PyAny>,
+    options: Options,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (b, a) = matrices;
+    let arrays = vec![array("B", &b), array("b", right_hand_side), array("blocks", blocks)];
+    answer(py, RawKind::BlockAve, a.iter().map(|a| array("A", a)).chain(arrays).collect(), options)
+}
+
 /// All solutions of `w = M z + q`.
 #[pyfunction]
 #[pyo3(signature = (m: "ArrayLike", q: "ArrayLike", options: "dict[str, Any]") -> "reports.RawReport")]

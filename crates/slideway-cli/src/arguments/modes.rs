@@ -10,6 +10,9 @@ pub(super) const HELP: &str = "\
 Types of problems and their arrays:
   lcp    M, q       w = M z + q, w >= 0, z >= 0, w_k z_k = 0
   ave    A, B, b    A x + B |x| = b
+  block_ave  B, b, blocks, perhaps A
+                    A x + B |x| = b, |x| the lengths of blocks of one or two
+                    components, whose sizes are in blocks; without A, A = I
   hlcp   A, B, q    A w - B z = q, w >= 0, z >= 0, w_k z_k = 0
   mlcp   A, B, C, D, a, b
                     A u + C z + a = 0, w = D u + B z + b, w >= 0, z >= 0,

@@ -27,6 +27,10 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     // A large file takes its part of the time.
     let begun = Instant::now();
     let problem = read(arguments)?;
+    if arguments.proof.is_some() && problem.kind() == RawKind::BlockAve {
+        let reason = "it states linear equations, and lengths of blocks are no linear functions".to_owned();
+        return Err(Failure::NoProof { reason });
+    }
     let proof = arguments.proof.as_deref().map(|path| {
         let given = Some(arguments.file.as_path()).filter(|_| checker_reads(&problem, arguments));
         ProofFiles::new(path, given, (&arguments.destination, &output))

@@ -41,6 +41,7 @@ mod zero;
 
 pub use problem::BlockProblem;
 pub use result::{BlockResult, BlockSolution, OpenLabel, OpenRegion, UniqueForEveryLoad};
+pub use uniqueness::unique_for_every_load;
 
 use crate::progress::Callback;
 use crate::search::SearchOptions;

@@ -16,11 +16,11 @@ const STEPS: usize = 60;
 /// Every norm is raised by this share of the largest, so that Perron vectors are positive.
 const RAISED: f64 = 1e-9;
 
-/// Why there is exactly one solution for every load; `None` if that is not proven.
+/// Why there is exactly one solution for every load (theory of hinges, section 3); `None` if that is not proven.
 ///
 /// The equations are one-to-one on all unknowns with a Lipschitz-continuous inverse, so that they are also
 /// onto. With jumps nothing is proven.
-pub(super) fn unique_for_every_load(problem: &BlockProblem) -> Option<UniqueForEveryLoad> {
+pub fn unique_for_every_load(problem: &BlockProblem) -> Option<UniqueForEveryLoad> {
     if (0..problem.contacts()).any(|contact| problem.has_jump(contact)) {
         return None;
     }

@@ -45,6 +45,28 @@ pub enum ModeProblemError {
         /// The column, from 0.
         column: usize,
     },
+    /// A block of neither one nor two components.
+    #[error("block {block} (counted from 0) has {size} components; a block has 1 or 2")]
+    BlockSize {
+        /// The block, from 0.
+        block: usize,
+        /// The number of its components.
+        size: usize,
+    },
+    /// Blocks that do not add up to the number of components.
+    #[error("the blocks have {found} components, the right-hand side has {components}")]
+    BlockSizes {
+        /// The components of all blocks.
+        found: usize,
+        /// The entries of the right-hand side.
+        components: usize,
+    },
+    /// A matrix that has to be regular, and is not proven to be.
+    #[error("`A` is singular, or too close to it to be solved for x")]
+    NotRegular,
+    /// A problem with blocks of two components, whose lengths are no linear functions.
+    #[error("a problem with blocks of two components is no mode problem")]
+    Blocks,
 }
 
 /// Influence coefficients and friction parameters of `r` contacts: what

@@ -6,7 +6,7 @@ use super::range::in_range;
 use super::report::{RawContinuum, RawGroup, RawLine, RawReport, RawShares, RawSolution, SCHEMA};
 use super::residual::Equations;
 use super::values::Values;
-use super::{RawProblem, continuum, nearby};
+use super::{RawProblem, block_answer, continuum, nearby};
 use crate::certificate::{Decision, decide};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem, ModeProblemError};
@@ -39,6 +39,9 @@ pub fn solve(
     most: usize,
     progress: &mut Callback<'_>,
 ) -> Result<RawReport, ModeProblemError> {
+    if let RawProblem::BlockAbsoluteValue(equation) = raw {
+        return Ok(block_answer::solve(equation, options, most, progress));
+    }
     let problem = raw.mode_problem()?;
     let correspondence = Correspondence::of(raw);
     let result = search(&problem, options, progress);
@@ -114,21 +117,23 @@ fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
         }
         Completeness::Partial(reason) => {
             let groups = result.groups.iter().filter(|group| group.shares.unexplored > 0.0).count();
-            let reason = match reason {
-                StopReason::Cancelled => "the search was stopped by a time limit or on request".to_owned(),
-                StopReason::SolutionLimit if options.limits.solutions == 1 => {
-                    "the search ended when it had a solution (--any)".to_owned()
-                }
-                StopReason::SolutionLimit => {
-                    format!("the limit of {} solutions of a group of unknowns", options.limits.solutions)
-                        + " was reached (--max-found)"
-                }
-                StopReason::NodeLimit => {
-                    format!("the limit of {} nodes was reached (--max-nodes)", options.nodes)
-                }
-            };
-            vec![format!("{reason}; {}", unexplored(groups))]
+            vec![format!("{}; {}", stopped(reason, options), unexplored(groups))]
         }
+    }
+}
+
+/// Why a search ended early.
+pub(super) fn stopped(reason: StopReason, options: &SearchOptions) -> String {
+    match reason {
+        StopReason::Cancelled => "the search was stopped by a time limit or on request".to_owned(),
+        StopReason::SolutionLimit if options.limits.solutions == 1 => {
+            "the search ended when it had a solution (--any)".to_owned()
+        }
+        StopReason::SolutionLimit => {
+            format!("the limit of {} solutions of a group of unknowns", options.limits.solutions)
+                + " was reached (--max-found)"
+        }
+        StopReason::NodeLimit => format!("the limit of {} nodes was reached (--max-nodes)", options.nodes),
     }
 }
 

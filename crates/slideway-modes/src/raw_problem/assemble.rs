@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::block_equation::BlockEquation;
 use super::fault::{RawFault, RawFaults};
 use super::kind::RawKind;
 use super::shape::{Array, Shape};
@@ -228,6 +229,12 @@ impl Given {
             RawKind::Ave => {
                 RawProblem::AbsoluteValue { a: matrix("A"), b: matrix("B"), right_hand_side: vector("b") }
             }
+            RawKind::BlockAve => {
+                let a = self.has("A").then(|| matrix("A"));
+                let equation =
+                    BlockEquation::new(a, matrix("B"), vector("b"), &block_sizes(&vector("blocks"))?);
+                RawProblem::BlockAbsoluteValue(equation.map_err(RawFault::Blocks)?)
+            }
             RawKind::Hlcp => {
                 RawProblem::HorizontalComplementarity { a: matrix("A"), b: matrix("B"), q: vector("q") }
             }
@@ -261,6 +268,16 @@ impl Given {
         problem.check_range()?;
         Ok(problem)
     }
+}
+
+/// The sizes of blocks, which are whole numbers.
+fn block_sizes(given: &DVector<f64>) -> Result<Vec<usize>, RawFault> {
+    let size = |(row, &value): (usize, &f64)| match value {
+        1.0 => Ok(1),
+        2.0 => Ok(2),
+        _ => Err(RawFault::BlockSize { row, value }),
+    };
+    given.iter().enumerate().map(size).collect()
 }
 
 /// `[[A, C], [D, B]]`

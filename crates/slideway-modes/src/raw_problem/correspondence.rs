@@ -68,6 +68,7 @@ impl Correspondence {
             RawProblem::AbsoluteValue { right_hand_side, .. } => {
                 (switched(right_hand_side.len()), right_hand_side.len(), 0)
             }
+            RawProblem::BlockAbsoluteValue(equation) => (switched(equation.size()), equation.size(), 0),
             RawProblem::MixedLinearComplementarity { m, q, free } => {
                 (mixed::Bounds::of_free(*free, q.len()).roles(m, q), q.len(), *free)
             }
@@ -177,7 +178,7 @@ impl Correspondence {
                 payoff_1: told.payoffs[0],
                 payoff_2: told.payoffs[1],
             },
-            RawKind::Ave => Unknowns::AbsoluteValue { x: all(|pair| pair.0) },
+            RawKind::Ave | RawKind::BlockAve => Unknowns::AbsoluteValue { x: all(|pair| pair.0) },
             RawKind::Modes => {
                 Unknowns::Modes { normal_forces: all(|pair| pair.0), y: all(|pair| pair.0.abs()) }
             }

@@ -5,6 +5,7 @@ use std::fmt;
 use super::kind::RawKind;
 use super::shape::Shape;
 use crate::printable;
+use crate::problem::ModeProblemError;
 
 /// Everything that is wrong with a raw problem; never empty when returned as an error.
 #[derive(Debug, Clone, PartialEq)]
@@ -198,6 +199,17 @@ pub enum RawFault {
         /// The upper bound.
         upper: f64,
     },
+    /// A block of neither one nor two components.
+    #[error("`blocks`: entry {row} (counted from 0) is {value}; a block has 1 or 2 components")]
+    BlockSize {
+        /// Index of the block.
+        row: usize,
+        /// Its given size.
+        value: f64,
+    },
+    /// An equation of blocks that is none.
+    #[error("{0}")]
+    Blocks(ModeProblemError),
     /// `A + B` or `B - A` is beyond the range of floating-point numbers.
     #[error("`A` and `B`: row {row}, column {column} of their sum or difference overflows")]
     Overflow {
@@ -253,6 +265,9 @@ impl RawFault {
             {
                 Some("no number lies within this bound".to_owned())
             }
+            Self::Blocks(ModeProblemError::BlockSizes { .. }) => Some(
+                "`blocks` lists how many components of `b` belong to each block, such as [1, 2]".to_owned(),
+            ),
             Self::Shape { expected: Shape::Matrix(..), .. } => {
                 Some("a matrix is a list of rows, each a list of numbers".to_owned())
             }

@@ -12,6 +12,9 @@ pub enum RawKind {
     Lcp,
     /// Absolute value equation.
     Ave,
+    /// Absolute value equation of blocks of one or two components.
+    #[serde(rename = "block_ave")]
+    BlockAve,
     /// Horizontal linear complementarity problem.
     Hlcp,
     /// Mixed linear complementarity problem: some unknowns are free.
@@ -26,14 +29,15 @@ pub enum RawKind {
 
 impl RawKind {
     /// All types.
-    pub const ALL: [Self; 7] =
-        [Self::Lcp, Self::Ave, Self::Hlcp, Self::Mlcp, Self::Mcp, Self::Game, Self::Modes];
+    pub const ALL: [Self; 8] =
+        [Self::Lcp, Self::Ave, Self::BlockAve, Self::Hlcp, Self::Mlcp, Self::Mcp, Self::Game, Self::Modes];
 
     /// The word for it in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Lcp => "lcp",
             Self::Ave => "ave",
+            Self::BlockAve => "block_ave",
             Self::Hlcp => "hlcp",
             Self::Mlcp => "mlcp",
             Self::Mcp => "mcp",
@@ -47,6 +51,7 @@ impl RawKind {
         match self {
             Self::Lcp => "Linear complementarity problem",
             Self::Ave => "Absolute value equation",
+            Self::BlockAve => "Absolute value equation of blocks",
             Self::Hlcp => "Horizontal linear complementarity problem",
             Self::Mlcp => "Mixed linear complementarity problem",
             Self::Mcp => "Mixed complementarity problem",
@@ -60,6 +65,7 @@ impl RawKind {
         match self {
             Self::Lcp => "w = M z + q,  w >= 0,  z >= 0,  w_k z_k = 0",
             Self::Ave => "A x + B |x| = b",
+            Self::BlockAve => "A x + B |x| = b,  |x|_j the length of block j",
             Self::Hlcp => "A w - B z = q,  w >= 0,  z >= 0,  w_k z_k = 0",
             Self::Mlcp => "A u + C z + a = 0,  w = D u + B z + b,  w >= 0,  z >= 0,  w_k z_k = 0",
             Self::Mcp => "w = M z + q,  l <= z <= u,  w_k >= 0 where z_k < u_k,  w_k <= 0 where z_k > l_k",
@@ -73,6 +79,7 @@ impl RawKind {
         match self {
             Self::Lcp => &["M", "q"],
             Self::Ave => &["A", "B", "b"],
+            Self::BlockAve => &["B", "b", "blocks"],
             Self::Hlcp => &["A", "B", "q"],
             Self::Mlcp => &["A", "B", "C", "D", "a", "b"],
             Self::Mcp => &["M", "q", "l", "u"],
@@ -86,16 +93,18 @@ impl RawKind {
         match self {
             Self::Modes => &["jumps_positive", "jumps_negative"],
             Self::Game => &["B"],
+            Self::BlockAve => &["A"],
             _ => &[],
         }
     }
 
-    /// The vectors whose lengths are the sizes of the problem: two for a mixed linear complementarity problem,
+    /// The vectors whose lengths are the sizes of the problem: two for a mixed linear complementarity problem and for blocks,
     /// none for a game, whose sizes are the rows and columns of `A`.
     pub fn size_vectors(self) -> &'static [&'static str] {
         match self {
             Self::Lcp | Self::Hlcp | Self::Mcp => &["q"],
             Self::Ave => &["b"],
+            Self::BlockAve => &["b", "blocks"],
             Self::Mlcp => &["a", "b"],
             Self::Game => &[],
             Self::Modes => &["right_hand_side"],
@@ -106,7 +115,8 @@ impl RawKind {
     #[cfg(any(feature = "json", feature = "npz"))]
     pub(super) fn dimensions(self, name: &str) -> (usize, Option<usize>) {
         match (self, name) {
-            (Self::Mlcp, "b") => (1, None),
+            (Self::Mlcp, "b") | (Self::BlockAve, "blocks") => (1, None),
+            (Self::BlockAve, "B") => (0, Some(1)),
             (Self::Mlcp, "B") => (1, Some(1)),
             (Self::Mlcp, "D") => (1, Some(0)),
             (Self::Mlcp, "C") | (Self::Game, _) => (0, Some(1)),

@@ -2,12 +2,13 @@
 //!
 //! Many questions lead to a system of linear equations in which each unknown switches between two versions of
 //! its coefficients, depending on its sign. Slideway finds *all* solutions of such a system, and says whether
-//! it is proven that there are no others. Seven forms are read:
+//! it is proven that there are no others. Eight forms are read:
 //!
 //! | type | arrays | problem | source |
 //! |---|---|---|---|
 //! | `lcp` | `M`, `q` | `w = M z + q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | linear complementarity problem (Cottle, Pang, Stone, The Linear Complementarity Problem, 1992) |
 //! | `ave` | `A`, `B`, `b` | `A x + B abs(x) = b` | absolute value equation (Rohn, 2004; Mangasarian, 2007) |
+//! | `block_ave` | `B`, `b`, `blocks`, and perhaps `A` | `A x + B abs(x) = b`, where `abs(x)` has the lengths of blocks of one or two components, whose sizes are `blocks`; without `A`, `A = I` | hinges with friction: [`blocks`](crate::blocks) |
 //! | `hlcp` | `A`, `B`, `q` | `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | horizontal linear complementarity problem (Sznajder and Gowda, 1995); with `A = I` an LCP with `M = B` |
 //! | `mlcp` | `A`, `B`, `C`, `D`, `a`, `b` | `A u + C z + a = 0`, `w = D u + B z + b`, `w >= 0`, `z >= 0`, `w_k z_k = 0`; `u` free | mixed linear complementarity problem (Cottle, Pang, Stone, 1992) |
 //! | `mcp` | `M`, `q`, `l`, `u` | `w = M z + q`, `l <= z <= u`, `w_k >= 0` where `z_k < u_k`, `w_k <= 0` where `z_k > l_k` | mixed complementarity problem with a linear function (Dirkse and Ferris, 1995) |
@@ -37,6 +38,8 @@
 mod answer;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod assemble;
+mod block_answer;
+mod block_equation;
 mod continuum;
 mod correspondence;
 #[cfg(feature = "json")]
@@ -66,6 +69,7 @@ mod tables;
 mod values;
 
 pub use answer::solve;
+pub use block_equation::BlockEquation;
 #[cfg(feature = "json")]
 pub use exact_file::exact_json;
 #[cfg(any(feature = "json", feature = "npz"))]
@@ -112,6 +116,8 @@ pub enum RawProblem {
         /// The right-hand side `b`.
         right_hand_side: DVector<f64>,
     },
+    /// `A x + B |x| = b`, `|x|` block by block.
+    BlockAbsoluteValue(BlockEquation),
     /// `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0`.
     HorizontalComplementarity {
         /// The matrix of `w`.
@@ -234,6 +240,7 @@ impl RawProblem {
         match self {
             Self::LinearComplementarity { .. } => RawKind::Lcp,
             Self::AbsoluteValue { .. } => RawKind::Ave,
+            Self::BlockAbsoluteValue(_) => RawKind::BlockAve,
             Self::HorizontalComplementarity { .. } => RawKind::Hlcp,
             Self::MixedLinearComplementarity { .. } => RawKind::Mlcp,
             Self::MixedComplementarity { .. } => RawKind::Mcp,
@@ -246,13 +253,15 @@ impl RawProblem {
     /// game, it has further unknowns.
     ///
     /// # Errors
-    /// If shapes do not match, an entry is not finite, or `A + B` overflows.
+    /// If shapes do not match, an entry is not finite, or `A + B` overflows; [`ModeProblemError::Blocks`] for an
+    /// equation of blocks, which has a [`BlockProblem`](crate::blocks::BlockProblem) instead.
     pub fn mode_problem(&self) -> Result<ModeProblem, ModeProblemError> {
         match self {
             Self::LinearComplementarity { m, q } => ModeProblem::from_linear_complementarity(m, q.clone()),
             Self::AbsoluteValue { a, b, right_hand_side } => {
                 ModeProblem::from_absolute_value_equation(a, b, right_hand_side.clone())
             }
+            Self::BlockAbsoluteValue(_) => Err(ModeProblemError::Blocks),
             Self::HorizontalComplementarity { a, b, q } => {
                 ModeProblem::from_horizontal_complementarity(a, b, q.clone())
             }

@@ -84,7 +84,9 @@ impl<'a> Nearby<'a> {
                 negative.columns_mut(*free, size - free).fill(0.0);
                 (problem.columns(Side::Positive).abs(), negative)
             }
-            RawProblem::MixedComplementarity { .. } | RawProblem::Game { .. } => return None,
+            RawProblem::MixedComplementarity { .. }
+            | RawProblem::Game { .. }
+            | RawProblem::BlockAbsoluteValue(_) => return None,
             RawProblem::Modes(_) => {
                 (problem.columns(Side::Positive).abs(), problem.columns(Side::Negative).abs())
             }

@@ -20,7 +20,7 @@ pub struct RawReport {
     /// Type of the problem.
     #[serde(rename = "type")]
     pub kind: RawKind,
-    /// Number n of unknowns (of pairs of them in a complementarity problem; of the pure strategies of both
+    /// Number n of unknowns (of components in an equation of blocks; of pairs of them in a complementarity problem; of the pure strategies of both
     /// players in a game).
     pub size: usize,
     /// Of these, the free unknowns of a mixed linear complementarity problem, or the first player's strategies;
@@ -139,7 +139,7 @@ pub enum Unknowns {
         #[serde(skip_serializing_if = "Option::is_none")]
         payoff_2: Option<f64>,
     },
-    /// For an absolute value equation.
+    /// For an absolute value equation, of blocks or not.
     AbsoluteValue {
         /// `x`.
         #[serde(serialize_with = "known_values")]
@@ -200,7 +200,7 @@ impl RawReport {
             RawKind::Lcp | RawKind::Hlcp | RawKind::Mcp => &[("z", all.clone()), ("w", all)],
             RawKind::Mlcp => &[("u", own), ("z", others.clone()), ("w", others)],
             RawKind::Game => &[("x", own), ("y", others), ("payoff_1", None), ("payoff_2", None)],
-            RawKind::Ave => &[("x", all)],
+            RawKind::Ave | RawKind::BlockAve => &[("x", all)],
             RawKind::Modes => &[("normal_forces", all.clone()), ("y", all)],
         };
         ranges.iter().map(|(name, indices)| NamedRange { name, indices: indices.clone() }).collect()
@@ -250,12 +250,13 @@ pub struct RawSolution {
     /// The unknowns.
     #[serde(flatten)]
     pub unknowns: Unknowns,
-    /// Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
+    /// Sign of every `z_k - w_k`, `x_k` (of blocks, too: component by component) or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
     /// where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a mixed problem, the signs of `u` come
     /// first. Of a game: for the pure strategies of both players, 1 if it is played, 0 if it is another best
     /// response, -1 if not.
     pub signs: Vec<i8>,
-    /// Whether some sign outside a gap is 0: the solution is on the boundary between patterns.
+    /// Whether some sign outside a gap is 0: the solution is on the boundary between patterns. Of blocks: whether
+    /// some block may be zero.
     pub on_boundary: bool,
     /// Maximum distance of the unknowns that have a number from the exact solution for the given numbers;
     /// absent if it was not determined.

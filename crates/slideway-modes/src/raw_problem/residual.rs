@@ -56,6 +56,7 @@ impl<'a> Equations<'a> {
             RawProblem::MixedLinearComplementarity { .. }
             | RawProblem::MixedComplementarity { .. }
             | RawProblem::Game { .. }
+            | RawProblem::BlockAbsoluteValue(_)
             | RawProblem::Modes(_) => Self {
                 terms: vec![
                     given(problem.columns(Side::Positive), Multiplier::Positive),

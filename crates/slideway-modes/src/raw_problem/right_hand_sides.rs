@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{RawKind, RawProblem};
+use super::{RawKind, RawProblem, block_answer};
 use crate::problem::{ModeProblemError, Side};
 use crate::progress::Callback;
 use crate::uniqueness::{Unfinished, Uniqueness, UniquenessLimits, uniqueness_with};
@@ -84,6 +84,9 @@ impl RawProblem {
         &self,
         progress: &mut Callback<'_>,
     ) -> Result<EveryRightHandSide, ModeProblemError> {
+        if let Self::BlockAbsoluteValue(equation) = self {
+            return Ok(block_answer::every_right_hand_side(equation));
+        }
         let Some(problem) = self.problem_of_every_right_hand_side() else {
             let reason = "a game has no right-hand side".to_owned();
             return Ok(EveryRightHandSide { answer: EveryAnswer::NotComputed, patterns: Vec::new(), reason });

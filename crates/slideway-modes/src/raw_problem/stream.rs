@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 use super::answer::{Teller, without_lists};
 use super::correspondence::Correspondence;
 use super::listing::Counts;
-use super::report::{RawConclusion, RawLine};
-use super::{RawProblem, nearby};
+use super::report::{RawConclusion, RawLine, RawReport};
+use super::{RawProblem, block_answer, nearby};
 use crate::problem::ModeProblemError;
 use crate::progress::{Callback, Progress};
 use crate::search::{CombinedState, SearchOptions, SolutionProduct, search_telling};
@@ -53,6 +53,9 @@ pub fn solve_streaming(
     progress: &mut Callback<'_>,
     write: &mut dyn FnMut(&RawLine) -> ControlFlow<()>,
 ) -> Result<RawConclusion, ModeProblemError> {
+    if let RawProblem::BlockAbsoluteValue(equation) = raw {
+        return Ok(told_at_last(block_answer::solve(equation, options, usize::MAX, progress), write));
+    }
     let problem = raw.mode_problem()?;
     let correspondence = Correspondence::of(raw);
     let teller = Teller::new(raw, &correspondence, &problem);
@@ -68,6 +71,20 @@ pub fn solve_streaming(
         report.within_rounding = nearby::within_rounding((raw, &correspondence), &problem, spent, progress);
     }
     Ok(RawConclusion { report, lines, all_written, part_of_others, seconds: None })
+}
+
+/// Writes the solutions of a search that has ended.
+fn told_at_last(mut report: RawReport, write: &mut dyn FnMut(&RawLine) -> ControlFlow<()>) -> RawConclusion {
+    let mut lines = 0;
+    let mut all_written = true;
+    for solution in std::mem::take(&mut report.solutions) {
+        lines += 1;
+        all_written = write(&RawLine::Solution(solution)).is_continue();
+        if !all_written {
+            break;
+        }
+    }
+    RawConclusion { report, lines, all_written, part_of_others: Vec::new(), seconds: None }
 }
 
 /// The lines that are written.

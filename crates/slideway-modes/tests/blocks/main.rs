@@ -6,5 +6,6 @@ mod degenerate;
 mod jumps;
 mod one_hinge;
 mod random;
+mod raw;
 mod reference;
 mod support;

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from . import _slideway, reports
 
-__all__ = ["game", "hlcp", "lcp", "mcp", "mlcp", "mode_problem", "solve"]
+__all__ = ["block_ave", "game", "hlcp", "lcp", "mcp", "mlcp", "mode_problem", "solve"]
 
 Progress = Callable[[float | None, int, str], object]
 
@@ -74,6 +74,49 @@ def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.R
     [[2.0]]
     """
     return _slideway.solve(A, B, b, _options(**options))
+
+
+def block_ave(
+    B: ArrayLike, b: ArrayLike, blocks: ArrayLike, A: ArrayLike | None = None, **options: Any
+) -> reports.RawReport:
+    """All solutions of `A x + B |x| = b`, where `|x|` has the lengths of blocks of one or two components.
+
+    With blocks of one it is an absolute value equation. Blocks of two are forces of hinges with friction, or whatever
+    else enters by its length in the plane. There are finitely many solutions, as a rule; each is proven to exist, and
+    what could not be decided is in `open`.
+
+    Parameters
+    ----------
+    B : array, n by m
+        A column for each block.
+    b : array of n
+    blocks : array of m
+        How many components belong to each block, 1 or 2; `n` in all.
+    A : array, n by n, optional
+        A regular matrix; without it, the identity.
+
+    Other Parameters
+    ----------------
+    **options
+        Those of :func:`solve`.
+
+    Returns
+    -------
+    reports.RawReport
+        Iterable over its solutions; `complete` says how it is known that there are no others.
+
+    Raises
+    ------
+    ValueError
+        Sizes that do not fit, numbers that are not finite, or a matrix `A` that is not regular.
+
+    Examples
+    --------
+    >>> answer = block_ave([[-2.0], [0.0]], [-1.0, 0.0], [2])     # x = (2, 0) |x| - (1, 0)
+    >>> sorted(round(float(abs(solution.x[0])), 12) for solution in answer)
+    [0.333333333333, 1.0]
+    """
+    return _slideway.blocks((B, A), b, blocks, _options(**options))
 
 
 def lcp(M: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:

@@ -116,6 +116,7 @@ impl Text<'_> {
         let kind = self.report.kind;
         let vector = match kind.size_vectors() {
             [] => "right-hand side".to_owned(),
+            [only, "blocks"] => (*only).to_owned(),
             vectors => vectors.join(" and "),
         };
         let shown = patterns.join(" and ");
@@ -178,6 +179,9 @@ impl Text<'_> {
         if !solution.on_boundary {
             return;
         }
+        if self.report.kind == RawKind::BlockAve {
+            return self.line("  A block is zero, or may be: it has no certain direction");
+        }
         let in_gap = |at: usize| solution.gaps.iter().any(|gap| gap.index == at);
         let vanishes = |at: &usize| match (self.report.kind, &solution.unknowns) {
             (RawKind::Mcp, Unknowns::Complementary { w, .. }) => solution.signs[*at] != 0 && w[*at] == 0.0,
@@ -193,7 +197,7 @@ impl Text<'_> {
         let what = match self.report.kind {
             RawKind::Lcp | RawKind::Hlcp | RawKind::Mlcp => "z_k = w_k = 0",
             RawKind::Mcp => "w_k = 0 at a bound",
-            RawKind::Ave => "x_k = 0",
+            RawKind::Ave | RawKind::BlockAve => "x_k = 0",
             RawKind::Modes | RawKind::Game => "N_k = 0",
         };
         self.line(&format!("  On the boundary between patterns: {what} for k = {}", zero.join(", ")));

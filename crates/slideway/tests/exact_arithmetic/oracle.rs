@@ -57,6 +57,7 @@ impl Equations {
             // These have tests of their own, which do not use the mode problem.
             RawProblem::MixedLinearComplementarity { .. }
             | RawProblem::MixedComplementarity { .. }
+            | RawProblem::BlockAbsoluteValue(_)
             | RawProblem::Game { .. } => unreachable!("no family has them"),
             RawProblem::Modes(problem) => Self {
                 columns: Side::BOTH.map(|side| columns(problem.columns(side))),

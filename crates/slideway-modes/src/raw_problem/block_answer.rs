@@ -1,0 +1,110 @@
+//! All solutions of a block equation, as a report.
+
+use super::answer::stopped;
+use super::block_equation::BlockEquation;
+use super::kind::RawKind;
+use super::report::{RawReport, RawSolution, SCHEMA, Unknowns};
+use super::right_hand_sides::{EveryAnswer, EveryRightHandSide};
+use crate::blocks::{BlockResult, BlockSolution, OpenRegion, search, unique_for_every_load};
+use crate::progress::Callback;
+use crate::search::SearchOptions;
+use crate::status::{Proof, Status};
+
+/// Regions that are told one by one.
+const MOST_REGIONS: usize = 8;
+
+/// All solutions of a block equation, of which up to `most` are listed.
+pub(super) fn solve(
+    equation: &BlockEquation,
+    options: &SearchOptions,
+    most: usize,
+    progress: &mut Callback<'_>,
+) -> RawReport {
+    let result = search(equation.problem(), options, progress);
+    let listed = result.solutions.iter().take(most);
+    RawReport {
+        schema: SCHEMA,
+        kind: RawKind::BlockAve,
+        size: equation.size(),
+        first: 0,
+        status: status(&result),
+        complete: result.complete,
+        partial: result.stopped.is_some(),
+        open: open(equation, &result, options),
+        count: result.solutions.len().to_string(),
+        gap_state_count: "0".to_owned(),
+        continuum_count: "0".to_owned(),
+        within_rounding: None,
+        every_right_hand_side: None,
+        solutions: listed.map(|solution| told(equation, solution)).collect(),
+        gap_states: Vec::new(),
+        continua: Vec::new(),
+        strategy: strategy(equation, &result),
+        nodes: result.nodes,
+        groups: Vec::new(),
+    }
+}
+
+/// Whether every right-hand side has exactly one solution: proven by norms, or not known (theory of hinges, section
+/// 3).
+pub(super) fn every_right_hand_side(equation: &BlockEquation) -> EveryRightHandSide {
+    let (answer, reason) = match unique_for_every_load(equation.problem()) {
+        Some(_) => (EveryAnswer::One, String::new()),
+        None => (EveryAnswer::NotComputed, "the norms of the blocks are too large for a proof".to_owned()),
+    };
+    EveryRightHandSide { answer, patterns: Vec::new(), reason }
+}
+
+fn status(result: &BlockResult) -> Status {
+    match result.solutions.len() {
+        0 if result.complete == Proof::Proven => Status::None,
+        0 => Status::Unknown,
+        1 => Status::One,
+        _ => Status::Several,
+    }
+}
+
+fn strategy(equation: &BlockEquation, result: &BlockResult) -> String {
+    let problem = equation.problem();
+    if result.unique_for_every_load.is_some() {
+        return "proof that there is exactly one solution for every right-hand side".to_owned();
+    }
+    format!(
+        "sectors of the directions of {} blocks of two components, signs of {} of one",
+        problem.hinges(),
+        problem.contacts()
+    )
+}
+
+/// What prevents the list from being proven complete.
+fn open(equation: &BlockEquation, result: &BlockResult, options: &SearchOptions) -> Vec<String> {
+    let contacts = equation.problem().contacts();
+    let region = |region: &OpenRegion| {
+        let (forces, reactions) = region.point.split_at(contacts);
+        let reactions: Vec<[f64; 2]> = reactions.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+        let x: Vec<String> =
+            equation.unknowns(forces, &reactions).iter().map(|value| format!("{value:.6e}")).collect();
+        format!("{}: not decided near x = ({})", region.label.as_str(), x.join(", "))
+    };
+    let mut open: Vec<String> = result.stopped.map(|reason| stopped(reason, options)).into_iter().collect();
+    open.extend(result.open.iter().take(MOST_REGIONS).map(region));
+    if result.open.len() > MOST_REGIONS {
+        open.push(format!("{} more regions are not decided", result.open.len() - MOST_REGIONS));
+    }
+    open
+}
+
+fn told(equation: &BlockEquation, solution: &BlockSolution) -> RawSolution {
+    let x = equation.unknowns(&solution.forces, &solution.reactions);
+    let sign = |value: &f64| i8::from(*value > 0.0) - i8::from(*value < 0.0);
+    RawSolution {
+        signs: x.iter().map(sign).collect(),
+        on_boundary: !solution.on_boundary.is_empty() || !solution.unloaded.is_empty(),
+        enclosure_radius: Some(solution.radius),
+        residual: equation.residual(&x, &solution.magnitudes),
+        unknowns: Unknowns::AbsoluteValue { x },
+        beyond_range: Vec::new(),
+        gaps: Vec::new(),
+        shares_vary: false,
+    }
+}

@@ -1,0 +1,112 @@
+//! Block problems as they are given in files: absolute value equations of blocks.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use slideway_modes::raw_problem::{
+    BlockEquation, EveryAnswer, RawProblem, RawReport, Unknowns, solve, solve_streaming,
+};
+use slideway_modes::{ModeProblemError, Proof, SearchOptions};
+
+use crate::support::{Numbers, Plain, unknowns};
+
+fn answer(raw: &RawProblem) -> RawReport {
+    solve(raw, &SearchOptions::default(), 100, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn values(report: &RawReport) -> Vec<&[f64]> {
+    let x = |unknowns| match unknowns {
+        &Unknowns::AbsoluteValue { ref x } => x.as_slice(),
+        other => panic!("{other:?}"),
+    };
+    report.solutions.iter().map(|solution| x(&solution.unknowns)).collect()
+}
+
+/// `x + B |x| = b` as `A x + A B |x| = A b` for an `A` of small integers, with the blocks in another order.
+#[test]
+fn an_equation_has_the_solutions_of_the_block_problem() {
+    let mut numbers = Numbers(5);
+    for _ in 0..4 {
+        // Multiples of 1/64, so that the products with the integers of `A` are not rounded.
+        let round = |value: f64| (value * 64.0).round() / 64.0;
+        let plain = Plain::opposed(&mut numbers, 1, 2);
+        let response = plain.positive.map(round);
+        let load = plain.load.map(round);
+        let plain = Plain::same(1, response.clone(), load.clone());
+        let expected = plain.solve();
+        // Components of a hinge, the contact, the other hinge; and the blocks in that order.
+        let (rows, blocks) = ([1, 2, 0, 3, 4], [1, 0, 2]);
+        let b = -response.select_rows(&rows).select_columns(&blocks);
+        let right = load.select_rows(&rows);
+        let a = DMatrix::from_fn(5, 5, |row, column| match row.abs_diff(column) {
+            0 => 3.0,
+            1 => 1.0,
+            _ => 0.0,
+        });
+        for (a, b, right) in [(None, b.clone(), right.clone()), (Some(a.clone()), &a * b, &a * right)] {
+            let equation = BlockEquation::new(a, b, right, &[2, 1, 2]).unwrap();
+            let report = answer(&RawProblem::BlockAbsoluteValue(equation));
+            assert_eq!(report.complete, Proof::Proven);
+            assert_eq!(report.count, expected.solutions.len().to_string());
+            for solution in &expected.solutions {
+                let x = unknowns(solution).select_rows(&rows);
+                let near =
+                    |found: &&[f64]| (DVector::from_column_slice(found) - &x).amax() <= 1e-9 * x.amax();
+                assert!(values(&report).iter().any(near), "{x}");
+            }
+            let residuals = report.solutions.iter().map(|solution| solution.residual.unwrap());
+            assert!(residuals.fold(0.0, f64::max) < 1e-14);
+        }
+    }
+}
+
+/// With blocks of one: 2 x + 3 |x| = 1 has x = 1/5 and x = -1 (columns 5 and -1 by the sign).
+#[test]
+fn blocks_of_one_are_an_absolute_value_equation() {
+    let equation = BlockEquation::new(Some(dmatrix![2.0]), dmatrix![3.0], dvector![1.0], &[1]).unwrap();
+    let raw = RawProblem::BlockAbsoluteValue(equation);
+    let ordinary =
+        RawProblem::AbsoluteValue { a: dmatrix![2.0], b: dmatrix![3.0], right_hand_side: dvector![1.0] };
+    for report in [answer(&raw), answer(&ordinary)] {
+        let mut found: Vec<f64> = values(&report).iter().map(|x| x[0]).collect();
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), 2);
+        assert!((found[0] + 1.0).abs() < 1e-15 && (found[1] - 0.2).abs() < 1e-15, "{found:?}");
+    }
+    assert_eq!(raw.mode_problem(), Err(ModeProblemError::Blocks));
+}
+
+/// `|e| < 1`: one solution for every load; `|e| > 1`: two or none (theory of hinges, section 2).
+#[test]
+fn one_solution_for_every_right_hand_side_is_proven_by_norms() {
+    for (e, expected) in [(0.5, EveryAnswer::One), (2.0, EveryAnswer::NotComputed)] {
+        let equation = BlockEquation::new(None, dmatrix![-e; 0.0], dvector![-1.0, 0.0], &[2]).unwrap();
+        let raw = RawProblem::BlockAbsoluteValue(equation);
+        let every = raw.every_right_hand_side(&mut |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(every.answer, expected);
+    }
+}
+
+#[test]
+fn a_stream_tells_every_solution_and_then_how_many() {
+    let raw = RawProblem::from_json(br#"{"B": [[-2], [0]], "b": [-1, 0], "blocks": [2]}"#).unwrap();
+    let mut lines = 0;
+    let go = &mut |_: &_| ControlFlow::Continue(());
+    let conclusion = solve_streaming(&raw, &SearchOptions::default(), 10, go, &mut |_| {
+        lines += 1;
+        ControlFlow::Continue(())
+    });
+    let conclusion = conclusion.unwrap();
+    assert_eq!((lines, conclusion.lines, conclusion.report.count.as_str()), (2, 2, "2"));
+    assert!(conclusion.all_written);
+}
+
+#[test]
+fn what_is_no_equation_is_refused() {
+    let new =
+        |a, sizes: &[usize]| BlockEquation::new(a, DMatrix::zeros(3, 2), dvector![1.0, 2.0, 3.0], sizes);
+    assert_eq!(new(None, &[3, 0]), Err(ModeProblemError::BlockSize { block: 0, size: 3 }));
+    assert_eq!(new(None, &[2, 2]), Err(ModeProblemError::BlockSizes { found: 4, components: 3 }));
+    assert_eq!(new(Some(DMatrix::zeros(3, 3)), &[1, 2]), Err(ModeProblemError::NotRegular));
+    assert!(matches!(new(Some(DMatrix::zeros(2, 2)), &[1, 2]), Err(ModeProblemError::Shape { .. })));
+}
