@@ -264,11 +264,18 @@ impl Found {
 
 /// Whether a zero is the one in the box of another.
 fn is_part(zero: &Zero, known: &Zero) -> bool {
-    let holds =
-        |(one, other): (&Option<ContactState>, &Option<ContactState>)| other.is_none() || one == other;
+    // Where the side is open, the equations are those of the side on which the contact is certainly pressed.
+    let is_pressed = |contact: usize, state: ContactState| {
+        zero.states[contact].is_none()
+            && state != ContactState::Gap
+            && zero.agrees(contact, state) == Some(true)
+    };
+    let holds = |contact: usize| {
+        known.states[contact]
+            .is_none_or(|state| zero.states[contact] == Some(state) || is_pressed(contact, state))
+    };
     let inside = |(inner, outer): (&Interval, &Interval)| outer.encloses(*inner);
-    zero.states.iter().zip(&known.states).all(holds)
-        && zero.enclosure.iter().zip(&known.isolation).all(inside)
+    (0..known.states.len()).all(holds) && zero.enclosure.iter().zip(&known.isolation).all(inside)
 }
 
 /// Whether states of contacts have something in common.
