@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Piece, Slopes, matrix};
+use super::equations::{Frame, Piece, Slopes, matrix, matrix_in_frames};
 use super::problem::BlockProblem;
+use super::sector::Sector;
 use crate::certificate::enclose_solution;
 use crate::interval::Interval;
 use crate::interval_matrix::{IntervalMatrix, product, rounding, upper_product};
@@ -31,30 +32,20 @@ pub(super) fn has_at_most_one(problem: &BlockProblem, piece: &Piece) -> bool {
 }
 
 /// Whether the matrix of slopes is regular, with the unknowns of each hinge along and across its sector.
-///
-/// With `x_j = y_1 m + y_2 n`, columns `m - H_j (s.m)` and `n - H_j (s.n)`: slopes `s` in a sector of half angle `d` have
-/// `cos d <= s.m <= 1`, which varies by the square of `d` only. This decides near locking directions.
 fn is_regular_in_frames(problem: &BlockProblem, piece: &Piece) -> bool {
     let any = Interval::new(-1.0, 1.0).unwrap_or(Interval::REAL_LINE);
-    let slopes = Slopes {
-        contacts: vec![any; problem.contacts()],
-        hinges: vec![[Interval::ZERO; 2]; problem.hinges()],
-    };
-    let mut all = matrix(problem, &piece.states, &slopes);
-    for (hinge, sector) in piece.sectors.iter().enumerate() {
-        let rows = problem.rows_of_hinge(hinge);
-        for (at, vector) in sector.frame().into_iter().enumerate() {
+    let frame = |sector: &Sector| {
+        let vectors = sector.frame();
+        let slopes = vectors.map(|vector| {
             let exact = vector.map(Interval::point);
             let least = sector.least(exact, Interval::ZERO);
             let most = -sector.least(exact.map(|value| -value), Interval::ZERO);
-            let slope = Interval::new(least, most).unwrap_or(Interval::REAL_LINE);
-            for row in 0..problem.rows() {
-                let own = rows.iter().position(|&own| own == row).map_or(Interval::ZERO, |at| exact[at]);
-                let response = problem.response(Side::Positive).entry(row, problem.contacts() + hinge);
-                all[(row, rows[at])] = own - response * slope;
-            }
-        }
-    }
+            Interval::new(least, most).unwrap_or(Interval::REAL_LINE)
+        });
+        Frame { vectors, slopes }
+    };
+    let frames: Vec<Frame> = piece.sectors.iter().map(frame).collect();
+    let all = matrix_in_frames(problem, &piece.states, vec![any; problem.contacts()], &frames);
     let nothing = IntervalMatrix::exact(DMatrix::zeros(problem.rows(), 0));
     IntervalMatrix::from_intervals(&all).is_some_and(|all| enclose_solution(&all, &nothing).is_some())
 }

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::problem::BlockProblem;
-use super::sector::Sector;
-use crate::interval::Real;
+use super::sector::{Sector, Vector};
+use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{ContactState, Side};
 
@@ -87,6 +87,39 @@ pub(super) fn matrix<T: Real>(
         }
     }
     matrix
+}
+
+/// Two vectors of equal length at right angles, along which the reaction of a hinge is told, and bounds on the products
+/// of slopes with them.
+pub(super) struct Frame {
+    pub(super) vectors: [Vector; 2],
+    pub(super) slopes: [Interval; 2],
+}
+
+/// The matrix of slopes for unknowns of hinges along the vectors of frames: with `x_j = y_1 m + y_2 n` the columns are
+/// `m - H_j (s.m)` and `n - H_j (s.n)`.
+///
+/// Slopes `s` of directions that differ from `m` by at most `d` have `cos d <= s.m <= 1`, which varies by the square of
+/// `d` only: near locking directions this decides what slopes component by component leave open.
+pub(super) fn matrix_in_frames(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    contacts: Vec<Interval>,
+    frames: &[Frame],
+) -> DMatrix<Interval> {
+    let slopes = Slopes { contacts, hinges: vec![[Interval::ZERO; 2]; problem.hinges()] };
+    let mut all = matrix(problem, states, &slopes);
+    for (hinge, frame) in frames.iter().enumerate() {
+        let rows = problem.rows_of_hinge(hinge);
+        for (at, (vector, slope)) in frame.vectors.iter().zip(frame.slopes).enumerate() {
+            for row in 0..problem.rows() {
+                let own = rows.iter().position(|&own| own == row).map_or(0.0, |component| vector[component]);
+                let response = problem.response(Side::Positive).entry(row, problem.contacts() + hinge);
+                all[(row, rows[at])] = Interval::point(own) - response * slope;
+            }
+        }
+    }
+    all
 }
 
 /// `b + d`: the right-hand side for the states of a piece, in which no contact that jumps is open.

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Piece, Slopes, load, matrix, residual};
+use super::equations::{Frame, Piece, Slopes, load, matrix, matrix_in_frames, residual};
 use super::problem::BlockProblem;
-use super::sector::unit;
+use super::sector::{Vector, unit};
 use crate::certificate::{Sign, enclose_solution};
 use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
@@ -12,10 +12,12 @@ use crate::problem::ContactState;
 
 /// Steps of Newton's method.
 const STEPS: usize = 40;
-/// A step of this relative length is the last one.
+/// A step of this relative length is the last one, ...
 const LAST: f64 = 4.0 * f64::EPSILON;
-/// Relative radii of the boxes that are tried.
-const RADII: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
+/// ... and so is one below this length that is not shorter than the one before.
+const NEAR: f64 = 1e-3;
+/// Relative radii of the boxes that are tried: a large one holds more slopes, a small one less rounding.
+const RADII: [f64; 11] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
 
 /// A zero of the equations with the given states of contacts, continued linearly where a state is given.
 #[derive(Debug, Clone)]
@@ -84,7 +86,8 @@ pub(super) fn newton(
             return None;
         }
         point = next;
-        if step <= LAST * size || (step <= 1e-9 * size && step >= last) {
+        // Near locking rounding may be large: the proof decides whether a point is good enough.
+        if step <= LAST * size || (step <= NEAR * size && step >= last) {
             return Some(point);
         }
         last = step;
@@ -124,11 +127,25 @@ pub(super) fn prove(
     let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(point.len(), 1, |row, _| -residual[row]))?;
     RADII.iter().find_map(|radius| {
         let isolation = around(problem, states, point, *radius);
-        let slopes = slopes_over(problem, &isolation);
-        let matrix = IntervalMatrix::from_intervals(&matrix(problem, states, &slopes))?;
-        let steps = enclose_solution(&matrix, &right)?;
-        let inside = |row: usize| Interval::point(point[row]) + steps.solution.entry(row, 0);
-        let enclosure: Vec<Interval> = (0..point.len()).map(inside).collect();
+        let of_hinge = |hinge: usize| {
+            let rows = problem.rows_of_hinge(hinge);
+            frame(rows.map(|row| point[row]), rows.map(|row| isolation[row]))
+        };
+        let frames: Vec<Frame> = (0..problem.hinges()).map(of_hinge).collect();
+        let matrix = matrix_in_frames(problem, states, contact_slopes(problem, &isolation), &frames);
+        let steps = enclose_solution(&IntervalMatrix::from_intervals(&matrix)?, &right)?;
+        let mut enclosure: Vec<Interval> = (0..point.len()).map(|row| steps.solution.entry(row, 0)).collect();
+        for (hinge, frame) in frames.iter().enumerate() {
+            let rows = problem.rows_of_hinge(hinge);
+            let step = rows.map(|row| enclosure[row]);
+            for (component, row) in rows.into_iter().enumerate() {
+                let [along, across] = frame.vectors.map(|vector| Interval::point(vector[component]));
+                enclosure[row] = step[0] * along + step[1] * across;
+            }
+        }
+        for (value, &at) in enclosure.iter_mut().zip(point) {
+            *value = *value + Interval::point(at);
+        }
         let is_inside = enclosure
             .iter()
             .zip(&isolation)
@@ -157,25 +174,34 @@ fn around(
     (0..problem.rows()).map(|row| Interval::around(point[row], radius * size(row))).collect()
 }
 
-/// Bounds on the slopes between any two points of a box: those on the directions in it.
-fn slopes_over(problem: &BlockProblem, isolation: &[Interval]) -> Slopes<Interval> {
+/// Bounds on the slopes of contacts between any two points of a box.
+fn contact_slopes(problem: &BlockProblem, isolation: &[Interval]) -> Vec<Interval> {
     let one = Interval::ONE;
-    let contact = |value: &Interval| match value.sign() {
+    let slope = |value: &Interval| match value.sign() {
         Some(Sign::Positive) => one,
         Some(Sign::Negative) => -one,
         _ => (-one).hull(one),
     };
-    let hinge = |hinge| {
-        let [x, y] = problem.rows_of_hinge(hinge).map(|row| isolation[row]);
-        if x.contains(0.0) && y.contains(0.0) {
-            return [(-one).hull(one); 2];
-        }
-        [component_of_direction(x, y), component_of_direction(y, x)]
-    };
-    Slopes {
-        contacts: isolation[..problem.contacts()].iter().map(contact).collect(),
-        hinges: (0..problem.hinges()).map(hinge).collect(),
+    isolation[..problem.contacts()].iter().map(slope).collect()
+}
+
+/// The frame of a hinge along its reaction at a point, and bounds on the slopes over a box: those of the directions in
+/// it.
+fn frame(reaction: Vector, isolation: [Interval; 2]) -> Frame {
+    let [x, y] = isolation;
+    if x.contains(0.0) && y.contains(0.0) {
+        let any = (-Interval::ONE).hull(Interval::ONE);
+        return Frame { vectors: [[1.0, 0.0], [0.0, 1.0]], slopes: [any; 2] };
     }
+    let [a, b] = unit(reaction);
+    let vectors = [[a, b], [-b, a]];
+    let [along, across] = vectors.map(|vector| {
+        let [a, b] = vector.map(Interval::point);
+        a * x + b * y
+    });
+    let length = Interval::point(a).hypot(Interval::point(b));
+    let slopes = [component_of_direction(along, across), component_of_direction(across, along)];
+    Frame { vectors, slopes: slopes.map(|slope| slope * length) }
 }
 
 /// `x / sqrt(x^2 + y^2)` over a box without zero: it grows with `x`, and its size falls with `|y|`.
