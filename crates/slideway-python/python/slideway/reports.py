@@ -50,6 +50,7 @@ __all__ = [
     "CoordinateSummary",
     "CoordinateValue",
     "CountLimits",
+    "CoupleRange",
     "Course",
     "CourseDirection",
     "CourseMode",
@@ -91,6 +92,7 @@ __all__ = [
     "GapShare",
     "Hatching",
     "Hinge",
+    "HingeFriction",
     "HingeRange",
     "HoldReport",
     "HoldVerdict",
@@ -498,11 +500,12 @@ Proof = Literal["proven", "not proven"]
 - `"proven"`: It is proven complete.
 - `"not proven"`: It is not proven complete."""
 
-RawKind = Literal["lcp", "ave", "hlcp", "mlcp", "mcp", "game", "modes"]
+RawKind = Literal["lcp", "ave", "block_ave", "hlcp", "mlcp", "mcp", "game", "modes"]
 """The type of a raw problem.
 
 - `"lcp"`: Linear complementarity problem.
 - `"ave"`: Absolute value equation.
+- `"block_ave"`: Absolute value equation of blocks of one or two components.
 - `"hlcp"`: Horizontal linear complementarity problem.
 - `"mlcp"`: Mixed linear complementarity problem: some unknowns are free.
 - `"mcp"`: Mixed complementarity problem with a linear function: every unknown between two bounds.
@@ -963,16 +966,6 @@ class Continuum(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class CoupleRange(Record):
-    """The friction couple of a hinge that never turns, over a range."""
-
-    hinge: str
-    """The hinge."""
-    couples: NDArray[np.float64]
-    """The couple on its first body at each vertex (N m)."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
 class ContinuumPart(Record):
     """Unknowns that vary together: all convex combinations of the vertices plus all nonnegative multiples of the
     directions."""
@@ -1087,6 +1080,16 @@ class CountLimits(Record):
     of the interval lies between them but what is next to ends of modes: `CountLimits::left_out`."""
     spacing: float | None
     """Where they were sampled: the greatest distance between neighbouring values; else null."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CoupleRange(Record):
+    """The friction couple of a hinge that never turns, over a range."""
+
+    hinge: str
+    """The hinge."""
+    couples: NDArray[np.float64]
+    """The couple on its first body at each vertex (N m)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1325,7 +1328,7 @@ class DriveDirection(Record):
     computed."""
     blow_ups: tuple[BlowUp, ...] | None = None
     """Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many
-    modes."""
+    modes, or friction in hinges."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1572,7 +1575,8 @@ class HingeFriction(Record):
     """Friction in a hinge that turns."""
 
     couple: float
-    """Friction couple on the body on which the force is counted (N m): radius times hinge force, against the rotation."""
+    """Friction couple on the body on which the force is counted (N m): radius times hinge force, against the
+    rotation."""
     radius: float
     """Radius of the friction circle, to which the hinge force is tangent (m)."""
     angular_velocity: float
@@ -1589,6 +1593,8 @@ class HingeRange(Record):
     """The body on which it is counted."""
     force: tuple[Range, Range]
     """Its components along x and y (N)."""
+    couple: Range | None
+    """The couple of its friction on the same body (N m); nothing if it has none."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -2170,8 +2176,8 @@ class RawReport(_mixins.RawReport, Report):
     type: RawKind
     """Type of the problem."""
     size: int
-    """Number n of unknowns (of pairs of them in a complementarity problem; of the pure strategies of both
-    players in a game)."""
+    """Number n of unknowns (of components in an equation of blocks; of pairs of them in a complementarity
+    problem; of the pure strategies of both players in a game)."""
     status: Status
     """How many solutions there are; if the search ended early, how many were found."""
     complete: Proof
@@ -2232,12 +2238,13 @@ class RawSolution(Record):
     """One solution, or one state with an unknown in its gap."""
 
     signs: tuple[int, ...]
-    """Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
-    where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a mixed problem, the signs of `u` come
-    first. Of a game: for the pure strategies of both players, 1 if it is played, 0 if it is another best
-    response, -1 if not."""
+    """Sign of every `z_k - w_k`, `x_k` (of blocks, too: component by component) or `N_k`; 0 where it vanishes.
+    With two bounds: -1 where `z_k = l_k`, 1 where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a
+    mixed problem, the signs of `u` come first. Of a game: for the pure strategies of both players, 1 if it is
+    played, 0 if it is another best response, -1 if not."""
     on_boundary: bool
-    """Whether some sign outside a gap is 0: the solution is on the boundary between patterns."""
+    """Whether some sign outside a gap is 0: the solution is on the boundary between patterns. Of blocks: whether
+    some block may be zero."""
     enclosure_radius: float | None = None
     """Maximum distance of the unknowns that have a number from the exact solution for the given numbers; absent
     if it was not determined."""
@@ -2876,6 +2883,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "Column": {"values": "array"},
     "Continuum": {"vertices": "arrays", "directions": "arrays"},
     "CountLimits": {"proven": "pairs"},
+    "CoupleRange": {"couples": "array"},
     "CourseRow": {"efforts": "array", "frictionless": "array"},
     "Curve": {"points": "pairs"},
     "Direction": {"between_faces_at": "array"},
