@@ -13,6 +13,8 @@
 //!
 //! Costs only steer the search; infeasibility of a program is judged by its Farkas vector.
 
+use std::ops::Range;
+
 use nalgebra::DMatrix;
 
 use crate::dense::{Pace, inverse, product};
@@ -114,14 +116,29 @@ impl LinearProgram {
     }
 
     /// `v^T A`.
-    pub(crate) fn row_combination(&self, multipliers: &[f64], combined: &mut Vec<f64>) {
-        combined.clear();
-        combined.resize(self.columns, 0.0);
-        for (&multiplier, row) in multipliers.iter().zip(self.by_row.chunks_exact(self.columns.max(1))) {
-            if multiplier != 0.0 {
-                add_multiple(combined, multiplier, row);
+    pub(crate) fn row_combination(&self, multipliers: &[f64]) -> Vec<f64> {
+        let mut combined = vec![0.0; self.columns];
+        for (&multiplier, row) in self.combined_rows(multipliers) {
+            add_multiple(&mut combined, multiplier, row);
+        }
+        combined
+    }
+
+    /// `|v|^T |A|`: the sums of the sizes of the terms of `v^T A`.
+    pub(crate) fn sizes_of_terms(&self, multipliers: &[f64]) -> Vec<f64> {
+        let mut sizes = vec![0.0; self.columns];
+        for (multiplier, row) in self.combined_rows(multipliers) {
+            for (size, entry) in sizes.iter_mut().zip(row) {
+                *size += (multiplier * entry).abs();
             }
         }
+        sizes
+    }
+
+    /// The rows of `A` with multipliers other than zero, with these.
+    fn combined_rows<'a>(&'a self, multipliers: &'a [f64]) -> impl Iterator<Item = (&'a f64, &'a [f64])> {
+        let rows = self.by_row.chunks_exact(self.columns.max(1));
+        multipliers.iter().zip(rows).filter(|(multiplier, _)| **multiplier != 0.0)
     }
 
     /// The basis of artificial variables.
@@ -197,29 +214,23 @@ impl LinearProgram {
 }
 
 impl Basis {
-    /// A copy without the variables that `bounds` fix to zero.
-    pub(crate) fn restricted(&self, bounds: &Bounds) -> Self {
+    /// Drops the nonbasic variables that `bounds` fix to zero.
+    pub(crate) fn restrict(&mut self, bounds: &Bounds) {
         let is_kept = |nonbasic: &Nonbasic| {
             let at = nonbasic.variable;
             at >= bounds.upper.len() || bounds.upper[at] != 0.0 || bounds.lower[at] != 0.0
         };
-        let kept: Vec<usize> = (0..self.nonbasic.len()).filter(|&at| is_kept(&self.nonbasic[at])).collect();
-        if kept.len() == self.nonbasic.len() {
-            return self.clone();
-        }
-        let mut tableau = Vec::with_capacity(self.basic.len() * kept.len());
-        for row in self.rows() {
-            tableau.extend(kept.iter().map(|&at| row[at]));
-        }
-        Self {
-            basic: self.basic.clone(),
-            nonbasic: kept.iter().map(|&at| self.nonbasic[at]).collect(),
-            tableau,
-            reduced_cost: kept.iter().map(|&at| self.reduced_cost[at]).collect(),
-            way: kept.iter().map(|&at| self.way[at]).collect(),
-            value: self.value.clone(),
-            updates: self.updates,
-        }
+        let columns = self.nonbasic.len();
+        let dropped = (0..columns).filter(|&at| !is_kept(&self.nonbasic[at]));
+        // The columns between those that are dropped.
+        let ends: Vec<usize> = dropped.collect();
+        let starts = std::iter::once(0).chain(ends.iter().map(|end| end + 1));
+        let kept: Vec<Range<usize>> =
+            starts.zip(ends.iter().copied().chain([columns])).map(|(start, end)| start..end).collect();
+        retain(&mut self.tableau, columns, &kept);
+        retain(&mut self.reduced_cost, columns, &kept);
+        retain(&mut self.way, columns, &kept);
+        retain(&mut self.nonbasic, columns, &kept);
     }
 
     /// The row of `B^-1` that belongs to a basic variable.
@@ -535,6 +546,18 @@ impl Nonbasic {
 
 fn variable_bounds(program: &LinearProgram, bounds: &Bounds, variable: usize) -> (f64, f64) {
     if variable < program.columns { (bounds.lower[variable], bounds.upper[variable]) } else { (0.0, 0.0) }
+}
+
+/// Keeps some columns of a matrix with so many of them, row after row.
+fn retain<T: Copy>(rows: &mut Vec<T>, columns: usize, kept: &[Range<usize>]) {
+    let mut length = 0;
+    for first in (0..rows.len()).step_by(columns.max(1)) {
+        for Range { start, end } in kept {
+            rows.copy_within(first + start..first + end, length);
+            length += end - start;
+        }
+    }
+    rows.truncate(length);
 }
 
 /// `target += factor * source`.

@@ -121,23 +121,23 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
-    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own basis. The
-    /// result is undecided once `proceed` is `false`.
+    /// Solves the relaxation of a node from the basis of its parent, and returns the basis with which its children
+    /// begin. The result is undecided once `proceed` is `false`.
     pub(super) fn solve(
         &self,
         states: &[StateSet],
-        parent: &Basis,
+        mut basis: Basis,
         iterations: &mut u64,
         proceed: &mut dyn FnMut() -> bool,
     ) -> (Relaxed, Basis) {
         let bounds = self.bounds(states);
-        let mut basis = parent.restricted(&bounds);
+        basis.restrict(&bounds);
         let relaxed = match self.program.solve(&mut basis, &bounds, iterations, proceed) {
             LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values, &basis)),
             LinearOutcome::Infeasible(farkas) => {
                 self.verified(farkas, &bounds, Some(&basis)).map_or(Relaxed::Undecided, Relaxed::Excluded)
             }
-            LinearOutcome::Undecided => Relaxed::Undecided,
+            LinearOutcome::Undecided => return (Relaxed::Undecided, self.first_basis()),
         };
         (relaxed, basis)
     }
@@ -146,7 +146,8 @@ impl Relaxation {
     /// solution, or once `proceed` is `false`.
     pub(super) fn farkas(&self, states: &[StateSet], proceed: &mut dyn FnMut() -> bool) -> Option<Vec<f64>> {
         let bounds = self.bounds(states);
-        let mut basis = self.first_basis().restricted(&bounds);
+        let mut basis = self.first_basis();
+        basis.restrict(&bounds);
         match self.program.solve(&mut basis, &bounds, &mut 0, proceed) {
             LinearOutcome::Infeasible(farkas) => Some(farkas),
             LinearOutcome::Feasible(_) | LinearOutcome::Undecided => None,
@@ -219,8 +220,7 @@ impl Relaxation {
             return None;
         }
         let largest = sizes.iter().fold(0.0, |most: f64, &size| most.max(size));
-        let mut combined = Vec::new();
-        self.program.row_combination(&vector, &mut combined);
+        let combined = self.program.row_combination(&vector);
         let contacts = self.first.len();
         let mut left = ContactSet::none_of(2 * (contacts + jumps));
         for (contact, &first) in self.first.iter().enumerate() {
@@ -270,10 +270,10 @@ impl Relaxation {
     /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of basic
     /// variables, for which the vector gives exactly zero, are moved to the safe side, if the basis is given.
     fn verified(&self, mut farkas: Vec<f64>, bounds: &Bounds, basis: Option<&Basis>) -> Option<Vec<f64>> {
-        let mut combined = Vec::new();
         for _ in 0..=SHIFTS {
             farkas = of_size_one(farkas)?;
-            self.program.row_combination(&farkas, &mut combined);
+            let (combined, terms) =
+                (self.program.row_combination(&farkas), self.program.sizes_of_terms(&farkas));
             let sizes: Vec<f64> = farkas.iter().map(|entry| entry.abs()).collect();
             let rounding = self.rounding();
             let mut shifted = false;
@@ -283,8 +283,7 @@ impl Relaxation {
                 if bounds.lower[variable] == 0.0 && bounds.upper[variable] == 0.0 {
                     continue;
                 }
-                let error = rounding * size_of_terms(self.program.column(variable), &sizes)
-                    + 1.01 * size_of_terms(&self.spread[variable], &sizes);
+                let error = rounding * terms[variable] + 1.01 * size_of_terms(&self.spread[variable], &sizes);
                 let (low, high) = (entry - error, entry + error);
                 if high.is_nan() {
                     return None;
@@ -408,7 +407,7 @@ mod tests {
             let admitted = admitted(&nearby);
             for _ in 0..12 {
                 let states = some_states(&mut numbers, &all_states(&scaled));
-                let (relaxed, _) = relaxation.solve(&states, &relaxation.first_basis(), &mut 0, &mut || true);
+                let (relaxed, _) = relaxation.solve(&states, relaxation.first_basis(), &mut 0, &mut || true);
                 if matches!(relaxed, Relaxed::Excluded(_)) {
                     excluded += 1;
                     assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");

@@ -8,6 +8,8 @@ use crate::solutions::ContactSet;
 /// Rounding to multiples of the unit changes products by at most half the sum of sizes of a column's entries;
 /// slightly more, for the rounding of the estimate.
 const HALF_AND_MORE: f64 = 0.51;
+/// Where two columns are alike, one in the basis and one not, this much and less is rounding.
+const NO_SLOPE: f64 = 1e-9;
 /// Ratios of entries may be off by this.
 const RATIO_ERROR: f64 = 1e-9;
 /// The largest of the smallest entries of integers with given ratios.
@@ -31,8 +33,7 @@ impl Relaxation {
         basis: &Basis,
     ) -> Option<(Vec<f64>, ContactSet)> {
         let (shift, shifts) = basis.sum_of_inverse_rows(&self.program);
-        let mut products = Vec::new();
-        self.program.row_combination(farkas, &mut products);
+        let products = self.program.row_combination(farkas);
         let sides: Vec<usize> = self.variables_of_sides(allowed).collect();
         let (right, shares) = (self.program.right_hand_side(), self.shares(states));
         let load_size = right.iter().fold(f64::MIN_POSITIVE, |most: f64, entry| most.max(entry.abs()));
@@ -47,7 +48,7 @@ impl Relaxation {
         }
         let mut step = excess / loss.max(f64::MIN_POSITIVE);
         for &variable in &sides {
-            if let Some(slope) = shifts[variable].map(|shift| 1.0 - shift).filter(|&slope| slope > 0.0) {
+            if let Some(slope) = shifts[variable].map(|shift| 1.0 - shift).filter(|&slope| slope > NO_SLOPE) {
                 step = step.min(-products[variable] / slope);
             }
         }

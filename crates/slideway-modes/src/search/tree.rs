@@ -204,7 +204,8 @@ impl<'a> Tree<'a> {
             return Ok(());
         }
         let (pivots, proceed) = (&mut self.report.pivots, &mut || monitor.goes_on());
-        let (relaxed, basis) = self.relaxation.solve(&node.states, &node.basis, pivots, proceed);
+        let parent = Arc::unwrap_or_clone(node.basis);
+        let (relaxed, basis) = self.relaxation.solve(&node.states, parent, pivots, proceed);
         let relaxed = match relaxed {
             Relaxed::Excluded(farkas) if self.log_excluded(&node.states, &farkas, &basis, monitor) => {
                 self.report.shares.relaxation += fraction_of_patterns(self.problem, &node.states);
@@ -234,7 +235,7 @@ impl<'a> Tree<'a> {
         let contradicting: Option<Vec<usize>> =
             inside.map(|inside| contradictions(&node.states, &inside).collect());
         let (contact, preferred) = branching(&node.states, relaxed.as_deref(), contradicting.as_deref());
-        let basis = if relaxed.is_some() { Arc::new(basis) } else { node.basis };
+        let basis = Arc::new(basis);
         let mut children: Vec<ContactState> = node.states[contact].iter().collect();
         // The last one is visited first.
         children.sort_by_key(|&state| (state == preferred, std::cmp::Reverse(state)));
