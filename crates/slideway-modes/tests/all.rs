@@ -12,6 +12,7 @@ mod instances;
 mod interval_functions;
 mod klepp_example;
 mod large_cells;
+mod mixed_continua;
 mod mixed_problems;
 mod modes;
 mod modes_batch;

@@ -6,7 +6,7 @@ use super::range::in_range;
 use super::report::{RawContinuum, RawGroup, RawLine, RawReport, RawShares, RawSolution, SCHEMA};
 use super::residual::Equations;
 use super::values::Values;
-use super::{RawProblem, block_answer, continuum, nearby};
+use super::{RawProblem, block_answer, continuum, free, nearby};
 use crate::certificate::{Decision, decide};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem, ModeProblemError};
@@ -44,7 +44,7 @@ pub fn solve(
     }
     let problem = raw.mode_problem()?;
     let correspondence = Correspondence::of(raw);
-    let result = search(&problem, options, progress);
+    let result = free::with_whole_continua(search(&problem, options, progress), &correspondence);
     let counts = Counts::of(&result.product);
     let mut report = without_lists(raw, &correspondence, (&result, &counts), options);
     Teller::new(raw, &correspondence, &problem).list(&result.product, &counts, most, &mut report);

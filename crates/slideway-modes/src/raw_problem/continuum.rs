@@ -17,7 +17,7 @@ pub(super) fn told(
     most: usize,
 ) -> RawContinuum {
     RawContinuum {
-        pattern: correspondence.pattern(&state.pattern(size)),
+        pattern: correspondence.pattern_of_set(&state.pattern(size), &state.positive_unknowns(size)),
         parts: match correspondence.players() {
             Some(players) => players.map(|player| strategies(state, correspondence, &player, most)).into(),
             None => parts(state, correspondence, most),

@@ -256,6 +256,22 @@ impl Correspondence {
         self.places(pattern.iter().map(sign)).into_iter().map(character).collect()
     }
 
+    /// The same for a set: "*" for a free unknown of both signs, given which unknowns of the mode problem are positive
+    /// in it.
+    pub(super) fn pattern_of_set(&self, pattern: &[ContactState], positive: &[[bool; 4]]) -> String {
+        let both = |index: usize| {
+            positive[index][..2] == [true; 2] && self.kind == RawKind::Mlcp && self.is_free(index)
+        };
+        // Free unknowns have the same index in the mode problem.
+        let signs = self.pattern(pattern);
+        signs.chars().enumerate().map(|(index, sign)| if both(index) { '*' } else { sign }).collect()
+    }
+
+    /// Whether an unknown of the mode problem may have either sign without a change of anything else.
+    pub(super) fn is_free(&self, contact: usize) -> bool {
+        matches!(self.roles[contact], Role::Free(_) | Role::Fixed(..))
+    }
+
     fn places(&self, signs: impl Iterator<Item = i8>) -> Vec<i8> {
         let mut places = vec![0; self.size];
         let between_bounds = self.kind == RawKind::Mcp;

@@ -46,6 +46,7 @@ mod correspondence;
 mod exact_file;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod fault;
+mod free;
 mod game;
 #[cfg(feature = "json")]
 mod json;

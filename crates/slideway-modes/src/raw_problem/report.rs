@@ -350,14 +350,16 @@ pub struct GapShare {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawContinuum {
-    /// "+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap.
+    /// "+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap, and "*" a
+    /// free unknown that has both signs.
     pub pattern: String,
     /// Its parts: unknowns that vary together and, last, those that are fixed, if any.
     pub parts: Vec<ContinuumPart>,
 }
 
 /// Unknowns that vary together: all convex combinations of the vertices plus all nonnegative multiples of the
-/// directions.
+/// directions. A set that contains lines, which takes free unknowns, has no vertices: these are points of its smallest
+/// faces then, and the directions contain both ones of lines that span all of its lines.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContinuumPart {

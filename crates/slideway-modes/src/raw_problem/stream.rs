@@ -7,7 +7,7 @@ use super::answer::{Teller, without_lists};
 use super::correspondence::Correspondence;
 use super::listing::Counts;
 use super::report::{RawConclusion, RawLine, RawReport};
-use super::{RawProblem, block_answer, nearby};
+use super::{RawProblem, block_answer, free, nearby};
 use crate::problem::ModeProblemError;
 use crate::progress::{Callback, Progress};
 use crate::search::{CombinedState, SearchOptions, SolutionProduct, search_telling};
@@ -62,6 +62,7 @@ pub fn solve_streaming(
     let mut stream =
         Stream { teller, size: problem.contacts(), most, write, lines: 0, places: HashMap::new() };
     let result = search_telling(&problem, options, progress, &mut |state| stream.tell_new(state));
+    let result = free::with_whole_continua(result, &correspondence);
     let all_written = stream.tell_rest(&result.product, progress);
     let (lines, part_of_others) = (stream.lines, stream.part_of_others(&result.product));
     let counts = Counts::of(&result.product);
