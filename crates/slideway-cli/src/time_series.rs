@@ -6,7 +6,6 @@ use slideway_tables::Metadata;
 use slideway_tables::npz::{archive, number_array, text_array};
 #[cfg(feature = "parquet")]
 use slideway_tables::parquet::{Column, ColumnKind, GROUP, ParquetTable, Values};
-use std::fmt::Write;
 #[cfg(feature = "parquet")]
 use std::io;
 use std::path::Path;
@@ -49,27 +48,6 @@ impl SeriesFormat {
             _ => Err(Failure::SeriesFormat { path: path.to_owned(), known: &Self::ENDINGS }),
         }
     }
-}
-
-/// A line of names with units, then a line for each time; what is not defined is left empty. The mode is the
-/// last column.
-pub(crate) fn to_csv(series: &Series) -> String {
-    let mut text = String::new();
-    for column in &series.columns {
-        let _ = write!(text, "{} ({}),", column.name, column.unit);
-    }
-    text.push_str("mode\n");
-    for (row, mode) in series.modes.iter().enumerate() {
-        for column in &series.columns {
-            if let Some(value) = column.values[row] {
-                let _ = write!(text, "{value:?}");
-            }
-            text.push(',');
-        }
-        text.push_str(mode);
-        text.push('\n');
-    }
-    text
 }
 
 /// One nullable column for each quantity, and `mode`, in groups of rows.

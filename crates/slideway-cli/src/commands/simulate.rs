@@ -11,7 +11,7 @@ use crate::picture::{Picture, beside};
 use crate::pixels;
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
-use crate::time_series::{SeriesFormat, to_csv, to_npz};
+use crate::time_series::{SeriesFormat, to_npz};
 use crate::watch::{self, Watch};
 use slideway::Report;
 use slideway::configuration::Configuration;
@@ -248,7 +248,7 @@ impl<'a> Files<'a> {
             let series = finite(history.series(&times)).map_err(|faults| input.refused(faults))?;
             let metadata = &metadata(input);
             match format {
-                SeriesFormat::Csv => output.write(&to_csv(&series))?,
+                SeriesFormat::Csv => output.write(&series.csv())?,
                 SeriesFormat::Npz => output.write_bytes(&to_npz(&series, metadata))?,
                 #[cfg(feature = "parquet")]
                 SeriesFormat::Parquet => {

@@ -96,10 +96,8 @@ impl Room {
                     if best.is_some_and(|(least, _)| far >= least) || !self.is_free(&bounds) {
                         continue;
                     }
-                    let cost = far + self.cost(label, &bounds);
-                    if best.is_none_or(|(least, _)| cost < least) {
-                        best = Some((cost, bounds));
-                    }
+                    let least = best.map_or(f64::INFINITY, |(least, _)| least);
+                    best = self.cost_below(least, far, label, &bounds).map(|cost| (cost, bounds)).or(best);
                 }
             }
             if best.is_some_and(|(least, _)| least < 0.35 * distance) {
@@ -114,16 +112,22 @@ impl Room {
             && self.within.is_none_or(|within| holds(&within, bounds))
     }
 
-    /// What a place costs, whatever its distance.
-    fn cost(&self, label: &Label, bounds: &Bounds) -> f64 {
+    /// What a place costs of which the distance costs `far`, if that is less than `least`. Nothing is looked at further
+    /// once it costs too much.
+    fn cost_below(&self, least: f64, far: f64, label: &Label, bounds: &Bounds) -> Option<f64> {
         let outside = self.drawn.map_or(0.0, |drawn| (drawn.with(*bounds).size() - drawn.size()).sum());
+        let covered = OUTSIDE * outside + crossed(bounds, &self.obstacles);
+        if far + covered >= least {
+            return None;
+        }
         let led = match self.leader(label, bounds) {
             Some(leader) => {
                 TOLD + CROSSED * texts_on(&leader, &self.taken) + MET * self.met(&leader, IMPORTANT)
             }
             None => BETWEEN * self.met(&link(label, bounds), EDGE),
         };
-        OUTSIDE * outside + crossed(bounds, &self.obstacles) + led
+        let cost = far + (covered + led);
+        (cost < least).then_some(cost)
     }
 
     /// The line that tells what a label names: where that is far, or something else that has a label is nearer.

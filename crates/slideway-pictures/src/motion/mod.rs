@@ -2,11 +2,12 @@
 //!
 //! # Files
 //! In `slideway-pictures` `motion/` makes figures (`figure.rs`) and moving pictures (`animation.rs` collects
-//! the shapes of all frames, `page.rs` writes HTML and SVG, `gif.rs` a GIF with the colours of `palette.rs`)
-//! of a history.
+//! the shapes of all frames, `page.rs` writes HTML and SVG, `film.rs` has the frames as data, `gif.rs` a GIF with
+//! the colours of `palette.rs`) of a history.
 
 mod animation;
 mod figure;
+mod film;
 #[cfg(feature = "png")]
 mod gif;
 mod page;
@@ -15,5 +16,6 @@ mod palette;
 
 pub use animation::{Animation, AnimationOptions, animation};
 pub use figure::{motion_figure, portrait_figure};
+pub use film::{Film, FilmFrame};
 #[cfg(feature = "png")]
 pub use gif::GifFault;

@@ -297,7 +297,7 @@ fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
 }
 
 /// An arrow of a round force in the lower left corner of the drawing; nothing without forces.
-fn force_scale(animation: &Animation) -> String {
+pub(super) fn force_scale(animation: &Animation) -> String {
     let Some(scale) = animation.force_scale else { return String::new() };
     let force = nice(LONGEST_SAMPLE / scale, &animation.force_unit);
     let from = Point::new(animation.bounds.least.x + INDENT, animation.bounds.greatest.y - INDENT);
@@ -411,7 +411,7 @@ fn common(animation: &Animation) -> Vec<usize> {
     first.shapes[..shared].to_vec()
 }
 
-fn speed(animation: &Animation) -> String {
+pub(super) fn speed(animation: &Animation) -> String {
     let factor = animation.slow_motion;
     if factor == 1.0 {
         "In real time".to_owned()
@@ -422,7 +422,7 @@ fn speed(animation: &Animation) -> String {
     }
 }
 
-fn view_box(animation: &Animation, below: f64) -> String {
+pub(super) fn view_box(animation: &Animation, below: f64) -> String {
     let (corner, size) = (animation.bounds.least, animation.bounds.size());
     [corner.x, corner.y, size.x, size.y + below].map(coordinate).join(" ")
 }

@@ -109,6 +109,17 @@ fn head(title: &str) -> String {
     HEAD.split("{{ ").map(filled).collect()
 }
 
+/// A style sheet for the drawings and parts of answers in pages of others: the colours as CSS variables, dark where
+/// the reader's machine asks for it or the root has `data-theme="dark"`, and the rules of all classes.
+pub fn stylesheet() -> String {
+    let (light, dark) = (variables(&LIGHT), variables(&DARK));
+    format!(
+        ":root {{ {light} }}\n:root[data-theme=\"dark\"] {{ {dark} }}\n\
+         @media (prefers-color-scheme: dark) {{ :root:not([data-theme=\"light\"]) {{ {dark} }} }}\n{}",
+        rules(&Colour::variables())
+    )
+}
+
 /// The parts one after the other.
 fn all<T>(items: impl IntoIterator<Item = T>, part: impl Fn(T) -> String) -> String {
     items.into_iter().map(part).collect()

@@ -7,6 +7,7 @@ use crate::motion::decision::determined_normal_forces;
 use crate::motion::record::history::{History, Sample};
 use crate::pattern::phase::JointPhase;
 use serde::Serialize;
+use std::fmt::Write;
 
 /// Names that tables use themselves: a coordinate with such a name gets the prefix `coordinate.` there.
 const RESERVED: [&str; 5] = ["mode", "units", "model", "command", "program"];
@@ -39,6 +40,27 @@ impl Series {
     /// The column of this name.
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// As comma-separated values: a line of names with units, then a line for each time; what is not defined is left
+    /// empty. The mode is the last column.
+    pub fn csv(&self) -> String {
+        let mut text = String::new();
+        for column in &self.columns {
+            let _ = write!(text, "{} ({}),", column.name, column.unit);
+        }
+        text.push_str("mode\n");
+        for (row, mode) in self.modes.iter().enumerate() {
+            for column in &self.columns {
+                if let Some(value) = column.values[row] {
+                    let _ = write!(text, "{value:?}");
+                }
+                text.push(',');
+            }
+            text.push_str(mode);
+            text.push('\n');
+        }
+        text
     }
 }
 

@@ -1,0 +1,72 @@
+//! A moving picture as data, for pages that have a player of their own.
+
+use super::animation::Animation;
+use super::page::{force_scale, speed, view_box};
+use crate::coordinate::{NotFinite, finished, finished_parts};
+use serde::Serialize;
+
+/// The frames of a moving picture. Its shapes are SVG with the classes of [`crate::drawing::svg::rules`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Film<'a> {
+    /// Its title.
+    pub title: &'a str,
+    /// The part of the plane that is shown: left, top, width and height.
+    pub view_box: String,
+    /// The shapes that occur, each once.
+    pub shapes: &'a [String],
+    /// What is shown of each.
+    pub frames: Vec<FilmFrame<'a>>,
+    /// What the modes that occur are, in words, each once.
+    pub words: &'a [String],
+    /// What happens: its time (s), in words.
+    pub events: &'a [(f64, String)],
+    /// Seconds on the clock between two frames.
+    pub frame_time: f64,
+    /// How fast it is shown, in words.
+    pub speed: String,
+    /// An arrow of a round force with its value, as SVG.
+    pub force_scale: String,
+    /// Whether the play of guides is drawn greater than it is.
+    pub is_exaggerated: bool,
+}
+
+/// One frame.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FilmFrame<'a> {
+    /// s
+    pub time: f64,
+    /// The contact mode.
+    pub mode: &'a str,
+    /// Index of its words.
+    pub words: usize,
+    /// Indices of its shapes, in the order in which they are drawn.
+    pub shapes: &'a [usize],
+}
+
+impl Animation {
+    /// Its frames as data.
+    ///
+    /// # Errors
+    /// If a place or a size is infinite or undefined.
+    pub fn film(&self) -> Result<Film<'_>, NotFinite> {
+        finished_parts(&self.shapes)?;
+        let frames = self.frames.iter().map(|frame| FilmFrame {
+            time: frame.time,
+            mode: &frame.mode,
+            words: frame.words,
+            shapes: &frame.shapes,
+        });
+        Ok(Film {
+            title: &self.title,
+            view_box: finished(view_box(self, 0.0))?,
+            shapes: &self.shapes,
+            frames: frames.collect(),
+            words: &self.words,
+            events: &self.events,
+            frame_time: self.frame_time,
+            speed: speed(self),
+            force_scale: finished(force_scale(self))?,
+            is_exaggerated: self.is_exaggerated,
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! What the page shows of a state: what can be changed in it, its drawings, and its solutions in words.
+
+use crate::quantity::{Quantity, quantities};
+use crate::question::Asked;
+use crate::told_fault::{ToldFault, told};
+use serde::Serialize;
+use slideway::check::check;
+use slideway::configuration::Configuration;
+use slideway::fault::Faults;
+use slideway::mechanism::Mechanism;
+use slideway::model::Model;
+use slideway::progress::Callback;
+use slideway::report::{Proof, SolveReport, Status};
+use slideway::solve::{SolveOptions, solve_with};
+use slideway::warning::{ranges_at_middle, warnings};
+use slideway_pictures::drawing::svg::{Colours, Frame, write};
+use slideway_pictures::drawing::{Sheet, pieces, title};
+use slideway_pictures::page::{reasons, solve_parts};
+
+/// What the page shows of a state.
+#[derive(Debug, Serialize)]
+pub(crate) struct Look {
+    title: String,
+    warnings: Vec<ToldFault>,
+    quantities: Vec<Quantity>,
+    /// Names of loads that can be multiplied, and of drives.
+    loads: Vec<String>,
+    drives: Vec<String>,
+    /// The mechanism, each of its solutions, and the key to the colours.
+    drawings: Vec<Drawing>,
+    /// How many solutions there are; absent where the question has no answer.
+    answer: Option<Verdict>,
+    /// Why there is no answer.
+    reasons: Vec<String>,
+}
+
+/// A picture with its words.
+#[derive(Debug, Serialize)]
+struct Drawing {
+    title: String,
+    words: String,
+    svg: String,
+}
+
+/// How many solutions there are.
+#[derive(Debug, Serialize)]
+struct Verdict {
+    status: Status,
+    complete: Proof,
+    /// Whether the search ended early.
+    partial: bool,
+    count: String,
+    words: String,
+    /// The pattern of each solution.
+    patterns: Vec<String>,
+    /// Sections of HTML, in which all text of the model is escaped: the state with its answer, then each solution.
+    sections: Vec<String>,
+}
+
+impl Verdict {
+    fn of(report: &SolveReport) -> Self {
+        Self {
+            status: report.status,
+            complete: report.complete,
+            partial: report.partial,
+            count: report.count.clone(),
+            words: report.verdict_in_words(),
+            patterns: report.solutions.iter().map(|solution| solution.pattern.clone()).collect(),
+            sections: solve_parts(report),
+        }
+    }
+}
+
+/// The state of a model.
+///
+/// # Errors
+/// Faults of the model. That the question has no answer, or that the state cannot be assembled, is none: then there
+/// are reasons, and a drawing without forces or none at all.
+pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) -> Result<Look, Faults> {
+    let model = asked.model()?;
+    let checked = check(&model)?;
+    let mechanism = Mechanism::new(&model)?;
+    let configuration = Configuration::new(&mechanism);
+    let options = SolveOptions::default().margins(margins);
+    let solved = configuration.as_ref().map_err(Clone::clone);
+    let solved = solved.and_then(|_| solve_with(&model, &options, callback));
+    let configuration = configuration.unwrap_or_else(|_| Configuration::drawing(&mechanism));
+    let sheets = pieces(&mechanism, &configuration, solved.as_ref().ok());
+    Ok(Look {
+        title: title(&mechanism),
+        warnings: told(&all_warnings(&model), asked),
+        quantities: quantities(&model, &asked.text, &mechanism, &checked.coordinates)?,
+        loads: checked.loads,
+        drives: checked.drives.into_iter().map(|drive| drive.name).collect(),
+        drawings: sheets.iter().filter_map(Drawing::of).collect(),
+        answer: solved.as_ref().ok().map(Verdict::of),
+        reasons: solved.as_ref().err().map(reasons).unwrap_or_default(),
+    })
+}
+
+fn all_warnings(model: &Model) -> Faults {
+    let mut all = warnings(model);
+    all.append(ranges_at_middle(model));
+    all
+}
+
+impl Drawing {
+    /// Nothing where a coordinate is too great to be drawn.
+    fn of(sheet: &Sheet) -> Option<Self> {
+        let frame = Frame {
+            bounds: sheet.bounds,
+            title: &sheet.title,
+            description: &sheet.description,
+            width: None,
+            colours: Colours::Page,
+        };
+        let svg = write(&sheet.scene, &frame).ok()?;
+        Some(Self { title: sheet.title.clone(), words: sheet.description.clone(), svg })
+    }
+}

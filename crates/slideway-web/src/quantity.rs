@@ -1,0 +1,154 @@
+//! What can be changed in a model, and between which ends a slider moves it.
+//!
+//! The ends are a matter of the page, not of mechanics: whoever wants others types them, or the value itself.
+
+use serde::Serialize;
+use slideway::check::CoordinateSummary;
+use slideway::expression::Symbol;
+use slideway::fault::{Faults, Source};
+use slideway::mechanism::{JointKind, Mechanism};
+use slideway::model::{Coordinate, CoordinateKind, Model};
+use slideway::units::Unit;
+use std::f64::consts::FRAC_PI_2;
+
+/// A positive parameter goes from this part of its value to this multiple.
+const AROUND: [f64; 2] = [0.2, 2.0];
+/// A coefficient of friction goes from zero at least to this.
+const FRICTION: f64 = 1.0;
+/// A displacement without limits of travel goes as far as this part of the mechanism to both sides.
+const SLIDE: f64 = 0.5;
+
+/// Something that can be changed.
+#[derive(Debug, Serialize)]
+pub(crate) struct Quantity {
+    /// "parameter", "position" or "rate", as in settings.
+    kind: &'static str,
+    name: String,
+    /// What the file says of it in the comment behind it, or what it means that it grows.
+    meaning: Option<String>,
+    /// The unit in which everything here is, and in which a value is typed; may be empty.
+    unit: String,
+    /// That unit in SI units.
+    scale: f64,
+    value: f64,
+    /// The ends of its slider.
+    from: f64,
+    to: f64,
+    /// Whether it is computed from other parameters.
+    is_computed: bool,
+    /// Whether it is a coefficient of friction, or one is computed from it.
+    is_friction: bool,
+}
+
+/// The parameters, the coordinates, and the rates of those that can move, in the order of the file.
+///
+/// # Errors
+/// Parameters without a value that is allowed.
+pub(crate) fn quantities(
+    model: &Model,
+    text: &str,
+    mechanism: &Mechanism,
+    state: &[CoordinateSummary],
+) -> Result<Vec<Quantity>, Faults> {
+    let values = model.parameter_values(&model.constants()?);
+    let mut all: Vec<Quantity> = model
+        .parameters
+        .iter()
+        .zip(values)
+        .map(|(parameter, value)| of_parameter(model, text, parameter, value))
+        .collect();
+    let size = mechanism.size;
+    for (index, coordinate) in model.coordinates.iter().enumerate() {
+        let Some(state) = state.get(index) else { continue };
+        all.push(of_position(model, mechanism, coordinate, state, size));
+        all.push(of_rate(model, state, size));
+    }
+    Ok(all)
+}
+
+impl Quantity {
+    fn new(kind: &'static str, name: &str, unit: &Unit, value: f64, [from, to]: [f64; 2]) -> Self {
+        Self {
+            kind,
+            name: name.to_owned(),
+            meaning: None,
+            unit: unit.name().to_owned(),
+            scale: unit.scale(),
+            value: unit.number_of(value),
+            from: unit.number_of(from),
+            to: unit.number_of(to),
+            is_computed: false,
+            is_friction: false,
+        }
+    }
+}
+
+fn of_parameter(model: &Model, text: &str, parameter: &slideway::model::Parameter, value: f64) -> Quantity {
+    let si = model.parameter_unit(&parameter.name);
+    let unit = model.units.parameter(&parameter.name, &si);
+    let is_friction = model.is_friction_coefficient(&parameter.name);
+    let formula = &model.formulas[parameter.value.index()];
+    let is_computed = formula.expression.symbols().any(|(symbol, _)| matches!(symbol, Symbol::Parameter(_)));
+    let ends = if is_friction && si.is_empty() && value >= 0.0 {
+        [0.0, FRICTION.max(AROUND[1] * value)]
+    } else if si == "rad" {
+        [value - FRAC_PI_2, value + FRAC_PI_2]
+    } else if value == 0.0 {
+        [-unit.scale(), unit.scale()]
+    } else if value > 0.0 {
+        AROUND.map(|part| part * value)
+    } else {
+        [AROUND[1] * value, -AROUND[1] * value]
+    };
+    let meaning = match formula.origin.source {
+        Source::Model => comment(text, formula.origin.span.end),
+        _ => None,
+    };
+    Quantity {
+        is_computed,
+        is_friction,
+        meaning,
+        ..Quantity::new("parameter", &parameter.name, &unit, value, ends)
+    }
+}
+
+/// The comment behind this byte, at the end of its line.
+fn comment(text: &str, end: usize) -> Option<String> {
+    let rest = text.get(end..)?.lines().next()?;
+    let comment = rest.trim_start().strip_prefix('#')?.trim();
+    (!comment.is_empty()).then(|| comment.to_owned())
+}
+
+fn of_position(
+    model: &Model,
+    mechanism: &Mechanism,
+    coordinate: &Coordinate,
+    state: &CoordinateSummary,
+    size: f64,
+) -> Quantity {
+    let around = |reach: f64| [state.value - reach, state.value + reach];
+    let ends = match coordinate.kind {
+        CoordinateKind::Rotation { .. } => around(FRAC_PI_2),
+        CoordinateKind::Slide(joint) => travel(mechanism, joint).unwrap_or(around(SLIDE * size)),
+        _ => around(SLIDE * size),
+    };
+    let meaning = Some(state.positive.clone());
+    Quantity {
+        meaning,
+        ..Quantity::new("position", &state.name, &model.units.of(state.unit), state.value, ends)
+    }
+}
+
+/// The limits of travel of a sliding joint.
+fn travel(mechanism: &Mechanism, joint: slideway::ids::JointId) -> Option<[f64; 2]> {
+    match &mechanism.joints.get(joint.index())?.kind {
+        JointKind::Slider(slider) => slider.travel,
+        JointKind::Hinge(_) => None,
+    }
+}
+
+fn of_rate(model: &Model, state: &CoordinateSummary, size: f64) -> Quantity {
+    let usual = if state.unit == "rad" { 1.0 } else { size };
+    let reach = if state.rate == 0.0 { usual } else { AROUND[1] * state.rate.abs() };
+    Quantity::new("rate", &state.name, &model.units.of_rate(state.unit), state.rate, [-reach, reach])
+}

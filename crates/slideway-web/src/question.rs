@@ -1,0 +1,132 @@
+//! What can be asked.
+
+use serde::Deserialize;
+use slideway::fault::Faults;
+use slideway::limits::Vary;
+use slideway::model::{Model, Settings};
+use slideway_pictures::theme::{DARK, LIGHT, Theme};
+
+/// A question of the page.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "ask", rename_all = "snake_case")]
+pub(crate) enum Question {
+    /// The models to begin with.
+    Library,
+    /// The style sheet of the pictures, whose colours are variables of the page.
+    Style,
+    /// All that the page shows of a state.
+    Look {
+        #[serde(flatten)]
+        of: Asked,
+        /// Whether margins of friction are computed, too, which may take longer than everything else.
+        margins: bool,
+    },
+    /// `slideway check`
+    Check(Asked),
+    /// `slideway solve`
+    Solve(Asked),
+    /// `slideway hold`
+    Hold {
+        #[serde(flatten)]
+        of: Asked,
+        /// The load whose factor is asked for.
+        load: Option<String>,
+    },
+    /// `slideway drive`
+    Drive(Asked),
+    /// `slideway limits`
+    Limits {
+        #[serde(flatten)]
+        of: Asked,
+        /// `NAME` or `NAME=FROM..TO`.
+        vary: String,
+        /// Whether the curves of the normal forces are drawn, too.
+        #[serde(default)]
+        plot: bool,
+        #[serde(default)]
+        theme: ThemeName,
+    },
+    /// `slideway map`
+    Map {
+        #[serde(flatten)]
+        of: Asked,
+        /// `NAME=FROM..TO`
+        x: String,
+        y: String,
+        /// A word of `--colour-by`.
+        colour_by: String,
+        /// Pixels from left to right and from bottom to top.
+        size: [usize; 2],
+        #[serde(default)]
+        theme: ThemeName,
+    },
+    /// `slideway simulate`
+    Simulate {
+        #[serde(flatten)]
+        of: Asked,
+        until: String,
+        /// Whether the frames of a moving picture are made, too.
+        #[serde(default)]
+        frames: bool,
+        /// Whether the table of the motion is made, too, as CSV.
+        #[serde(default)]
+        table: bool,
+    },
+    /// `slideway draw`
+    Draw {
+        #[serde(flatten)]
+        of: Asked,
+        #[serde(default)]
+        theme: ThemeName,
+    },
+}
+
+/// A model and what is changed in it.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Asked {
+    /// The text of the model file.
+    pub(crate) text: String,
+    /// What is changed, as by `--set`, `--at`, `--rate`, `--time`.
+    #[serde(default)]
+    pub(crate) settings: Settings,
+}
+
+impl Asked {
+    /// The model with its settings.
+    ///
+    /// # Errors
+    /// All faults of both, with the warnings of settings that may be the reason for them.
+    pub(crate) fn model(&self) -> Result<Model, Faults> {
+        let model = Model::parse(&self.text)?;
+        model.with(&self.settings).map_err(|mut faults| {
+            faults.append(model.warnings_of(&self.settings));
+            faults
+        })
+    }
+}
+
+/// What is varied.
+///
+/// # Errors
+/// A text that is none.
+pub(crate) fn vary(text: &str) -> Result<Vary, Faults> {
+    text.parse()
+}
+
+/// Colours of a picture.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ThemeName {
+    #[default]
+    Light,
+    Dark,
+}
+
+impl ThemeName {
+    pub(crate) fn colours(self) -> &'static Theme {
+        match self {
+            Self::Light => &LIGHT,
+            Self::Dark => &DARK,
+        }
+    }
+}

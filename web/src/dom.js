@@ -1,0 +1,58 @@
+// Elements of the page.
+
+/** The element of this id. */
+export const byId = (id) => document.getElementById(id);
+
+/**
+ * A new element with attributes and children; texts stay texts. Attributes whose names begin with "on" are listeners.
+ */
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+    else if (value === true) made.setAttribute(key, "");
+    else if (value !== false && value !== undefined && value !== null) made.setAttribute(key, value);
+  }
+  made.append(...children);
+  return made;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A new element of a picture. */
+export function shape(name, attributes = {}, ...children) {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+}
+
+/** A picture of the engine as an element. It is read as XML, so that nothing in it runs. */
+export function picture(svg) {
+  const read = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
+  return document.importNode(read, true);
+}
+
+/** Shapes of the engine, to stand within a picture. */
+export const shapes = (markup) => [...picture(`<svg xmlns="${SVG}">${markup}</svg>`).childNodes];
+
+/** Sections of the engine, in which all text of the model is escaped, as elements. */
+export function sections(html) {
+  const read = new DOMParser().parseFromString(html, "text/html").body;
+  return [...read.childNodes].map((node) => document.importNode(node, true));
+}
+
+/** The function, called when it was not asked for during this time (ms). */
+export function settled(act, wait) {
+  let timer;
+  return (...given) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => act(...given), wait);
+  };
+}
+
+/** Which colours the page shows. */
+export function themeName() {
+  const chosen = document.documentElement.dataset.theme;
+  return chosen || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+}

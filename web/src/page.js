@@ -1,0 +1,414 @@
+// The page: a model, what is changed in it, and what the engine says of it.
+
+import { byId, element, sections, settled, themeName } from "./dom.js";
+import { pixels, save } from "./downloads.js";
+import { Drawings, showVerdict } from "./drawings.js";
+import { Editor } from "./editor.js";
+import { MapPanel } from "./map.js";
+import { MotionPanel } from "./motion.js";
+import { scale, withUnit } from "./numbers.js";
+import { Sliders, key } from "./sliders.js";
+import { State } from "./state.js";
+import { Strip } from "./strip.js";
+import { Ended, Engine, Newest, load } from "./workers.js";
+
+/** A file larger than this is not read: no model is. */
+const LARGEST_FILE = 4 << 20;
+/** Without a change for this long (ms) what takes longer is computed, too. */
+const REST = 250;
+
+const module = await load("engine.wasm");
+/** One engine follows what is dragged, the other answers what takes longer. */
+const live = new Engine(module, "worker.js");
+const slow = new Engine(module, "worker.js");
+const newest = new Newest(live);
+const library = (await live.ask({ ask: "library" })).answer;
+
+let state = await State.of(location.hash.slice(1), library);
+/** What the engine said last, of which text and settings. */
+let look = null;
+
+const parts = { box: byId("verdict-box"), verdict: byId("verdict"), certainty: byId("certainty"), reasons: byId("reasons") };
+const drawings = new Drawings(byId("drawings"));
+const sliders = new Sliders(byId("sliders"), changed);
+const editor = new Editor(byId("editor"), settled(edited, 120));
+const strip = new Strip(byId("strip"), (value) => changed(varied(), withUnit(value, varied().unit)));
+const map = new MapPanel(byId("panel-map"), {
+  ask: (question, axes) => slowly({ ...question, ...state.asked(...axes) }),
+  move: (moves) => changedAll(moves.map(([quantity, value]) => [quantity, withUnit(value, quantity.unit)])),
+  wanted: (wanted) => { state.map = wanted; remember(); },
+});
+const motion = new MotionPanel(byId("panel-motion"), (until) => {
+  state.until = until;
+  remember();
+  return slowly({ ask: "simulate", ...state.asked(), until, frames: true });
+});
+
+// ---- What is asked
+
+/** Shows the present state, and all that follows from it. */
+function refresh() {
+  const wanted = (margins) => newest.want(
+    () => ({ question: { ask: "look", ...state.asked(), margins }, options: { seconds: 10, progress: showProgress } }),
+    took,
+    failed,
+  );
+  wanted(false);
+  thoroughly(wanted);
+  byId("command").textContent = state.command();
+  byId("reset").hidden = state.changes.size === 0;
+  remember();
+}
+
+const thoroughly = settled((wanted) => {
+  wanted(true);
+  motion.clear();
+  if (state.tab === "rest") showRest();
+}, REST);
+
+/** The reply of a look. */
+function took(reply, question) {
+  byId("work").hidden = true;
+  document.documentElement.dataset.milliseconds = reply.milliseconds.toFixed(1);
+  if (reply.faults) {
+    showFaults(reply.faults, question);
+    document.documentElement.dataset.state = "faults";
+    return;
+  }
+  look = reply.answer;
+  showFaults(look.warnings, question);
+  showVerdict(parts, look);
+  document.title = `${look.title} – slideway`;
+  byId("about").textContent = look.title;
+  drawings.show(look.drawings);
+  sliders.show(look.quantities, state.changes);
+  map.show(look.quantities, state.map);
+  if (look.answer) byId("panel-numbers").replaceChildren(...look.answer.sections.flatMap(sections));
+  else byId("panel-numbers").replaceChildren();
+  showStrip();
+  document.documentElement.dataset.state = "shown";
+  document.documentElement.dataset.shown = String(Number(document.documentElement.dataset.shown ?? 0) + 1);
+}
+
+function failed(error) {
+  byId("work").hidden = true;
+  parts.box.dataset.status = "unknown";
+  parts.verdict.textContent = error instanceof Ended ? `? No answer: ${error.message}.` : `? ${error.message}`;
+  parts.certainty.textContent = "";
+  document.documentElement.dataset.state = "failed";
+}
+
+/** Faults are told below the editor and underlined in it; while there are any the drawing is of the state before. */
+function showFaults(faults, question) {
+  const errors = faults.filter(({ is_warning }) => !is_warning);
+  byId("drawings").classList.toggle("stale", errors.length > 0);
+  if (errors.length > 0) {
+    parts.box.dataset.status = "faults";
+    parts.verdict.textContent = errors.length === 1 ? "✎ One fault in the model or the values" : `✎ ${errors.length} faults in the model or the values`;
+    parts.certainty.textContent = "";
+    parts.reasons.replaceChildren(...errors.slice(0, 5).map(({ message }) => element("li", {}, message)));
+  }
+  sliders.showFaults(errors, question.settings, state.changes);
+  editor.showFaults(faults, question.text);
+  byId("faults").replaceChildren(
+    ...faults.slice(0, 50).map((fault) => {
+      const words = [fault.message, fault.hint].filter(Boolean).join(" – ");
+      const line = element("li", { class: fault.is_warning ? "warning" : "error" });
+      if (fault.place?.text !== "model") line.append(words);
+      else line.append(element("button", { type: "button", onclick: () => editor.goTo(fault.place) }, `${lineOf(question.text, fault.place.from)}: ${words}`));
+      return line;
+    }),
+  );
+}
+
+const lineOf = (text, place) => `line ${text.slice(0, place).split("\n").length}`;
+
+function showProgress({ done, fraction, counted }) {
+  byId("work").hidden = false;
+  const bar = byId("progress");
+  if (fraction === null) bar.removeAttribute("value");
+  else bar.value = fraction;
+  byId("progress-words").textContent = `${done} ${counted}`;
+}
+
+/** The reply of the engine for what takes longer, with its progress. */
+async function slowly(question) {
+  try {
+    return await slow.ask(question, { seconds: 60, progress: showProgress });
+  } finally {
+    byId("work").hidden = true;
+  }
+}
+
+byId("stop").addEventListener("click", () => {
+  live.cancel();
+  slow.cancel();
+});
+
+// ---- What is changed
+
+/** A value was typed or dragged. */
+function changed(quantity, text) {
+  changedAll([[quantity, text]]);
+}
+
+function changedAll(changes) {
+  for (const [quantity, text] of changes) {
+    if (text === null) state.changes.delete(key(quantity));
+    else state.changes.set(key(quantity), text);
+  }
+  refresh();
+}
+
+function edited(text) {
+  state.text = text;
+  state.from = "";
+  byId("pick").value = "";
+  refresh();
+}
+
+/** Begins with another state. */
+function begin(next) {
+  state = next;
+  look = null;
+  limitsOf = "";
+  strip.show(null);
+  editor.text = state.text;
+  byId("pick").value = state.from;
+  motion.until = state.until;
+  openTab(state.tab);
+  refresh();
+}
+
+async function beginWith(text) {
+  const next = new State();
+  next.text = text;
+  next.tab = state.tab;
+  begin(next);
+}
+
+byId("reset").addEventListener("click", () => {
+  state.changes.clear();
+  refresh();
+});
+
+for (const [kind, title] of [["gallery", "Gallery"], ["template", "Templates"]]) {
+  const options = library.filter((entry) => entry.kind === kind).map((entry) => element("option", { value: `${kind}:${entry.name}`, title: entry.shows }, entry.summary));
+  byId("pick").append(element("optgroup", { label: title }, ...options));
+}
+byId("pick").prepend(element("option", { value: "", disabled: true }, "a text of one's own"));
+byId("pick").addEventListener("change", async () => begin(await State.of(new URLSearchParams({ model: byId("pick").value }), library)));
+
+byId("open").addEventListener("click", () => byId("file").click());
+byId("file").addEventListener("change", () => openFile(byId("file").files[0]));
+addEventListener("dragover", (event) => event.preventDefault());
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  openFile(event.dataTransfer.files[0]);
+});
+
+async function openFile(file) {
+  if (!file) return;
+  if (file.size > LARGEST_FILE) failed(new Error(`${file.name} is larger than 4 MiB, too large for a model`));
+  else beginWith(await file.text());
+}
+
+// ---- The strip
+
+const choice = element("select", { id: "vary" });
+const ends = [0, 1].map((index) => element("input", { type: "text", class: "field", inputmode: "decimal", "aria-label": index ? "to" : "from" }));
+const endUnit = element("span", { class: "unit" });
+byId("strip").before(element("p", { class: "controls" }, element("label", {}, "over ", choice), element("label", {}, " from ", ends[0]), element("label", {}, " to ", ends[1]), " ", endUnit));
+let limitsOf = "";
+
+/** The quantity along the strip. */
+const varied = () => look?.quantities.find((quantity) => state.strip && key(quantity) === key(state.strip));
+
+function showStrip() {
+  const eligible = look.quantities.filter(({ kind }) => kind !== "rate");
+  const names = eligible.map(key);
+  if (JSON.stringify(names) !== choice.dataset.names) {
+    choice.replaceChildren(...eligible.map((quantity) => element("option", { value: key(quantity) }, quantity.name)));
+    choice.dataset.names = JSON.stringify(names);
+  }
+  if (!varied()) {
+    const first = eligible.find(({ is_friction, is_computed }) => is_friction && !is_computed) ?? eligible[0];
+    if (!first) return;
+    setStrip(first);
+  }
+  const quantity = varied();
+  choice.value = key(quantity);
+  endUnit.textContent = quantity.unit;
+  [state.strip.from, state.strip.to].forEach((value, index) => {
+    if (document.activeElement !== ends[index]) ends[index].value = value;
+  });
+  strip.prepare(state.strip, quantity);
+  askLimits();
+}
+
+function setStrip(quantity) {
+  const { from, to } = scale(quantity.from, quantity.to);
+  state.strip = { kind: quantity.kind, name: quantity.name, from, to };
+}
+
+/** Asks where each mode exists, unless that is known: it does not depend on the value that is varied. */
+const askLimits = settled(async () => {
+  const quantity = varied();
+  if (!quantity) return;
+  const { name, from, to } = state.strip;
+  const question = { ask: "limits", ...state.asked(quantity), vary: `${name}=${withUnit(from, quantity.unit)}..${withUnit(to, quantity.unit)}` };
+  const asked = JSON.stringify(question);
+  if (asked === limitsOf) return;
+  limitsOf = asked;
+  try {
+    const reply = await slowly(question);
+    if (limitsOf !== asked) return;
+    if (reply.faults) {
+      strip.refuse(reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("; "));
+    } else {
+      strip.show(JSON.parse(reply.answer.json));
+    }
+    document.documentElement.dataset.limits = asked;
+  } catch (error) {
+    if (limitsOf === asked) {
+      limitsOf = "";
+      strip.refuse(`Not known: ${error.message}.`);
+    }
+  }
+}, 60);
+
+choice.addEventListener("change", () => {
+  setStrip(look.quantities.find((quantity) => key(quantity) === choice.value));
+  showStrip();
+  remember();
+});
+ends.forEach((field, index) =>
+  field.addEventListener("change", () => {
+    const value = Number(field.value);
+    const next = { ...state.strip, [index ? "to" : "from"]: value };
+    if (field.value.trim() !== "" && next.from < next.to) state.strip = next;
+    field.value = index ? state.strip.to : state.strip.from;
+    showStrip();
+    remember();
+  }),
+);
+
+// ---- Tabs
+
+const tabs = [...byId("tabs").children];
+const nameOf = (tab) => tab.id.slice("tab-".length);
+
+function openTab(name) {
+  const open = tabs.find((tab) => nameOf(tab) === name) ?? tabs[0];
+  state.tab = nameOf(open);
+  for (const tab of tabs) {
+    tab.setAttribute("aria-selected", String(tab === open));
+    tab.tabIndex = tab === open ? 0 : -1;
+    byId(tab.getAttribute("aria-controls")).hidden = tab !== open;
+  }
+  if (state.tab === "rest") showRest();
+}
+
+for (const tab of tabs) {
+  tab.addEventListener("click", () => { openTab(nameOf(tab)); remember(); });
+  tab.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    const next = tabs[(tabs.indexOf(tab) + step + tabs.length) % tabs.length];
+    next.focus();
+    next.click();
+  });
+}
+
+/** Whether it stays at rest, and which efforts its drives need. */
+const showRest = settled(async () => {
+  if (!look) return;
+  const panel = byId("panel-rest");
+  const questions = [["At rest", "hold"], ...(look.drives.length > 0 ? [["Efforts and efficiency", "drive"]] : [])];
+  const told = [];
+  for (const [title, ask] of questions) {
+    try {
+      const reply = await slowly({ ask, ...state.asked() });
+      const text = reply.faults ? reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("\n") : reply.answer.text;
+      told.push(element("h3", {}, title), element("pre", { tabindex: "0" }, text));
+    } catch (error) {
+      told.push(element("p", {}, error.message));
+    }
+  }
+  panel.replaceChildren(...told);
+}, 50);
+
+// ---- Address, downloads, colours
+
+let written = "";
+
+const remember = settled(async () => {
+  written = await state.address();
+  history.replaceState(null, "", `#${written}`);
+}, 100);
+
+addEventListener("hashchange", async () => {
+  const address = location.hash.slice(1);
+  if (address !== written) begin(await State.of(address, library));
+});
+
+byId("share").addEventListener("click", async () => {
+  written = await state.address();
+  history.replaceState(null, "", `#${written}`);
+  await copy(location.href, byId("share"), "Copied");
+});
+
+async function copy(text, button, done) {
+  const before = button.textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = done;
+  } catch {
+    button.textContent = "Not allowed here";
+  }
+  setTimeout(() => { button.textContent = before; }, 1500);
+}
+
+const offers = {
+  toml: async (name) => save(state.text, `${name}.toml`, "application/toml"),
+  svg: async (name) => save(await drawn(), `${name}.svg`, "image/svg+xml"),
+  png: async (name) => save(await pixels(await drawn()), `${name}.png`, "image/png"),
+  csv: async (name) => save((await answered({ ask: "solve" })).csv, `${name}.csv`, "text/csv"),
+  json: async (name) => save((await answered({ ask: "solve" })).json, `${name}.json`, "application/json"),
+  motion: async (name) => save((await answered({ ask: "simulate", until: state.until || "2 s", table: true })).csv, `${name}-motion.csv`, "text/csv"),
+  command: (_, button) => copy(state.command(), button, "Copied"),
+};
+
+async function answered(question) {
+  const reply = await slowly({ ...question, ...state.asked() });
+  if (reply.faults) throw new Error(reply.faults[0].message);
+  return reply.answer;
+}
+
+const drawn = async () => (await answered({ ask: "draw", theme: themeName() })).svg;
+
+byId("downloads").addEventListener("click", async ({ target }) => {
+  const offer = offers[target.dataset.file];
+  if (!offer) return;
+  try {
+    await offer(state.file.replace(/\.toml$/, ""), target);
+  } catch (error) {
+    failed(error);
+  }
+});
+
+const theme = byId("theme");
+theme.value = localStorage.getItem("theme") ?? "";
+const paint = () => {
+  if (theme.value) document.documentElement.dataset.theme = theme.value;
+  else delete document.documentElement.dataset.theme;
+};
+theme.addEventListener("change", () => {
+  localStorage.setItem("theme", theme.value);
+  paint();
+});
+paint();
+
+begin(state);
+
+if ("serviceWorker" in navigator && location.protocol !== "file:") navigator.serviceWorker.register("service.js").catch(() => {});

@@ -1,0 +1,166 @@
+// A strip that shows for which values of one quantity each mode exists, and how many solutions there are, with the present
+// value, which can be dragged.
+
+import { element, shape } from "./dom.js";
+import { scale as slider, short, ticks, withUnit } from "./numbers.js";
+
+const ROW = 26;
+const TOP = 22;
+const LEFT = 96;
+const RIGHT = 16;
+const COUNTS = 34;
+/** Colours of modes, in the order in which they come. */
+const COLOURS = 8;
+
+const signs = (pattern) => [...pattern].join(" ").replaceAll("-", "−");
+
+export class Strip {
+  #svg = shape("svg", { class: "strip", "aria-hidden": "true" });
+  #slider;
+  #words = element("p", { class: "words" });
+  #report = null;
+  #vary = null;
+  #quantity = null;
+  #line;
+
+  /** `change(value)`: the value was dragged, in the unit of the quantity. */
+  constructor(place, change) {
+    this.#slider = element("input", { type: "range", class: "strip-slider" });
+    this.#slider.addEventListener("input", () => {
+      this.#mark(Number(this.#slider.value));
+      change(Number(this.#slider.value));
+    });
+    const drag = (event) => {
+      if (event.buttons === 0 && event.type === "pointermove") return;
+      const value = this.#valueAt(event.clientX);
+      if (value === null) return;
+      event.preventDefault();
+      this.#svg.setPointerCapture?.(event.pointerId);
+      this.#slider.value = value;
+      this.#slider.dispatchEvent(new Event("input"));
+    };
+    this.#svg.addEventListener("pointerdown", drag);
+    this.#svg.addEventListener("pointermove", drag);
+    this.element = element("div", { class: "strip-box" }, this.#svg, this.#slider, this.#words);
+    place.append(this.element);
+    new ResizeObserver(() => this.#draw()).observe(this.element);
+  }
+
+  /** What is varied, before its limits are known: { name, from, to } and the quantity. */
+  prepare(vary, quantity) {
+    this.#vary = vary;
+    this.#quantity = quantity;
+    const { step } = slider(vary.from, vary.to);
+    Object.assign(this.#slider, { min: vary.from, max: vary.to, step });
+    this.#slider.setAttribute("aria-label", `${vary.name}, along the strip`);
+    this.present(quantity.value);
+  }
+
+  /** Shows the limits; nothing while there are none. */
+  show(report) {
+    this.#report = report;
+    this.#words.textContent = report ? inWords(report, this.#quantity, this.#vary) : "";
+    this.#draw();
+  }
+
+  /** Shows why there are none. */
+  refuse(text) {
+    this.#report = null;
+    this.#draw();
+    this.#words.textContent = text;
+  }
+
+  /** The present value (in the unit of the quantity). */
+  present(value) {
+    if (!this.#slider.matches(":active")) this.#slider.value = value;
+    this.#mark(value);
+  }
+
+  get #width() {
+    return Math.max(260, this.element.clientWidth || 600);
+  }
+
+  #place(value) {
+    const { from, to } = this.#vary;
+    return LEFT + ((this.#width - LEFT - RIGHT) * (value - from)) / (to - from);
+  }
+
+  #valueAt(clientX) {
+    if (!this.#vary) return null;
+    const box = this.#svg.getBoundingClientRect();
+    const part = ((clientX - box.left) * (this.#width / box.width) - LEFT) / (this.#width - LEFT - RIGHT);
+    const { from, to } = this.#vary;
+    return from + Math.min(1, Math.max(0, part)) * (to - from);
+  }
+
+  #mark(value) {
+    if (!this.#vary || !this.#line) return;
+    const x = this.#place(Math.min(this.#vary.to, Math.max(this.#vary.from, value)));
+    this.#line.setAttribute("transform", `translate(${x} 0)`);
+    const label = this.#line.querySelector("text");
+    label.textContent = withUnit(value, this.#quantity.unit);
+    label.setAttribute("text-anchor", x > this.#width - 60 ? "end" : x < LEFT + 40 ? "start" : "middle");
+    this.#slider.setAttribute("aria-valuetext", `${withUnit(value, this.#quantity.unit)}; ${countAt(this.#report, value * this.#quantity.scale)}`);
+  }
+
+  #draw() {
+    if (!this.#vary) return;
+    const modes = this.#report?.modes ?? [];
+    const patterns = [...new Set(modes.map((mode) => mode.pattern))];
+    const height = TOP + ROW * Math.max(1, patterns.length) + COUNTS + 24;
+    const width = this.#width;
+    this.#svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.#svg.setAttribute("height", height);
+    this.#svg.replaceChildren(hatching());
+    const of = (value) => this.#place(value / this.#quantity.scale);
+    const bottom = TOP + ROW * Math.max(1, patterns.length);
+    for (const { from, to, solutions } of this.#report?.counts ?? []) {
+      if (solutions === 0) this.#svg.append(shape("rect", { class: "none", x: of(from), y: TOP, width: Math.max(1, of(to) - of(from)), height: bottom - TOP + COUNTS, fill: "url(#hatching)" }));
+    }
+    for (const { from, to, reason } of this.#report?.without_mode_problem ?? []) {
+      const gap = shape("rect", { class: "without", x: of(from), y: TOP, width: Math.max(1, of(to) - of(from)), height: bottom - TOP + COUNTS }, shape("title", {}, reason));
+      this.#svg.append(gap);
+      if (of(to) - of(from) > 90) this.#svg.append(label("count-text quiet", (of(from) + of(to)) / 2, bottom + 20, "middle", "no answer"));
+    }
+    for (const mode of modes) {
+      const row = patterns.indexOf(mode.pattern);
+      const [from, to] = [mode.from ?? this.#vary.from * this.#quantity.scale, mode.to ?? this.#vary.to * this.#quantity.scale].map(of);
+      this.#svg.append(shape("rect", { class: `mode series-${row % COLOURS}${mode.preload_gap ? " gap" : ""}`, x: from, y: TOP + ROW * row + 4, width: Math.max(2, to - from), height: ROW - 8, rx: 3 }));
+    }
+    patterns.forEach((pattern, row) => this.#svg.append(label("pattern", LEFT - 8, TOP + ROW * (row + 0.5) + 5, "end", signs(pattern))));
+    for (const { from, to, solutions } of this.#report?.counts ?? []) {
+      const [start, end] = [of(from), of(to)];
+      this.#svg.append(shape("rect", { class: `count count-${Math.min(solutions, 3)}`, x: start, y: bottom + 4, width: Math.max(1, end - start - 1), height: COUNTS - 12 }));
+      if (end - start > 16) this.#svg.append(label("count-text", (start + end) / 2, bottom + 20, "middle", end - start > 90 ? (solutions === 1 ? "1 solution" : solutions === 0 ? "no solution" : `${solutions} solutions`) : String(solutions)));
+    }
+    this.#svg.append(label("pattern", LEFT - 8, bottom + 20, "end", "solutions"));
+    for (const value of ticks(this.#vary.from, this.#vary.to, Math.max(3, width / 110))) {
+      const x = this.#place(value);
+      this.#svg.append(shape("line", { class: "tick", x1: x, x2: x, y1: bottom + COUNTS - 6, y2: bottom + COUNTS }), label("tick-text", x, bottom + COUNTS + 14, "middle", short(value)));
+    }
+    this.#line = shape("g", { class: "present" }, shape("line", { y1: 16, y2: bottom + COUNTS - 6 }), shape("circle", { cy: bottom + COUNTS - 6, r: 7 }), shape("text", { y: 12 }));
+    this.#svg.append(this.#line);
+    this.#mark(this.#quantity.value);
+  }
+}
+
+const label = (name, x, y, anchor, text) => shape("text", { class: name, x, y, "text-anchor": anchor }, text);
+
+function hatching() {
+  const pattern = shape("pattern", { id: "hatching", width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, shape("line", { class: "hatching", x1: 0, x2: 0, y1: 0, y2: 7 }));
+  return shape("defs", {}, pattern);
+}
+
+/** How many solutions there are at a value (SI units), in words. */
+function countAt(report, value) {
+  const found = report?.counts.find(({ from, to }) => from <= value && value <= to);
+  return !found ? "" : found.solutions === 1 ? "one solution" : found.solutions === 0 ? "no solution" : `${found.solutions} solutions`;
+}
+
+/** The strip for those who do not see it. */
+function inWords(report, { unit, scale }, { name }) {
+  const value = (si) => withUnit(si / scale, unit);
+  const counts = report.counts.map(({ from, to, solutions }) => `from ${value(from)} to ${value(to)} ${solutions === 0 ? "no solution" : solutions === 1 ? "one solution" : `${solutions} solutions`}`);
+  const without = report.without_mode_problem.map(({ from, to, reason }) => `from ${value(from)} to ${value(to)} there is no answer: ${reason}`);
+  return `${name}: ${[...counts, ...without].join("; ")}.`;
+}

@@ -1,0 +1,142 @@
+// Engines in workers: asked one question at a time, and ended if they take too long.
+
+/** A question was ended before it was answered. */
+export class Ended extends Error {}
+
+/** How long after its time a question is ended that does not end by itself (s). */
+const GRACE = 3;
+
+let compiled;
+
+/** The module of the engine, compiled once. */
+export function load(address) {
+  compiled ??= WebAssembly.compileStreaming(fetch(address)).catch(async () =>
+    // A server that does not know the type of the file.
+    WebAssembly.compile(await (await fetch(address)).arrayBuffer()),
+  );
+  return compiled;
+}
+
+/** An engine in a worker of its own. */
+export class Engine {
+  #module;
+  #script;
+  #worker = null;
+  #asked = null;
+  #number = 0;
+
+  constructor(module, script) {
+    this.#module = module;
+    this.#script = script;
+    this.#begin();
+  }
+
+  #begin() {
+    this.#worker = new Worker(this.#script, { type: "module" });
+    this.#worker.postMessage({ module: this.#module });
+    this.#worker.onmessage = ({ data }) => this.#hear(data);
+    this.#worker.onerror = (event) => {
+      event.preventDefault();
+      this.#fail(new Error(`the engine stopped: ${event.message}`));
+    };
+  }
+
+  #hear({ number, progress, reply, broken, ended, milliseconds }) {
+    const asked = this.#asked;
+    if (!asked || asked.number !== number) return;
+    if (progress) {
+      asked.progress?.(progress);
+    } else if (broken !== undefined) {
+      this.#fail(new Error(`the engine stopped: ${broken}`));
+    } else {
+      this.#asked = null;
+      clearTimeout(asked.timer);
+      if ("stopped" in reply) asked.reject(new Ended("it took too long"));
+      else asked.resolve({ ...reply, ended, milliseconds });
+    }
+  }
+
+  /** The worker may be in any state: another one takes its place. */
+  #fail(error) {
+    this.#worker.terminate();
+    this.#begin();
+    const asked = this.#asked;
+    this.#asked = null;
+    clearTimeout(asked?.timer);
+    asked?.reject(error);
+  }
+
+  /** Whether a question waits for its answer. */
+  get isBusy() {
+    return this.#asked !== null;
+  }
+
+  /** Ends the question that is being answered, if there is one. */
+  cancel() {
+    if (this.#asked) this.#fail(new Ended("ended"));
+  }
+
+  /**
+   * The answer to a question; the one before it is ended.
+   *
+   * @param {object} question
+   * @param {{ seconds?: number, progress?: (progress: object) => void }} options
+   */
+  ask(question, { seconds = 20, progress } = {}) {
+    this.cancel();
+    const number = ++this.#number;
+    return new Promise((resolve, reject) => {
+      const timer = setTimeout(() => this.#fail(new Ended("it took too long")), 1000 * (seconds + GRACE));
+      this.#asked = { number, resolve, reject, progress, timer };
+      this.#worker.postMessage({ number, question, seconds });
+    });
+  }
+}
+
+/**
+ * Asks for the newest of many questions: while one is being answered only the latest of the others is kept, and one that
+ * takes long is ended for it.
+ */
+export class Newest {
+  #engine;
+  #next = null;
+  #running = false;
+  #begun = 0;
+  #patience;
+
+  /** `patience`: how long a question may take while another one waits (ms). */
+  constructor(engine, patience = 1500) {
+    this.#engine = engine;
+    this.#patience = patience;
+  }
+
+  /** Asks for what `make` gives when its turn comes; `take` gets the reply, `fail` the error. */
+  want(make, take, fail) {
+    this.#next = { make, take, fail };
+    if (!this.#running) this.#run();
+    else if (performance.now() - this.#begun > this.#patience) this.#engine.cancel();
+    else setTimeout(() => this.#hurry(), this.#patience);
+  }
+
+  #hurry() {
+    if (this.#next && performance.now() - this.#begun > this.#patience) this.#engine.cancel();
+  }
+
+  async #run() {
+    this.#running = true;
+    while (this.#next) {
+      const { make, take, fail } = this.#next;
+      this.#next = null;
+      const { question, options } = make();
+      this.#begun = performance.now();
+      try {
+        const reply = await this.#engine.ask(question, options);
+        // What is not the newest is shown, too: the picture follows.
+        take(reply, question);
+      } catch (error) {
+        if (!this.#next) fail(error);
+      }
+    }
+    this.#running = false;
+  }
+}

@@ -1,0 +1,218 @@
+// The page as a person meets it.
+
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import { resolve } from "node:path";
+import { test } from "node:test";
+import { top } from "../tools/places.js";
+import { limits, setUp, settled, skip, slide, verdict } from "./browser.js";
+
+const set = setUp();
+const gallery = readdirSync(resolve(top, "models")).filter((name) => name.endsWith(".toml")).map((name) => name.slice(0, -".toml".length));
+const text = (name) => readFileSync(resolve(top, "models", `${name}.toml`), "utf8");
+
+/** Puts a text into the editor as if it were dropped there. */
+async function drop(page, content, name = "own.toml") {
+  await page.evaluate(([of, called]) => {
+    delete document.documentElement.dataset.state;
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([of], called));
+    dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, [content, name]);
+  await settled(page);
+}
+
+const close = (page) => page.context().close();
+
+test("every model of the gallery is shown, and nothing is complained of", { skip }, async () => {
+  const page = await set.open();
+  for (const name of gallery) {
+    await page.evaluate(() => delete document.documentElement.dataset.state);
+    await page.selectOption("#pick", `gallery:${name}`);
+    await settled(page);
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.state), "shown", name);
+    assert.ok((await page.locator("#drawings figure svg").count()) >= 1, name);
+    assert.ok((await page.locator("#sliders .row").count()) >= 1, name);
+  }
+  assert.deepEqual(page.complaints, []);
+  await close(page);
+});
+
+/** L / (2 a) = 2/3 (book, chapter Limits). */
+test("the drawer jams where its limit says", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
+  await limits(page);
+  await slide(page, ".strip-slider", "0.665");
+  await verdict(page, "one");
+  await slide(page, ".strip-slider", "0.67");
+  await verdict(page, "none");
+  assert.match(await page.textContent("#verdict"), /No solution/);
+  assert.match(await page.textContent(".strip-box .words"), /from 0 to 0.666667 one solution; from 0.666667 to 1 no solution/);
+  await close(page);
+});
+
+/** H. J. Klepp (2002), section 7: without preload two solutions above mu_1 = 0.45265396. */
+test("a second solution of the paper's example appears where its limit says", { skip }, async () => {
+  const page = await set.open("#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8");
+  await limits(page);
+  const slider = "[id='value-parameter-mu_1']";
+  await page.fill(".row:has([id='value-parameter-mu_1']) .field", "0.4526");
+  await page.press(".row:has([id='value-parameter-mu_1']) .field", "Enter");
+  await verdict(page, "one");
+  await page.fill(".row:has([id='value-parameter-mu_1']) .field", "0.4527");
+  await page.press(".row:has([id='value-parameter-mu_1']) .field", "Enter");
+  await verdict(page, "several");
+  assert.match(await page.textContent("#verdict"), /2 solutions/);
+  await slide(page, slider, "0.1");
+  await verdict(page, "one");
+  await close(page);
+});
+
+test("a mistake is underlined where it is, and told in the words of the command line", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer");
+  const faulty = text("drawer").replace('mu = "mu"', 'mu = "mo"');
+  await drop(page, faulty);
+  await verdict(page, "faults");
+  const line = faulty.slice(0, faulty.indexOf('"mo"')).split("\n").length;
+  assert.match(await page.textContent("#faults"), new RegExp(`line ${line}: .*`.concat("`mo`")));
+  const underlined = page.locator("#editor .cm-lintRange-error");
+  await underlined.first().waitFor({ state: "attached" });
+  assert.equal(await underlined.first().textContent(), "mo");
+  await close(page);
+});
+
+test("a mistake in a value is told beside it", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer");
+  const row = page.locator(".row:has([id='value-parameter-L'])");
+  await row.locator(".field").fill("3 kg");
+  await row.locator(".field").press("Enter");
+  await verdict(page, "faults");
+  await page.waitForFunction(() => document.querySelector(".row .field[aria-invalid='true']"));
+  assert.match(await row.locator(".fault").textContent(), /kg/);
+  await row.locator(".back").click();
+  await verdict(page, "one");
+  await close(page);
+});
+
+test("a link shows a colleague the same", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer");
+  const edited = text("drawer").replace("A drawer pushed off-centre\"", "Ein Schübchen 🗄\"");
+  await drop(page, edited);
+  await slide(page, "[id='value-parameter-mu']", "0.8");
+  await verdict(page, "none");
+  await page.waitForFunction(() => location.hash.includes("text=") && location.hash.includes("mu%3D0.8"));
+  const address = await page.evaluate(() => location.hash);
+  const other = await set.open(address);
+  await verdict(other, "none");
+  assert.equal(await other.textContent("#about"), "Ein Schübchen 🗄");
+  assert.equal(await other.locator(".row:has([id='value-parameter-mu']) .field").inputValue(), "0.8");
+  await Promise.all([close(page), close(other)]);
+});
+
+test("a page that changes its address shows what stands there", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer");
+  await page.evaluate(() => { location.hash = "model=gallery:drawer&set=mu%3D0.9"; });
+  await verdict(page, "none");
+  await close(page);
+});
+
+test("dragging follows at 30 pictures a second, and ends with the newest value", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
+  await limits(page);
+  const found = await page.evaluate(async () => {
+    const slider = document.querySelector(".strip-slider");
+    const shown = () => Number(document.documentElement.dataset.shown);
+    const begin = shown();
+    const start = performance.now();
+    for (let step = 0; performance.now() - start < 2000; step++) {
+      slider.value = 0.1 + 0.4 * (0.5 + 0.5 * Math.sin(step / 10));
+      slider.dispatchEvent(new Event("input"));
+      await new Promise(requestAnimationFrame);
+    }
+    const rate = (shown() - begin) / ((performance.now() - start) / 1000);
+    slider.value = 0.8;
+    slider.dispatchEvent(new Event("input"));
+    return { rate };
+  });
+  await verdict(page, "none");
+  // Other work of the machine is no fault of the page: it is told, and the newest value counts.
+  process.stdout.write(`# ${found.rate.toFixed(1)} pictures a second\n`);
+  assert.ok(found.rate > 3, `${found.rate} pictures a second`);
+  await close(page);
+});
+
+test("a map is drawn, and one walks in it by keyboard", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&tab=map");
+  await page.click("#panel-map button");
+  await page.locator(".map .walker").waitFor({ state: "attached", timeout: 60_000 });
+  const before = await page.locator(".row:has([id='value-parameter-mu']) .field").inputValue();
+  await page.focus(".map");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((old) => document.querySelector(".row:has([id='value-parameter-mu']) .field").value !== old, before);
+  await close(page);
+});
+
+test("a motion is shown, and can be scrubbed", { skip }, async () => {
+  const page = await set.open("#model=gallery:stick-slip&tab=motion&until=2%20s", { reducedMotion: "reduce" });
+  await page.click("#panel-motion button[type=submit]");
+  await page.locator(".player:not([hidden])").waitFor({ timeout: 60_000 });
+  assert.ok((await page.locator(".log li").count()) >= 3);
+  await page.locator(".log li button").nth(1).click();
+  assert.match(await page.textContent(".clock"), /t = 0\.[01]/);
+  await page.click(".play");
+  assert.equal(await page.textContent(".play"), "Pause");
+  await page.click(".play");
+  assert.deepEqual(page.complaints, []);
+  await close(page);
+});
+
+test("pictures and words that are not seen have names", { skip }, async () => {
+  const page = await set.open("#model=gallery:klepp-2002");
+  const unnamed = await page.evaluate(() =>
+    [...document.querySelectorAll("button, input:not([hidden]), select, figure")]
+      .filter((one) => !(one.getAttribute("aria-label") || one.labels?.length || one.textContent.trim()))
+      .map((one) => one.outerHTML.slice(0, 120)));
+  assert.deepEqual(unnamed, []);
+  assert.match(await page.getAttribute("#drawings figure:nth-child(2)", "aria-label"), /Solution 1 of 3/);
+  await close(page);
+});
+
+test("nothing is wider than a phone", { skip }, async () => {
+  const page = await set.open("#model=gallery:klepp-2002", { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true });
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 361, `${width}`);
+  await close(page);
+});
+
+test("the files are those of the command line", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&set=mu%3D0.5");
+  await page.click("#downloads summary");
+  for (const [kind, pattern] of [["toml", /^# A drawer/], ["svg", /^<svg /], ["csv", /^pattern|^solution|,/], ["json", /"schema": "slideway\/solve/], ["png", /PNG/]]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-file=${kind}]`)]);
+    assert.match(readFileSync(await download.path(), "latin1").slice(0, 400), pattern, kind);
+  }
+  assert.equal(await page.textContent("#command"), "slideway solve drawer.toml --set mu=0.5");
+  await close(page);
+});
+
+test("once loaded it needs no network", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer");
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.waitForFunction(async () => (await caches.keys()).length > 0 && (await (await caches.open((await caches.keys())[0])).keys()).length > 8);
+  await page.reload();
+  await settled(page);
+  await page.context().setOffline(true);
+  await page.reload();
+  await settled(page);
+  await verdict(page, "one");
+  await close(page);
+});
+
+test("it asks no other place for anything, and its policy forbids it", { skip }, async () => {
+  const page = await set.open();
+  const places = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => new URL(name).origin));
+  assert.ok(places.every((place) => place === new URL(set.at).origin));
+  const refused = await page.evaluate(() => fetch("http://127.0.0.1:9/").then(() => "", () => "refused"));
+  assert.equal(refused, "refused");
+  await close(page);
+});

@@ -1,0 +1,116 @@
+// Builds the page: the engine by Cargo, the scripts by esbuild, everything into target/web.
+//
+//     node web/tools/build.js            with the packages of package-lock.json, which npm installs if they are not there
+//     node web/tools/build.js --engine   the engine alone
+//
+// The engine needs a standard library of Rust for WebAssembly: that of `rustup target add wasm32-unknown-unknown`, or, on
+// Debian, `apt-get install rustc-web rust-web-src lld-22`, from whose sources Cargo builds it.
+
+import { execFileSync, spawnSync } from "node:child_process";
+import { createHash } from "node:crypto";
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { resolve } from "node:path";
+import { brotliCompressSync, constants, gzipSync } from "node:zlib";
+import { start } from "../src/engine.js";
+import { engine, engineTarget, page, top, web } from "./places.js";
+
+const TARGET = "wasm32-unknown-unknown";
+/** The largest that the engine may be as it is sent, compressed. */
+const LARGEST = 2 << 20;
+const say = (text) => process.stdout.write(`${text}\n`);
+
+/** What a command prints; nothing if it cannot be run or fails. */
+function heard(command, ...words) {
+  const run = spawnSync(command, words, { encoding: "utf8" });
+  return run.status === 0 ? run.stdout.trim() : "";
+}
+
+/** Environment and arguments with which Cargo builds for WebAssembly, or why that is impossible. */
+function compiler() {
+  const ours = heard("rustc", "--print", "target-libdir", "--target", TARGET);
+  if (ours && existsSync(ours)) return { words: [], environment: {} };
+  const debian = "/usr/bin/rustc";
+  const sources = heard(debian, "--print", "sysroot");
+  const linker = ["wasm-ld", "wasm-ld-22", "wasm-ld-21", "wasm-ld-20", "wasm-ld-19"].find((name) => heard(name, "--version"));
+  if (sources && linker && existsSync(resolve(sources, "lib/rustlib/src/rust/library/std"))) {
+    return {
+      words: ["-Zbuild-std=std,panic_abort"],
+      environment: { RUSTC: debian, RUSTC_BOOTSTRAP: "1", CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker },
+    };
+  }
+  throw new Error(
+    `Rust's standard library for ${TARGET} is missing. Either\n` +
+      `    rustup target add ${TARGET}\n` +
+      "or, on Debian,\n    apt-get install rustc-web rust-web-src lld-22",
+  );
+}
+
+function buildEngine() {
+  const { words, environment } = compiler();
+  const all = ["build", "--locked", "--package", "slideway-web", "--profile", "web", "--target", TARGET, "--target-dir", engineTarget, ...words];
+  execFileSync(process.env.CARGO ?? "cargo", all, { cwd: top, stdio: "inherit", env: { ...process.env, ...environment } });
+}
+
+/** The packages of the lock file. */
+function install() {
+  const wanted = readFileSync(resolve(web, "package-lock.json"), "utf8");
+  const kept = resolve(web, "node_modules/.of-lock-file");
+  if (existsSync(kept) && readFileSync(kept, "utf8") === wanted) return;
+  execFileSync("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"], { cwd: web, stdio: "inherit" });
+  writeFileSync(kept, wanted);
+}
+
+async function bundle() {
+  const { build } = await import("esbuild");
+  await build({
+    entryPoints: ["page.js", "worker.js", "embed.js"].map((name) => resolve(web, "src", name)),
+    outdir: page,
+    bundle: true,
+    format: "esm",
+    target: "es2022",
+    minify: true,
+    legalComments: "linked",
+    logLevel: "warning",
+  });
+}
+
+/** The rest: the engine, its style sheet, and what stands beside. */
+async function gather() {
+  cpSync(engine, resolve(page, "engine.wasm"));
+  const ask = await start(await WebAssembly.compile(readFileSync(engine)));
+  writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
+  for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"]) cpSync(resolve(web, "src", name), resolve(page, name));
+  const files = readdirSync(page).sort();
+  const hash = createHash("sha256");
+  for (const name of files) hash.update(readFileSync(resolve(page, name)));
+  const version = `slideway-${hash.digest("hex").slice(0, 16)}`;
+  const service = readFileSync(resolve(web, "src/service.js"), "utf8");
+  const kept = ["./", ...files.filter((name) => !name.endsWith(".LEGAL.txt"))].join(" ");
+  writeFileSync(resolve(page, "service.js"), service.replace("{{ version }}", version).replace("{{ files }}", kept));
+}
+
+function weigh() {
+  for (const name of ["engine.wasm", "page.js"]) {
+    const bytes = readFileSync(resolve(page, name));
+    const [gzip, brotli] = [gzipSync(bytes, { level: 9 }), brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } })].map(({ length }) => length);
+    const shown = (length) => `${(length / 1e6).toFixed(2)} MB`;
+    say(`${name}: ${shown(statSync(resolve(page, name)).size)}, compressed ${shown(gzip)} (gzip) or ${shown(brotli)} (brotli)`);
+    if (gzip > LARGEST) throw new Error(`${name} has more than 2 MiB compressed`);
+  }
+}
+
+try {
+  if (!process.env.SLIDEWAY_ENGINE) buildEngine();
+  if (!process.argv.includes("--engine")) {
+    install();
+    rmSync(page, { recursive: true, force: true });
+    mkdirSync(page, { recursive: true });
+    await bundle();
+    await gather();
+    weigh();
+    say(`The page is in ${page}.`);
+  }
+} catch (error) {
+  process.stderr.write(`${error.message}\n`);
+  process.exitCode = 1;
+}
