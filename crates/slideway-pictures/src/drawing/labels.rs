@@ -1,5 +1,6 @@
 //! Where labels stand: beside what they name, clear of each other.
 
+use super::obstacles::{Obstacle, Obstacles};
 use super::outline::{nearest_on_line, unit};
 use super::scene::{ASCENT, Anchor, Bounds, Class, DESCENT, Point, Scene, Shape, Text};
 use std::f64::consts::TAU;
@@ -48,15 +49,18 @@ const STEP: f64 = 3.0;
 /// Gives every label its place, in their order; with bounds those that find no place within them are left
 /// out.
 pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
-    let mut obstacles = obstacles(scene);
-    obstacles.extend(outlines(scene));
+    let mut all = obstacles(scene);
+    all.extend(outlines(scene));
+    let obstacles = Obstacles::new(all);
     let texts = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
     let named = labels.iter().map(Label::named).collect();
     let mut room = Room { obstacles, named, taken: texts, drawn: scene.bounds(), within };
     for label in labels {
         let Some(bounds) = room.best(&label) else { continue };
         if let Some(leader) = room.leader(&label, &bounds) {
-            along(&leader, 1.0, &mut room.obstacles);
+            let mut places = Vec::new();
+            along(&leader, 1.0, &mut places);
+            room.obstacles.extend(places);
             scene.add(Class::Leader, Shape::Line(leader.to_vec()));
         }
         let at = Point::new(bounds.middle().x, bounds.greatest.y - DESCENT * label.size);
@@ -69,7 +73,7 @@ pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds
 /// What labels have to keep clear of.
 struct Room {
     /// Places along lines, each with what it costs to cover it.
-    obstacles: Vec<(Point, f64)>,
+    obstacles: Obstacles,
     /// What all labels name, from one end to the other.
     named: Vec<[Point; 2]>,
     /// Other labels.
@@ -144,12 +148,10 @@ impl Room {
         let along = unit(to - from, Point::x());
         let end = to - along * (2.0 * STEP);
         let around = Bounds { least: from.inf(&end), greatest: from.sup(&end) }.widened(STEP);
-        let is_met = |(place, of_place): &&(Point, f64)| {
-            *of_place >= weight
-                && around.contains(place)
-                && nearest_on_line(*place, [*from, end]).0 < 0.5 * STEP
+        let is_met = |(place, of_place): &&Obstacle| {
+            *of_place >= weight && nearest_on_line(*place, [*from, end]).0 < 0.5 * STEP
         };
-        self.obstacles.iter().filter(is_met).count() as f64
+        self.obstacles.within(&around).filter(is_met).count() as f64
     }
 }
 
@@ -159,7 +161,7 @@ fn half_size(label: &Label) -> Point {
 }
 
 /// Adds the place where a label would stand with nothing in its way.
-pub(super) fn reserve(label: &Label, obstacles: &mut Vec<(Point, f64)>) {
+pub(super) fn reserve(label: &Label, obstacles: &mut Vec<Obstacle>) {
     let half = half_size(label);
     let middle = beside(label.anchor, label.towards, DISTANCES[0], half).middle();
     let aside = Point::new(half.x, 0.0);
@@ -214,22 +216,21 @@ fn holds(outer: &Bounds, inner: &Bounds) -> bool {
     outer.contains(&inner.least) && outer.contains(&inner.greatest)
 }
 
-fn crossed(bounds: &Bounds, obstacles: &[(Point, f64)]) -> f64 {
-    let bounds = bounds.widened(MARGIN);
-    obstacles.iter().filter(|(place, _)| bounds.contains(place)).map(|(_, weight)| weight).sum()
+fn crossed(bounds: &Bounds, obstacles: &Obstacles) -> f64 {
+    obstacles.within(&bounds.widened(MARGIN)).map(|(_, weight)| weight).sum()
 }
 
 /// Places along all lines but the outlines of bodies, each with what it costs to cover it.
-pub(super) fn obstacles(scene: &Scene) -> Vec<(Point, f64)> {
+pub(super) fn obstacles(scene: &Scene) -> Vec<Obstacle> {
     places_along(scene, |class| class != Class::Body)
 }
 
 /// Places along the outlines of bodies.
-fn outlines(scene: &Scene) -> Vec<(Point, f64)> {
+fn outlines(scene: &Scene) -> Vec<Obstacle> {
     places_along(scene, |class| class == Class::Body)
 }
 
-fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<(Point, f64)> {
+fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> {
     let mut places = Vec::new();
     for element in scene.elements.iter().filter(|element| counts(element.class)) {
         let weight = match element.class {
@@ -257,7 +258,7 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<(Point, f6
     places
 }
 
-fn along(corners: &[Point], weight: f64, places: &mut Vec<(Point, f64)>) {
+fn along(corners: &[Point], weight: f64, places: &mut Vec<Obstacle>) {
     for pair in corners.windows(2) {
         let between = pair[1] - pair[0];
         let steps = (between.norm() / STEP).ceil().clamp(1.0, 1000.0);

@@ -15,6 +15,7 @@ mod forces;
 mod labels;
 mod loads;
 mod looks;
+mod obstacles;
 mod outline;
 mod paragraph;
 mod play;
