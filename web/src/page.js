@@ -72,7 +72,7 @@ function took(reply, question) {
   document.documentElement.dataset.milliseconds = reply.milliseconds.toFixed(1);
   if (reply.faults) {
     showFaults(reply.faults, question);
-    document.documentElement.dataset.state = "faults";
+    told("faults", question);
     return;
   }
   look = reply.answer;
@@ -82,12 +82,19 @@ function took(reply, question) {
   byId("about").textContent = look.title;
   drawings.show(look.drawings);
   sliders.show(look.quantities, state.changes);
+  byId("left-out").hidden = !look.left_out;
+  byId("left-out").textContent = `${look.left_out} more parameters can be changed in the text.`;
   map.show(look.quantities, state.map);
   if (look.answer) byId("panel-numbers").replaceChildren(...look.answer.sections.flatMap(sections));
   else byId("panel-numbers").replaceChildren();
   showStrip();
-  document.documentElement.dataset.state = "shown";
+  told("shown", question);
   document.documentElement.dataset.shown = String(Number(document.documentElement.dataset.shown ?? 0) + 1);
+}
+
+/** What has become of the present text, for tests. */
+function told(what, question = state) {
+  if (question.text === state.text) document.documentElement.dataset.state = what;
 }
 
 function failed(error) {
@@ -95,7 +102,15 @@ function failed(error) {
   parts.box.dataset.status = "unknown";
   parts.verdict.textContent = error instanceof Ended ? `? No answer: ${error.message}.` : `? ${error.message}`;
   parts.certainty.textContent = "";
-  document.documentElement.dataset.state = "failed";
+  parts.reasons.replaceChildren();
+  byId("drawings").classList.add("stale");
+  told("failed");
+}
+
+/** What did not work, beside the answer, until there is another model. */
+function notice(text) {
+  byId("notice").textContent = text;
+  byId("notice").hidden = text === "";
 }
 
 /** Faults are told below the editor and underlined in it; while there are any the drawing is of the state before. */
@@ -171,6 +186,8 @@ function edited(text) {
 function begin(next) {
   state = next;
   look = null;
+  told("asking");
+  notice("");
   limitsOf = "";
   strip.show(null);
   editor.text = state.text;
@@ -209,7 +226,7 @@ addEventListener("drop", (event) => {
 
 async function openFile(file) {
   if (!file) return;
-  if (file.size > LARGEST_FILE) failed(new Error(`${file.name} is larger than 4 MiB, too large for a model`));
+  if (file.size > LARGEST_FILE) notice(`${file.name} is larger than 4 MiB, too large for a model.`);
   else beginWith(await file.text());
 }
 
@@ -393,7 +410,7 @@ byId("downloads").addEventListener("click", async ({ target }) => {
   try {
     await offer(state.file.replace(/\.toml$/, ""), target);
   } catch (error) {
-    failed(error);
+    notice(error.message);
   }
 });
 

@@ -23,7 +23,7 @@ export class Sliders {
 
   /** Shows what there is, with the texts of what was changed. */
   show(quantities, changes) {
-    const shape = JSON.stringify(quantities.map(({ kind, name, unit, is_computed }) => [kind, name, unit, is_computed]));
+    const shape = JSON.stringify(quantities.map(({ kind, name, unit, is_computed, meaning }) => [kind, name, unit, is_computed, meaning]));
     if (shape !== this.#shape) {
       this.#shape = shape;
       this.#build(quantities);

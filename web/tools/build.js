@@ -2,6 +2,7 @@
 //
 //     node web/tools/build.js            with the packages of package-lock.json, which npm installs if they are not there
 //     node web/tools/build.js --engine   the engine alone
+// Exit code 3: something is missing on this machine, and said.
 //
 // The engine needs a standard library of Rust for WebAssembly: that of `rustup target add wasm32-unknown-unknown`, or, on
 // Debian, `apt-get install rustc-web rust-web-src lld-22`, from whose sources Cargo builds it.
@@ -17,6 +18,9 @@ import { engine, engineTarget, page, top, web } from "./places.js";
 const TARGET = "wasm32-unknown-unknown";
 /** The largest that the engine may be as it is sent, compressed. */
 const LARGEST = 2 << 20;
+/** The exit code where something is missing on this machine. */
+const MISSING = 3;
+class Missing extends Error {}
 const say = (text) => process.stdout.write(`${text}\n`);
 
 /** What a command prints; nothing if it cannot be run or fails. */
@@ -38,7 +42,7 @@ function compiler() {
       environment: { RUSTC: debian, RUSTC_BOOTSTRAP: "1", CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker },
     };
   }
-  throw new Error(
+  throw new Missing(
     `Rust's standard library for ${TARGET} is missing. Either\n` +
       `    rustup target add ${TARGET}\n` +
       "or, on Debian,\n    apt-get install rustc-web rust-web-src lld-22",
@@ -56,36 +60,46 @@ function install() {
   const wanted = readFileSync(resolve(web, "package-lock.json"), "utf8");
   const kept = resolve(web, "node_modules/.of-lock-file");
   if (existsSync(kept) && readFileSync(kept, "utf8") === wanted) return;
+  if (!heard("npm", "--version")) throw new Missing("npm is missing, which installs the packages of web/package-lock.json");
   execFileSync("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"], { cwd: web, stdio: "inherit" });
   writeFileSync(kept, wanted);
 }
 
 async function bundle() {
   const { build } = await import("esbuild");
-  await build({
+  const { metafile } = await build({
     entryPoints: ["page.js", "worker.js", "embed.js"].map((name) => resolve(web, "src", name)),
     outdir: page,
     bundle: true,
     format: "esm",
     target: "es2022",
     minify: true,
-    legalComments: "linked",
+    metafile: true,
     logLevel: "warning",
   });
+  const packages = Object.keys(metafile.inputs).map((input) => /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1]);
+  return [...new Set(packages.filter(Boolean))].sort();
+}
+
+/** The notices of what is part of the page: those of the program, whose libraries the engine shares, and of packages. */
+function notices(packages) {
+  const licence = (name) => `\n${"=".repeat(72)}\n${name}\n\n${readFileSync(resolve(web, "node_modules", name, "LICENSE"), "utf8")}`;
+  return readFileSync(resolve(top, "THIRD-PARTY-NOTICES"), "utf8") + packages.map(licence).join("");
 }
 
 /** The rest: the engine, its style sheet, and what stands beside. */
-async function gather() {
+async function gather(packages) {
   cpSync(engine, resolve(page, "engine.wasm"));
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
   for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"]) cpSync(resolve(web, "src", name), resolve(page, name));
+  writeFileSync(resolve(page, "notices.txt"), notices(packages));
   const files = readdirSync(page).sort();
   const hash = createHash("sha256");
   for (const name of files) hash.update(readFileSync(resolve(page, name)));
   const version = `slideway-${hash.digest("hex").slice(0, 16)}`;
   const service = readFileSync(resolve(web, "src/service.js"), "utf8");
-  const kept = ["./", ...files.filter((name) => !name.endsWith(".LEGAL.txt"))].join(" ");
+  const kept = ["./", ...files].join(" ");
   writeFileSync(resolve(page, "service.js"), service.replace("{{ version }}", version).replace("{{ files }}", kept));
 }
 
@@ -105,12 +119,11 @@ try {
     install();
     rmSync(page, { recursive: true, force: true });
     mkdirSync(page, { recursive: true });
-    await bundle();
-    await gather();
+    await gather(await bundle());
     weigh();
     say(`The page is in ${page}.`);
   }
 } catch (error) {
   process.stderr.write(`${error.message}\n`);
-  process.exitCode = 1;
+  process.exitCode = error instanceof Missing ? MISSING : 1;
 }

@@ -1,6 +1,6 @@
 //! The engine of slideway's page: a question as JSON in, its answer as JSON out.
 //!
-//! The page runs it as WebAssembly in a worker ([`abi`]); [`answer`] is all there is to it. Like the command
+//! The page runs it as WebAssembly in a worker (`abi.rs`); [`answer`] is all there is to it. Like the command
 //! line it only converts and shows: every answer is a report of the library or a picture of
 //! `slideway-pictures`, with the faults in the words of the command line.
 //!

@@ -1,6 +1,6 @@
 //! What the page shows of a state: what can be changed in it, its drawings, and its solutions in words.
 
-use crate::quantity::{Quantity, quantities};
+use crate::quantity::{MOST, Quantity, quantities};
 use crate::question::Asked;
 use crate::told_fault::{ToldFault, told};
 use serde::Serialize;
@@ -23,6 +23,8 @@ pub(crate) struct Look {
     title: String,
     warnings: Vec<ToldFault>,
     quantities: Vec<Quantity>,
+    /// How many parameters are none of them, because there are so many.
+    left_out: usize,
     /// Names of loads that can be multiplied, and of drives.
     loads: Vec<String>,
     drives: Vec<String>,
@@ -89,6 +91,7 @@ pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) ->
     Ok(Look {
         title: title(&mechanism),
         warnings: told(&all_warnings(&model), asked),
+        left_out: model.parameters.len().saturating_sub(MOST),
         quantities: quantities(&model, &asked.text, &mechanism, &checked.coordinates)?,
         loads: checked.loads,
         drives: checked.drives.into_iter().map(|drive| drive.name).collect(),

@@ -11,6 +11,8 @@ use slideway::model::{Coordinate, CoordinateKind, Model};
 use slideway::units::Unit;
 use std::f64::consts::FRAC_PI_2;
 
+/// At most so many parameters have a slider.
+pub(crate) const MOST: usize = 300;
 /// A positive parameter goes from this part of its value to this multiple.
 const AROUND: [f64; 2] = [0.2, 2.0];
 /// A coefficient of friction goes from zero at least to this.
@@ -40,7 +42,7 @@ pub(crate) struct Quantity {
     is_friction: bool,
 }
 
-/// The parameters, the coordinates, and the rates of those that can move, in the order of the file.
+/// The first parameters, the coordinates, and the rates of those that can move, in the order of the file.
 ///
 /// # Errors
 /// Parameters without a value that is allowed.
@@ -51,12 +53,9 @@ pub(crate) fn quantities(
     state: &[CoordinateSummary],
 ) -> Result<Vec<Quantity>, Faults> {
     let values = model.parameter_values(&model.constants()?);
-    let mut all: Vec<Quantity> = model
-        .parameters
-        .iter()
-        .zip(values)
-        .map(|(parameter, value)| of_parameter(model, text, parameter, value))
-        .collect();
+    let parameters = model.parameters.iter().zip(values).take(MOST);
+    let mut all: Vec<Quantity> =
+        parameters.map(|(parameter, value)| of_parameter(model, text, parameter, value)).collect();
     let size = mechanism.size;
     for (index, coordinate) in model.coordinates.iter().enumerate() {
         let Some(state) = state.get(index) else { continue };
