@@ -5,8 +5,8 @@
 //       <img src="static.svg" alt="what the figure shows">
 //     </slideway-live>
 //
-// What stands inside is shown where scripts are off, or the engine cannot be had. The engine is fetched once a figure
-// comes into view.
+// What stands inside is shown where scripts are off, and until the engine is there, which is fetched once a figure comes
+// near.
 
 import { element, settled } from "./dom.js";
 import { Drawings, showVerdict } from "./drawings.js";
@@ -16,72 +16,110 @@ import { Strip } from "./strip.js";
 import { Engine, Newest, load } from "./workers.js";
 
 const here = (name) => new URL(name, import.meta.url).href;
-let engines;
+let asked;
 
-/** The engines and the models to begin with, for all figures of a page. */
+/** What all figures of a page share: an engine for questions that take longer, and the models to begin with. */
 async function begin() {
   const module = await load(here("engine.wasm"));
-  const [live, slow] = [0, 1].map(() => new Engine(module, here("worker.js")));
-  const { answer: library } = await live.ask({ ask: "library" });
-  return { newest: new Newest(live), slow, library };
+  const slow = new Engine(module, here("worker.js"));
+  const { answer: library } = await slow.ask({ ask: "library" });
+  return { module, slow: new Turns(slow), library };
+}
+
+/** An engine that answers one question after the other. */
+class Turns {
+  #engine;
+  #last = Promise.resolve();
+
+  constructor(engine) {
+    this.#engine = engine;
+  }
+
+  ask(question) {
+    const answer = this.#last.then(() => this.#engine.ask(question));
+    this.#last = answer.catch(() => {});
+    return answer;
+  }
+}
+
+/** Whether the page around an element is dark. */
+function isDark(place) {
+  for (let at = place; at; at = at.parentElement) {
+    const [red, green, blue, alpha = 1] = getComputedStyle(at).backgroundColor.match(/[\d.]+/g).map(Number);
+    if (alpha > 0) return 0.299 * red + 0.587 * green + 0.114 * blue < 128;
+  }
+  return false;
 }
 
 class Live extends HTMLElement {
+  #state;
+  #quantity;
+  #drawings;
+  #strip;
+  #parts = { box: element("div", { id: "verdict-box" }), verdict: element("h2", { role: "status" }), certainty: element("p"), reasons: element("ul") };
+  #link = element("a", { href: here("./") }, "Open in the page");
+
   connectedCallback() {
     const watch = new IntersectionObserver(([entry]) => {
       if (!entry.isIntersecting) return;
       watch.disconnect();
-      this.#begin().catch(() => {});
-    });
+      this.#begin().catch((error) => console.warn(error));
+    }, { rootMargin: "200px" });
     watch.observe(this);
   }
 
   async #begin() {
-    engines ??= begin();
-    const { newest, slow, library } = await engines;
-    const state = await State.of(new URLSearchParams({ model: `gallery:${this.getAttribute("model")}` }), library);
+    asked ??= begin();
+    const { module, slow, library } = await asked;
+    const newest = new Newest(new Engine(module, here("worker.js")));
+    this.#state = await State.of(new URLSearchParams({ model: `gallery:${this.getAttribute("model")}` }), library);
     for (const setting of (this.getAttribute("set") ?? "").split(";").filter(Boolean)) {
       const [name, value] = setting.split("=").map((part) => part.trim());
-      state.changes.set(`parameter ${name}`, value);
+      this.#state.changes.set(`parameter ${name}`, value);
     }
-    const [name, range] = this.getAttribute("vary").split("=");
-    const parts = { box: element("div", { class: "verdict" }), verdict: element("strong", { role: "status" }), certainty: element("span", {}), reasons: element("ul") };
-    parts.box.append(parts.verdict, " ", parts.certainty, parts.reasons);
-    const pictures = element("div", { class: "drawings", role: "list", "aria-label": "The mechanism and its solutions" });
-    const figure = element("div", {}, parts.box, pictures);
-    const drawings = new Drawings(pictures);
-    let quantity;
-    const look = () => newest.want(() => ({ question: { ask: "look", ...state.asked(), margins: false } }), take, () => {});
-    const strip = new Strip(figure, (value) => {
-      state.changes.set(`${quantity.kind} ${name}`, withUnit(value, quantity.unit));
+    const root = this.attachShadow({ mode: "open" });
+    const { box, verdict, certainty, reasons } = this.#parts;
+    box.append(verdict, certainty, reasons);
+    const pictures = element("div", { id: "drawings", role: "list", "aria-label": "The mechanism and its solutions" });
+    const figure = element("div", { class: "live", hidden: true }, box, pictures);
+    root.append(element("link", { rel: "stylesheet", href: here("drawing.css") }), element("link", { rel: "stylesheet", href: here("style.css") }), element("slot"), figure);
+    this.#drawings = new Drawings(pictures);
+    const look = () => newest.want(
+      () => ({ question: { ask: "look", ...this.#state.asked(), margins: false } }),
+      ({ answer }) => answer && this.#show(answer, figure, slow),
+      () => {},
+    );
+    this.#strip = new Strip(figure, (value) => {
+      this.#state.changes.set(`${this.#quantity.kind} ${this.#quantity.name}`, withUnit(value, this.#quantity.unit));
       look();
     });
-    const link = element("a", { href: here("./") }, "Open in the page");
-    const linked = settled(async () => { link.href = `${here("./")}#${await state.address()}`; }, 200);
-    figure.append(element("p", {}, link));
-    const take = ({ answer }) => {
-      if (!answer) return;
-      quantity = answer.quantities.find((one) => one.name === name && one.kind !== "rate");
-      state.strip ??= this.#ends(quantity, range);
-      showVerdict(parts, answer);
-      drawings.show(answer.drawings);
-      strip.prepare(state.strip, quantity);
-      linked();
-      if (this.firstElementChild !== figure) this.#show(figure, strip, slow, state, name, range, quantity);
-    };
+    figure.append(element("p", {}, this.#link));
     look();
   }
 
-  #ends(quantity, range) {
-    const [from, to] = range.split("..").map((end) => Number.parseFloat(end));
-    return { kind: quantity.kind, name: quantity.name, from, to };
+  #show(answer, figure, slow) {
+    const [name, range] = this.getAttribute("vary").split("=");
+    this.#quantity = answer.quantities.find((one) => one.name === name && one.kind !== "rate");
+    const isFirst = figure.hidden;
+    if (isFirst) {
+      const [from, to] = range.split("..").map((end) => Number.parseFloat(end));
+      this.#state.strip = { kind: this.#quantity.kind, name, from, to };
+      this.dataset.theme = isDark(this) ? "dark" : "light";
+      figure.hidden = false;
+      this.shadowRoot.querySelector("slot").hidden = true;
+    }
+    showVerdict(this.#parts, answer);
+    this.#drawings.show(answer.drawings);
+    this.#strip.prepare(this.#state.strip, this.#quantity);
+    this.#linked();
+    if (isFirst) this.#limits(slow, name, range);
   }
 
-  /** Takes the place of the static picture. */
-  async #show(figure, strip, slow, state, name, range, quantity) {
-    this.replaceChildren(figure);
-    const reply = await slow.ask({ ask: "limits", ...state.asked(quantity), vary: `${name}=${range}` });
-    if (reply.answer) strip.show(JSON.parse(reply.answer.json));
+  #linked = settled(async () => { this.#link.href = `${here("./")}#${await this.#state.address()}`; }, 200);
+
+  async #limits(slow, name, range) {
+    const reply = await slow.ask({ ask: "limits", ...this.#state.asked(this.#quantity), vary: `${name}=${range}` });
+    if (reply.answer) this.#strip.show(JSON.parse(reply.answer.json));
   }
 }
 

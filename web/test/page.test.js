@@ -216,3 +216,28 @@ test("it asks no other place for anything, and its policy forbids it", { skip },
   assert.equal(refused, "refused");
   await close(page);
 });
+
+test("a figure of another page is live, and its picture stays where scripts are off", { skip }, async () => {
+  const content = `<!doctype html><p>Before</p><slideway-live model="klepp-2002" set="F_20=0" vary="mu_1=0..0.8"><p id="static">the picture</p></slideway-live><script type="module" src="${set.at}embed.js"></script>`;
+  const context = await set.browser.newContext();
+  const page = await context.newPage();
+  await page.route("**/figure.html", (route) => route.fulfill({ contentType: "text/html", body: content }));
+  await page.goto(`${set.at}figure.html`);
+  await page.locator("slideway-live .live").waitFor({ timeout: 30_000 });
+  assert.ok(!(await page.locator("#static").isVisible()));
+  await page.locator("slideway-live .strip .count").first().waitFor({ state: "attached", timeout: 30_000 });
+  assert.match(await page.locator("slideway-live #verdict-box").textContent(), /2 solutions/);
+  await page.evaluate(() => {
+    const slider = document.querySelector("slideway-live").shadowRoot.querySelector(".strip-slider");
+    slider.value = 0.2;
+    slider.dispatchEvent(new Event("input"));
+  });
+  await page.locator("slideway-live #verdict-box[data-status=one]").waitFor();
+  assert.match(await page.locator("slideway-live a").getAttribute("href"), /#|\/$/);
+  await context.close();
+  const silent = await set.browser.newContext({ javaScriptEnabled: false });
+  const other = await silent.newPage();
+  await other.setContent(content);
+  assert.ok(await other.locator("#static").isVisible());
+  await silent.close();
+});

@@ -2,6 +2,7 @@
 //
 //     node web/tools/build.js            with the packages of package-lock.json, which npm installs if they are not there
 //     node web/tools/build.js --engine   the engine alone
+//     node web/tools/build.js --into docs/book/page   also there, beside a book with live figures
 // Exit code 3: something is missing on this machine, and said.
 //
 // The engine needs a standard library of Rust for WebAssembly: that of `rustup target add wasm32-unknown-unknown`, or, on
@@ -122,6 +123,8 @@ try {
     await gather(await bundle());
     weigh();
     say(`The page is in ${page}.`);
+    const into = process.argv.indexOf("--into");
+    if (into > 0) cpSync(page, resolve(process.argv[into + 1]), { recursive: true });
   }
 } catch (error) {
   process.stderr.write(`${error.message}\n`);

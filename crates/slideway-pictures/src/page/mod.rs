@@ -109,13 +109,15 @@ fn head(title: &str) -> String {
     HEAD.split("{{ ").map(filled).collect()
 }
 
-/// A style sheet for the drawings and parts of answers in pages of others: the colours as CSS variables, dark where
-/// the reader's machine asks for it or the root has `data-theme="dark"`, and the rules of all classes.
+/// A style sheet for the drawings and parts of answers in pages of others and in shadow trees: the colours as CSS
+/// variables, dark where the reader's machine asks for it or `data-theme` is "dark", and the rules of all classes.
 pub fn stylesheet() -> String {
     let (light, dark) = (variables(&LIGHT), variables(&DARK));
     format!(
-        ":root {{ {light} }}\n:root[data-theme=\"dark\"] {{ {dark} }}\n\
-         @media (prefers-color-scheme: dark) {{ :root:not([data-theme=\"light\"]) {{ {dark} }} }}\n{}",
+        ":root, :host {{ {light} }}\n\
+         :root[data-theme=\"dark\"], :host([data-theme=\"dark\"]) {{ {dark} }}\n\
+         @media (prefers-color-scheme: dark) {{\n  \
+         :root:not([data-theme=\"light\"]), :host(:not([data-theme=\"light\"])) {{ {dark} }}\n}}\n{}",
         rules(&Colour::variables())
     )
 }
