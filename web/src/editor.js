@@ -16,14 +16,27 @@ const colours = HighlightStyle.define([
 ]);
 
 const look = EditorView.theme({
-  "&": { backgroundColor: "var(--background)", color: "var(--ink)", border: "1px solid var(--muted)", borderRadius: "6px", fontSize: "14px" },
+  "&": {
+    backgroundColor: "var(--background)",
+    color: "var(--ink)",
+    border: "1px solid var(--muted)",
+    borderRadius: "6px",
+    fontSize: "14px",
+  },
   "&.cm-focused": { outline: "3px solid var(--reaction)", outlineOffset: "1px" },
   ".cm-scroller": { maxHeight: "70vh", fontFamily: "ui-monospace, 'DejaVu Sans Mono', monospace" },
   ".cm-gutters": { backgroundColor: "var(--background)", color: "var(--muted)", border: "none" },
   ".cm-activeLine": { backgroundColor: "color-mix(in srgb, var(--body) 50%, transparent)" },
   ".cm-cursor": { borderLeftColor: "var(--ink)" },
-  ".cm-selectionBackground, &.cm-focused .cm-selectionBackground": { backgroundColor: "color-mix(in srgb, var(--reaction) 35%, transparent) !important" },
-  ".cm-tooltip": { backgroundColor: "var(--background)", color: "var(--ink)", border: "1px solid var(--muted)", maxWidth: "40em" },
+  ".cm-selectionBackground, &.cm-focused .cm-selectionBackground": {
+    backgroundColor: "color-mix(in srgb, var(--reaction) 35%, transparent) !important",
+  },
+  ".cm-tooltip": {
+    backgroundColor: "var(--background)",
+    color: "var(--ink)",
+    border: "1px solid var(--muted)",
+    maxWidth: "40em",
+  },
 });
 
 export class Editor {

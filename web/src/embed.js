@@ -13,7 +13,7 @@ import { Drawings, showVerdict } from "./drawings.js";
 import { withUnit } from "./numbers.js";
 import { State } from "./state.js";
 import { Strip } from "./strip.js";
-import { Engine, Newest, load } from "./workers.js";
+import { Engine, Newest, Turns, load } from "./workers.js";
 
 const here = (name) => new URL(name, import.meta.url).href;
 let asked;
@@ -21,31 +21,17 @@ let asked;
 /** What all figures of a page share: an engine for questions that take longer, and the models to begin with. */
 async function begin() {
   const module = await load(here("engine.wasm"));
-  const slow = new Engine(module, here("worker.js"));
-  const { answer: library } = await slow.ask({ ask: "library" });
-  return { module, slow: new Turns(slow), library };
-}
-
-/** An engine that answers one question after the other. */
-class Turns {
-  #engine;
-  #last = Promise.resolve();
-
-  constructor(engine) {
-    this.#engine = engine;
-  }
-
-  ask(question) {
-    const answer = this.#last.then(() => this.#engine.ask(question));
-    this.#last = answer.catch(() => {});
-    return answer;
-  }
+  const slow = new Turns(new Engine(module, here("worker.js")));
+  const { answer: library } = await slow.ask("library", { ask: "library" });
+  return { module, slow, library };
 }
 
 /** Whether the page around an element is dark. */
 function isDark(place) {
   for (let at = place; at; at = at.parentElement) {
-    const [red, green, blue, alpha = 1] = getComputedStyle(at).backgroundColor.match(/[\d.]+/g).map(Number);
+    const [red, green, blue, alpha = 1] = getComputedStyle(at)
+      .backgroundColor.match(/[\d.]+/g)
+      .map(Number);
     if (alpha > 0) return 0.299 * red + 0.587 * green + 0.114 * blue < 128;
   }
   return false;
@@ -56,15 +42,23 @@ class Live extends HTMLElement {
   #quantity;
   #drawings;
   #strip;
-  #parts = { box: element("div", { id: "verdict-box" }), verdict: element("h2", { role: "status" }), certainty: element("p"), reasons: element("ul") };
+  #parts = {
+    box: element("div", { id: "verdict-box" }),
+    verdict: element("h2", { role: "status" }),
+    certainty: element("p"),
+    reasons: element("ul"),
+  };
   #link = element("a", { href: here("./") }, "Open in the page");
 
   connectedCallback() {
-    const watch = new IntersectionObserver(([entry]) => {
-      if (!entry.isIntersecting) return;
-      watch.disconnect();
-      this.#begin().catch((error) => console.warn(error));
-    }, { rootMargin: "200px" });
+    const watch = new IntersectionObserver(
+      ([entry]) => {
+        if (!entry.isIntersecting) return;
+        watch.disconnect();
+        this.#begin().catch((error) => console.warn(error));
+      },
+      { rootMargin: "200px" },
+    );
     watch.observe(this);
   }
 
@@ -82,13 +76,19 @@ class Live extends HTMLElement {
     box.append(verdict, certainty, reasons);
     const pictures = element("div", { id: "drawings", role: "list", "aria-label": "The mechanism and its solutions" });
     const figure = element("div", { class: "live", hidden: true }, box, pictures);
-    root.append(element("link", { rel: "stylesheet", href: here("drawing.css") }), element("link", { rel: "stylesheet", href: here("style.css") }), element("slot"), figure);
-    this.#drawings = new Drawings(pictures);
-    const look = () => newest.want(
-      () => ({ question: { ask: "look", ...this.#state.asked(), margins: false } }),
-      ({ answer }) => answer && this.#show(answer, figure, slow),
-      () => {},
+    root.append(
+      element("link", { rel: "stylesheet", href: here("drawing.css") }),
+      element("link", { rel: "stylesheet", href: here("style.css") }),
+      element("slot"),
+      figure,
     );
+    this.#drawings = new Drawings(pictures);
+    const look = () =>
+      newest.want(
+        () => ({ question: { ask: "look", ...this.#state.asked(), margins: false } }),
+        ({ answer }) => answer && this.#show(answer, figure, slow),
+        () => {},
+      );
     this.#strip = new Strip(figure, (value) => {
       this.#state.changes.set(`${this.#quantity.kind} ${this.#quantity.name}`, withUnit(value, this.#quantity.unit));
       look();
@@ -115,10 +115,16 @@ class Live extends HTMLElement {
     if (isFirst) this.#limits(slow, name, range);
   }
 
-  #linked = settled(async () => { this.#link.href = `${here("./")}#${await this.#state.address()}`; }, 200);
+  #linked = settled(async () => {
+    this.#link.href = `${here("./")}#${await this.#state.address()}`;
+  }, 200);
 
   async #limits(slow, name, range) {
-    const reply = await slow.ask({ ask: "limits", ...this.#state.asked(this.#quantity), vary: `${name}=${range}` });
+    const reply = await slow.ask(this, {
+      ask: "limits",
+      ...this.#state.asked(this.#quantity),
+      vary: `${name}=${range}`,
+    });
     if (reply.answer) this.#strip.show(JSON.parse(reply.answer.json));
   }
 }

@@ -21,10 +21,19 @@ export class MapPanel {
   #wanted;
   #x = element("select", { "aria-label": "from left to right" });
   #y = element("select", { "aria-label": "from bottom to top" });
-  #colours = element("select", { "aria-label": "what the colours tell" }, ...COLOURS.map(([word, meaning]) => element("option", { value: word }, meaning)));
+  #colours = element(
+    "select",
+    { "aria-label": "what the colours tell" },
+    ...COLOURS.map(([word, meaning]) => element("option", { value: word }, meaning)),
+  );
   #draw = element("button", { type: "button" }, "Draw the map");
   #notice = element("p", { class: "quiet", role: "status" });
-  #place = element("div", { class: "map", tabindex: "0", role: "application", "aria-label": "Map; the arrow keys walk in it" });
+  #place = element("div", {
+    class: "map",
+    tabindex: "0",
+    role: "application",
+    "aria-label": "Map; the arrow keys walk in it",
+  });
   #quantities = [];
   #shown = null;
 
@@ -35,7 +44,14 @@ export class MapPanel {
     this.#ask = ask;
     this.#move = move;
     this.#wanted = wanted;
-    const controls = element("p", { class: "controls" }, element("label", {}, "From left to right ", this.#x), element("label", {}, " from bottom to top ", this.#y), element("label", {}, " colours: ", this.#colours), this.#draw);
+    const controls = element(
+      "p",
+      { class: "controls" },
+      element("label", {}, "From left to right ", this.#x),
+      element("label", {}, " from bottom to top ", this.#y),
+      element("label", {}, " colours: ", this.#colours),
+      this.#draw,
+    );
     place.append(controls, this.#notice, this.#place);
     this.#draw.addEventListener("click", () => this.draw());
     for (const event of ["pointerdown", "pointermove"]) this.#place.addEventListener(event, (at) => this.#drag(at));
@@ -48,7 +64,10 @@ export class MapPanel {
     if (shape !== JSON.stringify(this.#quantities.map(key))) {
       this.#shown = null;
       this.#place.replaceChildren();
-      const options = () => quantities.filter(({ kind }) => kind !== "rate").map((quantity) => element("option", { value: key(quantity) }, quantity.name));
+      const options = () =>
+        quantities
+          .filter(({ kind }) => kind !== "rate")
+          .map((quantity) => element("option", { value: key(quantity) }, quantity.name));
       this.#x.replaceChildren(...options());
       this.#y.replaceChildren(...options());
       const usual = quantities.filter(({ kind, is_computed }) => kind === "parameter" && !is_computed);
@@ -74,14 +93,31 @@ export class MapPanel {
       return;
     }
     const ends = axes.map((axis) => scale(axis.from, axis.to));
-    const [x, y] = axes.map((axis, index) => ({ kind: axis.kind, name: axis.name, from: ends[index].from, to: ends[index].to }));
+    const [x, y] = axes.map((axis, index) => ({
+      kind: axis.kind,
+      name: axis.name,
+      from: ends[index].from,
+      to: ends[index].to,
+    }));
     this.#wanted({ x, y, colours: this.#colours.value });
     const varied = (axis, { from, to }) => `${axis.name}=${withUnit(from, axis.unit)}..${withUnit(to, axis.unit)}`;
     this.#notice.textContent = "Drawing …";
     try {
-      const reply = await this.#ask({ ask: "map", x: varied(axes[0], ends[0]), y: varied(axes[1], ends[1]), colour_by: this.#colours.value, size: [PIXELS, PIXELS], theme: themeName() }, axes);
+      const reply = await this.#ask(
+        {
+          ask: "map",
+          x: varied(axes[0], ends[0]),
+          y: varied(axes[1], ends[1]),
+          colour_by: this.#colours.value,
+          size: [PIXELS, PIXELS],
+          theme: themeName(),
+        },
+        axes,
+      );
       if (reply.faults) {
-        this.#notice.textContent = reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("; ");
+        this.#notice.textContent = reply.faults
+          .map(({ message, hint }) => [message, hint].filter(Boolean).join(": "))
+          .join("; ");
         this.#place.replaceChildren();
         this.#shown = null;
         return;
@@ -95,7 +131,12 @@ export class MapPanel {
       const frame = svg.querySelector(".frame");
       const box = frame.getBBox();
       for (const cross of svg.querySelectorAll(".model")) cross.remove();
-      const cross = shape("g", { class: "walker" }, shape("circle", { r: 8 }), shape("path", { d: "M-13 0H13M0-13V13" }));
+      const cross = shape(
+        "g",
+        { class: "walker" },
+        shape("circle", { r: 8 }),
+        shape("path", { d: "M-13 0H13M0-13V13" }),
+      );
       svg.append(cross);
       this.#shown = { svg, box, axes, ends, cross };
       this.#mark();
@@ -113,7 +154,10 @@ export class MapPanel {
       return (value - ends[index].from) / (ends[index].to - ends[index].from);
     });
     const isInside = parts.every((part) => part >= -1e-9 && part <= 1 + 1e-9);
-    cross.setAttribute("transform", `translate(${box.x + parts[0] * box.width} ${box.y + (1 - parts[1]) * box.height})`);
+    cross.setAttribute(
+      "transform",
+      `translate(${box.x + parts[0] * box.width} ${box.y + (1 - parts[1]) * box.height})`,
+    );
     cross.setAttribute("visibility", isInside ? "visible" : "hidden");
   }
 

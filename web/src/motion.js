@@ -22,9 +22,28 @@ export class MotionPanel {
   constructor(place, ask) {
     this.#ask = ask;
     const begin = element("button", { type: "submit" }, "Follow the motion");
-    const form = element("form", { class: "controls", onsubmit: (event) => { event.preventDefault(); this.follow(); } }, element("label", {}, "until ", this.#until), begin);
+    const form = element(
+      "form",
+      {
+        class: "controls",
+        onsubmit: (event) => {
+          event.preventDefault();
+          this.follow();
+        },
+      },
+      element("label", {}, "until ", this.#until),
+      begin,
+    );
     const step = (by) => () => this.#rest(Math.min(this.#film.frames.length - 1, Math.max(0, this.#frame + by)));
-    const controls = element("p", { class: "controls" }, this.#play, element("button", { type: "button", "aria-label": "one frame back", onclick: step(-1) }, "◀"), element("button", { type: "button", "aria-label": "one frame on", onclick: step(1) }, "▶"), this.#time, this.#clock);
+    const controls = element(
+      "p",
+      { class: "controls" },
+      this.#play,
+      element("button", { type: "button", "aria-label": "one frame back", onclick: step(-1) }, "◀"),
+      element("button", { type: "button", "aria-label": "one frame on", onclick: step(1) }, "▶"),
+      this.#time,
+      this.#clock,
+    );
     this.#player.append(this.#stage, controls, this.#words, this.#log);
     place.append(form, this.#notice, this.#player);
     this.#time.addEventListener("input", () => this.#rest(Number(this.#time.value)));
@@ -51,7 +70,9 @@ export class MotionPanel {
     try {
       const reply = await this.#ask(this.#until.value);
       if (reply.faults) {
-        this.#notice.textContent = reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("; ");
+        this.#notice.textContent = reply.faults
+          .map(({ message, hint }) => [message, hint].filter(Boolean).join(": "))
+          .join("; ");
         return;
       }
       this.#show(JSON.parse(reply.answer.film), JSON.parse(reply.answer.json));
@@ -69,7 +90,13 @@ export class MotionPanel {
     this.#time.max = film.frames.length - 1;
     this.#log.replaceChildren(
       ...film.events.map(([time, words]) => {
-        const go = () => this.#rest(Math.max(0, film.frames.findIndex((frame) => frame.time >= time)));
+        const go = () =>
+          this.#rest(
+            Math.max(
+              0,
+              film.frames.findIndex((frame) => frame.time >= time),
+            ),
+          );
         return element("li", {}, element("button", { type: "button", onclick: go }, `${time.toFixed(4)} s  ${words}`));
       }),
     );
@@ -82,7 +109,10 @@ export class MotionPanel {
     const { frames, words, events, force_scale } = this.#film;
     const frame = frames[index];
     this.#frame = index;
-    this.#stage.replaceChildren(...frame.shapes.flatMap((part) => this.#parts[part].map((node) => node.cloneNode(true))), ...shapes(force_scale));
+    this.#stage.replaceChildren(
+      ...frame.shapes.flatMap((part) => this.#parts[part].map((node) => node.cloneNode(true))),
+      ...shapes(force_scale),
+    );
     this.#stage.setAttribute("aria-label", `t = ${frame.time.toFixed(4)} s: ${words[frame.words] ?? ""}`);
     this.#time.value = index;
     this.#time.setAttribute("aria-valuetext", `${frame.time.toFixed(3)} s`);

@@ -4,7 +4,11 @@
 export function short(value) {
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return value.toExponential(4).replace(/\.?0+e/, "e").replace("e+", "e");
+  if (size < 1e-4 || size >= 1e7)
+    return value
+      .toExponential(4)
+      .replace(/\.?0+e/, "e")
+      .replace("e+", "e");
   return String(Number(value.toPrecision(6)));
 }
 
@@ -22,12 +26,18 @@ export function ticks(from, to, count) {
   const step = round((to - from) / count);
   const first = Math.ceil(from / step - 1e-9);
   const last = Math.floor(to / step + 1e-9);
-  return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => Number(((first + index) * step).toPrecision(12)));
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) =>
+    Number(((first + index) * step).toPrecision(12)),
+  );
 }
 
 /** Ends and step of a slider between about these ends. */
 export function scale(from, to) {
   const step = round((to - from) / 200);
   const tidy = (value) => Number(value.toPrecision(12));
-  return { from: tidy(Math.floor(from / step + 1e-9) * step), to: tidy(Math.ceil(to / step - 1e-9) * step), step: tidy(step) };
+  return {
+    from: tidy(Math.floor(from / step + 1e-9) * step),
+    to: tidy(Math.ceil(to / step - 1e-9) * step),
+    step: tidy(step),
+  };
 }

@@ -10,7 +10,7 @@ import { scale, withUnit } from "./numbers.js";
 import { Sliders, key } from "./sliders.js";
 import { State } from "./state.js";
 import { Strip } from "./strip.js";
-import { Ended, Engine, Newest, load } from "./workers.js";
+import { Ended, Engine, Newest, Turns, load } from "./workers.js";
 
 /** A file larger than this is not read: no model is. */
 const LARGEST_FILE = 4 << 20;
@@ -20,7 +20,7 @@ const REST = 250;
 const module = await load("engine.wasm");
 /** One engine follows what is dragged, the other answers what takes longer. */
 const live = new Engine(module, "worker.js");
-const slow = new Engine(module, "worker.js");
+const slow = new Turns(new Engine(module, "worker.js"));
 const newest = new Newest(live);
 const library = (await live.ask({ ask: "library" })).answer;
 
@@ -28,7 +28,12 @@ let state = await State.of(location.hash.slice(1), library);
 /** What the engine said last, of which text and settings. */
 let look = null;
 
-const parts = { box: byId("verdict-box"), verdict: byId("verdict"), certainty: byId("certainty"), reasons: byId("reasons") };
+const parts = {
+  box: byId("verdict-box"),
+  verdict: byId("verdict"),
+  certainty: byId("certainty"),
+  reasons: byId("reasons"),
+};
 const drawings = new Drawings(byId("drawings"));
 const sliders = new Sliders(byId("sliders"), changed);
 const editor = new Editor(byId("editor"), settled(edited, 120));
@@ -36,7 +41,10 @@ const strip = new Strip(byId("strip"), (value) => changed(varied(), withUnit(val
 const map = new MapPanel(byId("panel-map"), {
   ask: (question, axes) => slowly({ ...question, ...state.asked(...axes) }),
   move: (moves) => changedAll(moves.map(([quantity, value]) => [quantity, withUnit(value, quantity.unit)])),
-  wanted: (wanted) => { state.map = wanted; remember(); },
+  wanted: (wanted) => {
+    state.map = wanted;
+    remember();
+  },
 });
 const motion = new MotionPanel(byId("panel-motion"), (until) => {
   state.until = until;
@@ -48,11 +56,15 @@ const motion = new MotionPanel(byId("panel-motion"), (until) => {
 
 /** Shows the present state, and all that follows from it. */
 function refresh() {
-  const wanted = (margins) => newest.want(
-    () => ({ question: { ask: "look", ...state.asked(), margins }, options: { seconds: 10, progress: showProgress } }),
-    took,
-    failed,
-  );
+  const wanted = (margins) =>
+    newest.want(
+      () => ({
+        question: { ask: "look", ...state.asked(), margins },
+        options: { seconds: 10, progress: showProgress },
+      }),
+      took,
+      failed,
+    );
   wanted(false);
   thoroughly(wanted);
   byId("command").textContent = state.command();
@@ -119,7 +131,10 @@ function showFaults(faults, question) {
   byId("drawings").classList.toggle("stale", errors.length > 0);
   if (errors.length > 0) {
     parts.box.dataset.status = "faults";
-    parts.verdict.textContent = errors.length === 1 ? "✎ One fault in the model or the values" : `✎ ${errors.length} faults in the model or the values`;
+    parts.verdict.textContent =
+      errors.length === 1
+        ? "✎ One fault in the model or the values"
+        : `✎ ${errors.length} faults in the model or the values`;
     parts.certainty.textContent = "";
     parts.reasons.replaceChildren(...errors.slice(0, 5).map(({ message }) => element("li", {}, message)));
   }
@@ -130,7 +145,14 @@ function showFaults(faults, question) {
       const words = [fault.message, fault.hint].filter(Boolean).join(" – ");
       const line = element("li", { class: fault.is_warning ? "warning" : "error" });
       if (fault.place?.text !== "model") line.append(words);
-      else line.append(element("button", { type: "button", onclick: () => editor.goTo(fault.place) }, `${lineOf(question.text, fault.place.from)}: ${words}`));
+      else
+        line.append(
+          element(
+            "button",
+            { type: "button", onclick: () => editor.goTo(fault.place) },
+            `${lineOf(question.text, fault.place.from)}: ${words}`,
+          ),
+        );
       return line;
     }),
   );
@@ -149,7 +171,7 @@ function showProgress({ done, fraction, counted }) {
 /** The reply of the engine for what takes longer, with its progress. */
 async function slowly(question) {
   try {
-    return await slow.ask(question, { seconds: 60, progress: showProgress });
+    return await slow.ask(question.ask, question, { seconds: 60, progress: showProgress });
   } finally {
     byId("work").hidden = true;
   }
@@ -157,7 +179,7 @@ async function slowly(question) {
 
 byId("stop").addEventListener("click", () => {
   live.cancel();
-  slow.cancel();
+  slow.end();
 });
 
 // ---- What is changed
@@ -209,12 +231,19 @@ byId("reset").addEventListener("click", () => {
   refresh();
 });
 
-for (const [kind, title] of [["gallery", "Gallery"], ["template", "Templates"]]) {
-  const options = library.filter((entry) => entry.kind === kind).map((entry) => element("option", { value: `${kind}:${entry.name}`, title: entry.shows }, entry.summary));
+for (const [kind, title] of [
+  ["gallery", "Gallery"],
+  ["template", "Templates"],
+]) {
+  const options = library
+    .filter((entry) => entry.kind === kind)
+    .map((entry) => element("option", { value: `${kind}:${entry.name}`, title: entry.shows }, entry.summary));
   byId("pick").append(element("optgroup", { label: title }, ...options));
 }
 byId("pick").prepend(element("option", { value: "", disabled: true }, "a text of one's own"));
-byId("pick").addEventListener("change", async () => begin(await State.of(new URLSearchParams({ model: byId("pick").value }), library)));
+byId("pick").addEventListener("change", async () =>
+  begin(await State.of(new URLSearchParams({ model: byId("pick").value }), library)),
+);
 
 byId("open").addEventListener("click", () => byId("file").click());
 byId("file").addEventListener("change", () => openFile(byId("file").files[0]));
@@ -233,9 +262,21 @@ async function openFile(file) {
 // ---- The strip
 
 const choice = element("select", { id: "vary" });
-const ends = [0, 1].map((index) => element("input", { type: "text", class: "field", inputmode: "decimal", "aria-label": index ? "to" : "from" }));
+const ends = [0, 1].map((index) =>
+  element("input", { type: "text", class: "field", inputmode: "decimal", "aria-label": index ? "to" : "from" }),
+);
 const endUnit = element("span", { class: "unit" });
-byId("strip").before(element("p", { class: "controls" }, element("label", {}, "over ", choice), element("label", {}, " from ", ends[0]), element("label", {}, " to ", ends[1]), " ", endUnit));
+byId("strip").before(
+  element(
+    "p",
+    { class: "controls" },
+    element("label", {}, "over ", choice),
+    element("label", {}, " from ", ends[0]),
+    element("label", {}, " to ", ends[1]),
+    " ",
+    endUnit,
+  ),
+);
 let limitsOf = "";
 
 /** The quantity along the strip. */
@@ -273,7 +314,11 @@ const askLimits = settled(async () => {
   const quantity = varied();
   if (!quantity) return;
   const { name, from, to } = state.strip;
-  const question = { ask: "limits", ...state.asked(quantity), vary: `${name}=${withUnit(from, quantity.unit)}..${withUnit(to, quantity.unit)}` };
+  const question = {
+    ask: "limits",
+    ...state.asked(quantity),
+    vary: `${name}=${withUnit(from, quantity.unit)}..${withUnit(to, quantity.unit)}`,
+  };
   const asked = JSON.stringify(question);
   if (asked === limitsOf) return;
   limitsOf = asked;
@@ -327,7 +372,10 @@ function openTab(name) {
 }
 
 for (const tab of tabs) {
-  tab.addEventListener("click", () => { openTab(nameOf(tab)); remember(); });
+  tab.addEventListener("click", () => {
+    openTab(nameOf(tab));
+    remember();
+  });
   tab.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!step) return;
@@ -346,7 +394,9 @@ const showRest = settled(async () => {
   for (const [title, ask] of questions) {
     try {
       const reply = await slowly({ ask, ...state.asked() });
-      const text = reply.faults ? reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("\n") : reply.answer.text;
+      const text = reply.faults
+        ? reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("\n")
+        : reply.answer.text;
       told.push(element("h3", {}, title), element("pre", { tabindex: "0" }, text));
     } catch (error) {
       told.push(element("p", {}, error.message));
@@ -383,7 +433,9 @@ async function copy(text, button, done) {
   } catch {
     button.textContent = "Not allowed here";
   }
-  setTimeout(() => { button.textContent = before; }, 1500);
+  setTimeout(() => {
+    button.textContent = before;
+  }, 1500);
 }
 
 const offers = {
@@ -392,7 +444,12 @@ const offers = {
   png: async (name) => save(await pixels(await drawn()), `${name}.png`, "image/png"),
   csv: async (name) => save((await answered({ ask: "solve" })).csv, `${name}.csv`, "text/csv"),
   json: async (name) => save((await answered({ ask: "solve" })).json, `${name}.json`, "application/json"),
-  motion: async (name) => save((await answered({ ask: "simulate", until: state.until || "2 s", table: true })).csv, `${name}-motion.csv`, "text/csv"),
+  motion: async (name) =>
+    save(
+      (await answered({ ask: "simulate", until: state.until || "2 s", table: true })).csv,
+      `${name}-motion.csv`,
+      "text/csv",
+    ),
   command: (_, button) => copy(state.command(), button, "Copied"),
 };
 
@@ -428,4 +485,5 @@ paint();
 
 begin(state);
 
-if ("serviceWorker" in navigator && location.protocol !== "file:") navigator.serviceWorker.register("service.js").catch(() => {});
+if ("serviceWorker" in navigator && location.protocol !== "file:")
+  navigator.serviceWorker.register("service.js").catch(() => {});

@@ -23,7 +23,9 @@ export class Sliders {
 
   /** Shows what there is, with the texts of what was changed. */
   show(quantities, changes) {
-    const shape = JSON.stringify(quantities.map(({ kind, name, unit, is_computed, meaning }) => [kind, name, unit, is_computed, meaning]));
+    const shape = JSON.stringify(
+      quantities.map(({ kind, name, unit, is_computed, meaning }) => [kind, name, unit, is_computed, meaning]),
+    );
     if (shape !== this.#shape) {
       this.#shape = shape;
       this.#build(quantities);
@@ -76,10 +78,24 @@ class Row {
     const id = `value-${quantity.kind}-${encodeURIComponent(quantity.name)}`;
     const name = quantity.kind === "rate" ? `rate of ${quantity.name}` : quantity.name;
     this.#slider = element("input", { type: "range", id, "aria-describedby": `${id}-meaning ${id}-fault` });
-    this.#field = element("input", { type: "text", class: "field", inputmode: "decimal", "aria-label": `${name}, typed`, autocomplete: "off", spellcheck: "false", "aria-describedby": `${id}-fault` });
-    this.#back = element("button", { type: "button", class: "back", title: "as in the file", "aria-label": `${name} as in the file`, hidden: true }, "↺");
+    this.#field = element("input", {
+      type: "text",
+      class: "field",
+      inputmode: "decimal",
+      "aria-label": `${name}, typed`,
+      autocomplete: "off",
+      spellcheck: "false",
+      "aria-describedby": `${id}-fault`,
+    });
+    this.#back = element(
+      "button",
+      { type: "button", class: "back", title: "as in the file", "aria-label": `${name} as in the file`, hidden: true },
+      "↺",
+    );
     this.#fault = element("p", { class: "fault", id: `${id}-fault` });
-    this.#slider.addEventListener("input", () => change(this.#quantity, withUnit(Number(this.#slider.value), this.#quantity.unit)));
+    this.#slider.addEventListener("input", () =>
+      change(this.#quantity, withUnit(Number(this.#slider.value), this.#quantity.unit)),
+    );
     this.#field.addEventListener("change", () => {
       const text = this.#field.value.trim();
       const bare = text !== "" && Number.isFinite(Number(text));

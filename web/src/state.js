@@ -23,10 +23,12 @@ export class State {
   /** Settings of a question; without those of some quantities. */
   settings(...without) {
     const left = without.map(({ kind, name }) => `${kind} ${name}`);
-    return [...this.changes].filter(([key]) => !left.includes(key)).map(([key, value]) => {
-      const [kind, ...name] = key.split(" ");
-      return { kind, name: name.join(" "), value };
-    });
+    return [...this.changes]
+      .filter(([key]) => !left.includes(key))
+      .map(([key, value]) => {
+        const [kind, ...name] = key.split(" ");
+        return { kind, name: name.join(" "), value };
+      });
   }
 
   /** What is asked about, for a question. */
@@ -111,7 +113,8 @@ async function packed(text) {
   const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
   let binary = "";
-  for (let start = 0; start < bytes.length; start += 0x8000) binary += String.fromCharCode(...bytes.subarray(start, start + 0x8000));
+  for (let start = 0; start < bytes.length; start += 0x8000)
+    binary += String.fromCharCode(...bytes.subarray(start, start + 0x8000));
   return btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 

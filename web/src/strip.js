@@ -100,7 +100,10 @@ export class Strip {
     const label = this.#line.querySelector("text");
     label.textContent = withUnit(value, this.#quantity.unit);
     label.setAttribute("text-anchor", x > this.#width - 60 ? "end" : x < LEFT + 40 ? "start" : "middle");
-    this.#slider.setAttribute("aria-valuetext", `${withUnit(value, this.#quantity.unit)}; ${countAt(this.#report, value * this.#quantity.scale)}`);
+    this.#slider.setAttribute(
+      "aria-valuetext",
+      `${withUnit(value, this.#quantity.unit)}; ${countAt(this.#report, value * this.#quantity.scale)}`,
+    );
   }
 
   #draw() {
@@ -115,30 +118,91 @@ export class Strip {
     const of = (value) => this.#place(value / this.#quantity.scale);
     const bottom = TOP + ROW * Math.max(1, patterns.length);
     for (const { from, to, solutions } of this.#report?.counts ?? []) {
-      if (solutions === 0) this.#svg.append(shape("rect", { class: "none", x: of(from), y: TOP, width: Math.max(1, of(to) - of(from)), height: bottom - TOP + COUNTS, fill: "url(#hatching)" }));
+      if (solutions === 0)
+        this.#svg.append(
+          shape("rect", {
+            class: "none",
+            x: of(from),
+            y: TOP,
+            width: Math.max(1, of(to) - of(from)),
+            height: bottom - TOP + COUNTS,
+            fill: "url(#hatching)",
+          }),
+        );
     }
     for (const { from, to, reason } of this.#report?.without_mode_problem ?? []) {
-      const gap = shape("rect", { class: "without", x: of(from), y: TOP, width: Math.max(1, of(to) - of(from)), height: bottom - TOP + COUNTS }, shape("title", {}, reason));
+      const gap = shape(
+        "rect",
+        { class: "without", x: of(from), y: TOP, width: Math.max(1, of(to) - of(from)), height: bottom - TOP + COUNTS },
+        shape("title", {}, reason),
+      );
       this.#svg.append(gap);
-      if (of(to) - of(from) > 90) this.#svg.append(label("count-text quiet", (of(from) + of(to)) / 2, bottom + 20, "middle", "no answer"));
+      if (of(to) - of(from) > 90)
+        this.#svg.append(label("count-text quiet", (of(from) + of(to)) / 2, bottom + 20, "middle", "no answer"));
     }
     for (const mode of modes) {
       const row = patterns.indexOf(mode.pattern);
-      const [from, to] = [mode.from ?? this.#vary.from * this.#quantity.scale, mode.to ?? this.#vary.to * this.#quantity.scale].map(of);
-      this.#svg.append(shape("rect", { class: `mode series-${row % COLOURS}${mode.preload_gap ? " gap" : ""}`, x: from, y: TOP + ROW * row + 4, width: Math.max(2, to - from), height: ROW - 8, rx: 3 }));
+      const [from, to] = [
+        mode.from ?? this.#vary.from * this.#quantity.scale,
+        mode.to ?? this.#vary.to * this.#quantity.scale,
+      ].map(of);
+      this.#svg.append(
+        shape("rect", {
+          class: `mode series-${row % COLOURS}${mode.preload_gap ? " gap" : ""}`,
+          x: from,
+          y: TOP + ROW * row + 4,
+          width: Math.max(2, to - from),
+          height: ROW - 8,
+          rx: 3,
+        }),
+      );
     }
-    patterns.forEach((pattern, row) => this.#svg.append(label("pattern", LEFT - 8, TOP + ROW * (row + 0.5) + 5, "end", signs(pattern))));
+    patterns.forEach((pattern, row) =>
+      this.#svg.append(label("pattern", LEFT - 8, TOP + ROW * (row + 0.5) + 5, "end", signs(pattern))),
+    );
     for (const { from, to, solutions } of this.#report?.counts ?? []) {
       const [start, end] = [of(from), of(to)];
-      this.#svg.append(shape("rect", { class: `count count-${Math.min(solutions, 3)}`, x: start, y: bottom + 4, width: Math.max(1, end - start - 1), height: COUNTS - 12 }));
-      if (end - start > 16) this.#svg.append(label("count-text", (start + end) / 2, bottom + 20, "middle", end - start > 90 ? (solutions === 1 ? "1 solution" : solutions === 0 ? "no solution" : `${solutions} solutions`) : String(solutions)));
+      this.#svg.append(
+        shape("rect", {
+          class: `count count-${Math.min(solutions, 3)}`,
+          x: start,
+          y: bottom + 4,
+          width: Math.max(1, end - start - 1),
+          height: COUNTS - 12,
+        }),
+      );
+      if (end - start > 16)
+        this.#svg.append(
+          label(
+            "count-text",
+            (start + end) / 2,
+            bottom + 20,
+            "middle",
+            end - start > 90
+              ? solutions === 1
+                ? "1 solution"
+                : solutions === 0
+                  ? "no solution"
+                  : `${solutions} solutions`
+              : String(solutions),
+          ),
+        );
     }
     this.#svg.append(label("pattern", LEFT - 8, bottom + 20, "end", "solutions"));
     for (const value of ticks(this.#vary.from, this.#vary.to, Math.max(3, width / 110))) {
       const x = this.#place(value);
-      this.#svg.append(shape("line", { class: "tick", x1: x, x2: x, y1: bottom + COUNTS - 6, y2: bottom + COUNTS }), label("tick-text", x, bottom + COUNTS + 14, "middle", short(value)));
+      this.#svg.append(
+        shape("line", { class: "tick", x1: x, x2: x, y1: bottom + COUNTS - 6, y2: bottom + COUNTS }),
+        label("tick-text", x, bottom + COUNTS + 14, "middle", short(value)),
+      );
     }
-    this.#line = shape("g", { class: "present" }, shape("line", { y1: 16, y2: bottom + COUNTS - 6 }), shape("circle", { cy: bottom + COUNTS - 6, r: 7 }), shape("text", { y: 12 }));
+    this.#line = shape(
+      "g",
+      { class: "present" },
+      shape("line", { y1: 16, y2: bottom + COUNTS - 6 }),
+      shape("circle", { cy: bottom + COUNTS - 6, r: 7 }),
+      shape("text", { y: 12 }),
+    );
     this.#svg.append(this.#line);
     this.#mark(this.#quantity.value);
   }
@@ -147,20 +211,35 @@ export class Strip {
 const label = (name, x, y, anchor, text) => shape("text", { class: name, x, y, "text-anchor": anchor }, text);
 
 function hatching() {
-  const pattern = shape("pattern", { id: "hatching", width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, shape("line", { class: "hatching", x1: 0, x2: 0, y1: 0, y2: 7 }));
+  const pattern = shape(
+    "pattern",
+    { id: "hatching", width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+    shape("line", { class: "hatching", x1: 0, x2: 0, y1: 0, y2: 7 }),
+  );
   return shape("defs", {}, pattern);
 }
 
 /** How many solutions there are at a value (SI units), in words. */
 function countAt(report, value) {
   const found = report?.counts.find(({ from, to }) => from <= value && value <= to);
-  return !found ? "" : found.solutions === 1 ? "one solution" : found.solutions === 0 ? "no solution" : `${found.solutions} solutions`;
+  return !found
+    ? ""
+    : found.solutions === 1
+      ? "one solution"
+      : found.solutions === 0
+        ? "no solution"
+        : `${found.solutions} solutions`;
 }
 
 /** The strip for those who do not see it. */
 function inWords(report, { unit, scale }, { name }) {
   const value = (si) => withUnit(si / scale, unit);
-  const counts = report.counts.map(({ from, to, solutions }) => `from ${value(from)} to ${value(to)} ${solutions === 0 ? "no solution" : solutions === 1 ? "one solution" : `${solutions} solutions`}`);
-  const without = report.without_mode_problem.map(({ from, to, reason }) => `from ${value(from)} to ${value(to)} there is no answer: ${reason}`);
+  const counts = report.counts.map(
+    ({ from, to, solutions }) =>
+      `from ${value(from)} to ${value(to)} ${solutions === 0 ? "no solution" : solutions === 1 ? "one solution" : `${solutions} solutions`}`,
+  );
+  const without = report.without_mode_problem.map(
+    ({ from, to, reason }) => `from ${value(from)} to ${value(to)} there is no answer: ${reason}`,
+  );
   return `${name}: ${[...counts, ...without].join("; ")}.`;
 }

@@ -31,7 +31,12 @@ onmessage = async ({ data }) => {
   deadline = told + 1000 * data.seconds;
   try {
     const reply = ask(data.question);
-    postMessage({ number: data.number, reply, milliseconds: performance.now() - told, ended: performance.now() > deadline });
+    postMessage({
+      number: data.number,
+      reply,
+      milliseconds: performance.now() - told,
+      ended: performance.now() > deadline,
+    });
   } catch (error) {
     postMessage({ number: data.number, broken: error.message });
   }

@@ -140,3 +140,42 @@ export class Newest {
     this.#running = false;
   }
 }
+
+/**
+ * Asks one question after the other. One of the same kind as another that has no answer yet takes its place: that one is
+ * ended.
+ */
+export class Turns {
+  #engine;
+  #waiting = [];
+  #running = null;
+
+  constructor(engine) {
+    this.#engine = engine;
+  }
+
+  /** The answer to a question of a kind. */
+  ask(kind, question, options) {
+    this.end(kind);
+    return new Promise((resolve, reject) => {
+      this.#waiting.push({ kind, question, options, resolve, reject });
+      this.#run();
+    });
+  }
+
+  /** Ends the questions of a kind; all of them without one. */
+  end(kind) {
+    const isMeant = (turn) => kind === undefined || turn.kind === kind;
+    for (const turn of this.#waiting.filter(isMeant)) turn.reject(new Ended("ended"));
+    this.#waiting = this.#waiting.filter((turn) => !isMeant(turn));
+    if (this.#running && isMeant(this.#running)) this.#engine.cancel();
+  }
+
+  async #run() {
+    if (this.#running || this.#waiting.length === 0) return;
+    const turn = (this.#running = this.#waiting.shift());
+    await this.#engine.ask(turn.question, turn.options).then(turn.resolve, turn.reject);
+    this.#running = null;
+    this.#run();
+  }
+}

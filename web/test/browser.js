@@ -10,13 +10,18 @@ const NAMES = ["chromium", "chromium-browser", "google-chrome", "google-chrome-s
 
 /** The program: the one that CHROMIUM names, or the first of the usual names on the path. */
 export function browserProgram() {
-  const found = process.env.PATH.split(delimiter).flatMap((place) => NAMES.map((name) => resolve(place, name))).find(existsSync);
+  const found = process.env.PATH.split(delimiter)
+    .flatMap((place) => NAMES.map((name) => resolve(place, name)))
+    .find(existsSync);
   const program = process.env.CHROMIUM ?? found;
-  if (!program && process.env.SLIDEWAY_REQUIRE_BROWSER) throw new Error("SLIDEWAY_REQUIRE_BROWSER is set, but there is no Chromium: install it or name it in CHROMIUM");
+  if (!program && process.env.SLIDEWAY_REQUIRE_BROWSER)
+    throw new Error("SLIDEWAY_REQUIRE_BROWSER is set, but there is no Chromium: install it or name it in CHROMIUM");
   return program;
 }
 
-export const skip = browserProgram() ? false : "there is no Chromium on this machine; name one in CHROMIUM to run these tests";
+export const skip = browserProgram()
+  ? false
+  : "there is no Chromium on this machine; name one in CHROMIUM to run these tests";
 
 /** A browser and a server for the tests of a file. */
 export function setUp() {
@@ -52,18 +57,28 @@ export function setUp() {
 }
 
 /** Waits until the page shows a state, or what is wrong with it. */
-export const settled = (page) => page.waitForFunction(() => ["shown", "faults", "failed"].includes(document.documentElement.dataset.state), null, { timeout: 30_000 });
+export const settled = (page) =>
+  page.waitForFunction(() => ["shown", "faults", "failed"].includes(document.documentElement.dataset.state), null, {
+    timeout: 30_000,
+  });
 
 /** Waits until the verdict is of this kind. */
-export const verdict = (page, status) => page.waitForFunction((wanted) => document.getElementById("verdict-box").dataset.status === wanted, status, { timeout: 30_000 });
+export const verdict = (page, status) =>
+  page.waitForFunction((wanted) => document.getElementById("verdict-box").dataset.status === wanted, status, {
+    timeout: 30_000,
+  });
 
 /** Waits until the strip shows limits. */
-export const limits = (page) => page.waitForFunction(() => document.querySelectorAll(".strip .count").length > 0, null, { timeout: 60_000 });
+export const limits = (page) =>
+  page.waitForFunction(() => document.querySelectorAll(".strip .count").length > 0, null, { timeout: 60_000 });
 
 /** Moves a slider as a finger does: to a value, without waiting for answers. */
 export const slide = (page, selector, value) =>
-  page.evaluate(([of, to]) => {
-    const slider = document.querySelector(of);
-    slider.value = to;
-    slider.dispatchEvent(new Event("input", { bubbles: true }));
-  }, [selector, value]);
+  page.evaluate(
+    ([of, to]) => {
+      const slider = document.querySelector(of);
+      slider.value = to;
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+    },
+    [selector, value],
+  );

@@ -17,7 +17,12 @@ const setting = (kind, name, value) => ({ kind, name, value });
 /** What the command line prints, whatever its exit code says of the answer. */
 function told(...words) {
   try {
-    return execFileSync(program(), words, { cwd: top, encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] });
+    return execFileSync(program(), words, {
+      cwd: top,
+      encoding: "utf8",
+      maxBuffer: 1 << 28,
+      stdio: ["ignore", "pipe", "ignore"],
+    });
   } catch (error) {
     return error.stdout;
   }
@@ -34,7 +39,8 @@ const RESIDUALS = /^(residual|residual_force|residual_moment|energy_drift|.*_dri
 /** The greatest size of numbers under each key. */
 function sizes(value, key = "", found = {}) {
   if (typeof value === "number") found[key] = Math.max(found[key] ?? 0, Math.abs(value));
-  else if (value && typeof value === "object") for (const [name, part] of Object.entries(value)) sizes(part, Array.isArray(value) ? key : name, found);
+  else if (value && typeof value === "object")
+    for (const [name, part] of Object.entries(value)) sizes(part, Array.isArray(value) ? key : name, found);
   return found;
 }
 
@@ -45,7 +51,8 @@ function assertAlike(one, other, size, place = "", key = "") {
     assert.ok(Math.abs(one - other) <= bound, `${place}: ${one} and ${other}`);
   } else if (one && other && typeof one === "object" && typeof other === "object") {
     assert.deepEqual(Object.keys(one), Object.keys(other), place);
-    for (const name of Object.keys(one)) assertAlike(one[name], other[name], size, `${place}.${name}`, Array.isArray(one) ? key : name);
+    for (const name of Object.keys(one))
+      assertAlike(one[name], other[name], size, `${place}.${name}`, Array.isArray(one) ? key : name);
   } else {
     assert.equal(one, other, place);
   }
@@ -81,15 +88,30 @@ for (const name of models) {
 }
 
 test("settings count as on the command line", () => {
-  const asked = { text: text("klepp-2002.toml"), settings: [setting("parameter", "F_20", "0"), setting("parameter", "mu_1", "0.6")] };
-  const json = assertSame({ ask: "solve", ...asked }, "solve", "models/klepp-2002.toml", "--set", "F_20=0", "--set", "mu_1=0.6");
+  const asked = {
+    text: text("klepp-2002.toml"),
+    settings: [setting("parameter", "F_20", "0"), setting("parameter", "mu_1", "0.6")],
+  };
+  const json = assertSame(
+    { ask: "solve", ...asked },
+    "solve",
+    "models/klepp-2002.toml",
+    "--set",
+    "F_20=0",
+    "--set",
+    "mu_1=0.6",
+  );
   assert.equal(JSON.parse(json).count, "2");
 });
 
 test("a motion is told as on the command line", () => {
   const question = { ask: "simulate", text: text("stick-slip.toml"), until: "3 s", frames: true, table: true };
   const reply = ask(question);
-  assertSameJson(reply.answer.json, told("simulate", "models/stick-slip.toml", "--until", "3 s", "--format", "json"), "simulate");
+  assertSameJson(
+    reply.answer.json,
+    told("simulate", "models/stick-slip.toml", "--until", "3 s", "--format", "json"),
+    "simulate",
+  );
   const film = JSON.parse(reply.answer.film);
   assert.ok(film.frames.length > 50);
   assert.match(reply.answer.csv, /^t \(s\),/);

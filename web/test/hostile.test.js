@@ -37,7 +37,11 @@ async function assertAlive(page) {
   assert.equal(await page.evaluate(() => 1 + 1), 2);
   assert.ok(Date.now() - start < 1000, "the page is frozen");
   await page.selectOption("#pick", "gallery:wedge");
-  await page.waitForFunction(() => document.title.startsWith("A wedge") || document.getElementById("about").textContent.includes("edge"), null, { timeout: 30_000 });
+  await page.waitForFunction(
+    () => document.title.startsWith("A wedge") || document.getElementById("about").textContent.includes("edge"),
+    null,
+    { timeout: 30_000 },
+  );
 }
 
 test("scripts in titles, names and comments stay texts", { skip }, async () => {
@@ -57,12 +61,17 @@ test("scripts in titles, names and comments stay texts", { skip }, async () => {
   await verdict(page, "faults");
   assert.equal(await page.locator("main b").count(), 0);
   await assertAlive(page);
-  assert.deepEqual(page.complaints.filter((line) => line.includes("dialog")), []);
+  assert.deepEqual(
+    page.complaints.filter((line) => line.includes("dialog")),
+    [],
+  );
   await page.context().close();
 });
 
 test("addresses with scripts stay texts", { skip }, async () => {
-  const page = await set.open("#model=<script>window.harm=1</script>&set=<img%20src=x%20onerror=alert(1)>%3D1&text=%00&tab=<b>&vary=a~<b>~0~1");
+  const page = await set.open(
+    "#model=<script>window.harm=1</script>&set=<img%20src=x%20onerror=alert(1)>%3D1&text=%00&tab=<b>&vary=a~<b>~0~1",
+  );
   assert.equal(await page.evaluate(() => window.harm), undefined);
   await assertAlive(page);
   await page.context().close();
@@ -104,7 +113,9 @@ test("deep nesting is refused", { skip }, async () => {
 test("an endless search can be stopped, and stops by itself", { skip }, async () => {
   const page = await set.open();
   const count = 60;
-  const bodies = Array.from({ length: count }, (_, index) => `
+  const bodies = Array.from(
+    { length: count },
+    (_, index) => `
 [bodies.b${index}]
 mass = "1 kg"
 centre_of_mass = [${index}, 0.1]
@@ -120,7 +131,8 @@ mu = 1.9
 [coordinates.x${index}]
 slide = "j${index}"
 rate = ${index % 2 ? 1 : -1}
-`).join("");
+`,
+  ).join("");
   await drop(page, `gravity = "9.81 m/s^2"\n${bodies}`);
   await assertAlive(page);
   await page.context().close();

@@ -8,17 +8,22 @@ import { top } from "../tools/places.js";
 import { limits, setUp, settled, skip, slide, verdict } from "./browser.js";
 
 const set = setUp();
-const gallery = readdirSync(resolve(top, "models")).filter((name) => name.endsWith(".toml")).map((name) => name.slice(0, -".toml".length));
+const gallery = readdirSync(resolve(top, "models"))
+  .filter((name) => name.endsWith(".toml"))
+  .map((name) => name.slice(0, -".toml".length));
 const text = (name) => readFileSync(resolve(top, "models", `${name}.toml`), "utf8");
 
 /** Puts a text into the editor as if it were dropped there. */
 async function drop(page, content, name = "own.toml") {
-  await page.evaluate(([of, called]) => {
-    document.documentElement.dataset.state = "dropped";
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([of], called));
-    dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-  }, [content, name]);
+  await page.evaluate(
+    ([of, called]) => {
+      document.documentElement.dataset.state = "dropped";
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([of], called));
+      dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    },
+    [content, name],
+  );
   await settled(page);
 }
 
@@ -27,7 +32,9 @@ const close = (page) => page.context().close();
 test("every model of the gallery is shown, and nothing is complained of", { skip }, async () => {
   const page = await set.open();
   for (const name of gallery) {
-    await page.evaluate(() => { document.documentElement.dataset.state = "chosen"; });
+    await page.evaluate(() => {
+      document.documentElement.dataset.state = "chosen";
+    });
     await page.selectOption("#pick", `gallery:${name}`);
     await settled(page);
     assert.equal(await page.evaluate(() => document.documentElement.dataset.state), "shown", name);
@@ -47,7 +54,10 @@ test("the drawer jams where its limit says", { skip }, async () => {
   await slide(page, ".strip-slider", "0.67");
   await verdict(page, "none");
   assert.match(await page.textContent("#verdict"), /No solution/);
-  assert.match(await page.textContent(".strip-box .words"), /from 0 to 0.666667 one solution; from 0.666667 to 1 no solution/);
+  assert.match(
+    await page.textContent(".strip-box .words"),
+    /from 0 to 0.666667 one solution; from 0.666667 to 1 no solution/,
+  );
   await close(page);
 });
 
@@ -96,7 +106,7 @@ test("a mistake in a value is told beside it", { skip }, async () => {
 
 test("a link shows a colleague the same", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer");
-  const edited = text("drawer").replace("A drawer pushed off-centre\"", "Ein Schübchen 🗄\"");
+  const edited = text("drawer").replace('A drawer pushed off-centre"', 'Ein Schübchen 🗄"');
   await drop(page, edited);
   await slide(page, "[id='value-parameter-mu']", "0.8");
   await verdict(page, "none");
@@ -111,12 +121,14 @@ test("a link shows a colleague the same", { skip }, async () => {
 
 test("a page that changes its address shows what stands there", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer");
-  await page.evaluate(() => { location.hash = "model=gallery:drawer&set=mu%3D0.9"; });
+  await page.evaluate(() => {
+    location.hash = "model=gallery:drawer&set=mu%3D0.9";
+  });
   await verdict(page, "none");
   await close(page);
 });
 
-test("dragging follows at 30 pictures a second, and ends with the newest value", { skip }, async () => {
+test("dragging is followed, and ends with the newest value", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
   await limits(page);
   const found = await page.evaluate(async () => {
@@ -135,7 +147,7 @@ test("dragging follows at 30 pictures a second, and ends with the newest value",
     return { rate };
   });
   await verdict(page, "none");
-  // Other work of the machine is no fault of the page: it is told, and the newest value counts.
+  // The rate depends on what else the machine does: it is told, and the newest value counts.
   process.stdout.write(`# ${found.rate.toFixed(1)} pictures a second\n`);
   assert.ok(found.rate > 3, `${found.rate} pictures a second`);
   await close(page);
@@ -148,7 +160,10 @@ test("a map is drawn, and one walks in it by keyboard", { skip }, async () => {
   const before = await page.locator(".row:has([id='value-parameter-mu']) .field").inputValue();
   await page.focus(".map");
   await page.keyboard.press("ArrowRight");
-  await page.waitForFunction((old) => document.querySelector(".row:has([id='value-parameter-mu']) .field").value !== old, before);
+  await page.waitForFunction(
+    (old) => document.querySelector(".row:has([id='value-parameter-mu']) .field").value !== old,
+    before,
+  );
   await close(page);
 });
 
@@ -166,19 +181,33 @@ test("a motion is shown, and can be scrubbed", { skip }, async () => {
   await close(page);
 });
 
+/** The efficiency of the drawer is 1 - 2 mu a / L = 55 % (book, chapter Limits). */
+test("rest and efforts are told beside the strip", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&tab=rest");
+  await page.locator("#panel-rest pre").nth(1).waitFor({ timeout: 30_000 });
+  assert.match(await page.textContent("#panel-rest"), /It does not hold[^]*55 %/);
+  await limits(page);
+  await close(page);
+});
+
 test("pictures and words that are not seen have names", { skip }, async () => {
   const page = await set.open("#model=gallery:klepp-2002");
   const unnamed = await page.evaluate(() =>
     [...document.querySelectorAll("button, input:not([hidden]), select, figure")]
       .filter((one) => !(one.getAttribute("aria-label") || one.labels?.length || one.textContent.trim()))
-      .map((one) => one.outerHTML.slice(0, 120)));
+      .map((one) => one.outerHTML.slice(0, 120)),
+  );
   assert.deepEqual(unnamed, []);
   assert.match(await page.getAttribute("#drawings figure:nth-child(2)", "aria-label"), /Solution 1 of 3/);
   await close(page);
 });
 
 test("nothing is wider than a phone", { skip }, async () => {
-  const page = await set.open("#model=gallery:klepp-2002", { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true });
+  const page = await set.open("#model=gallery:klepp-2002", {
+    viewport: { width: 360, height: 740 },
+    hasTouch: true,
+    isMobile: true,
+  });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(width <= 361, `${width}`);
   await close(page);
@@ -187,7 +216,13 @@ test("nothing is wider than a phone", { skip }, async () => {
 test("the files are those of the command line", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer&set=mu%3D0.5");
   await page.click("#downloads summary");
-  for (const [kind, pattern] of [["toml", /^# A drawer/], ["svg", /^<svg /], ["csv", /^pattern|^solution|,/], ["json", /"schema": "slideway\/solve/], ["png", /PNG/]]) {
+  for (const [kind, pattern] of [
+    ["toml", /^# A drawer/],
+    ["svg", /^<svg /],
+    ["csv", /^pattern|^solution|,/],
+    ["json", /"schema": "slideway\/solve/],
+    ["png", /PNG/],
+  ]) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-file=${kind}]`)]);
     assert.match(readFileSync(await download.path(), "latin1").slice(0, 400), pattern, kind);
   }
@@ -198,7 +233,10 @@ test("the files are those of the command line", { skip }, async () => {
 test("once loaded it needs no network", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer");
   await page.evaluate(() => navigator.serviceWorker.ready);
-  await page.waitForFunction(async () => (await caches.keys()).length > 0 && (await (await caches.open((await caches.keys())[0])).keys()).length > 8);
+  await page.waitForFunction(
+    async () =>
+      (await caches.keys()).length > 0 && (await (await caches.open((await caches.keys())[0])).keys()).length > 8,
+  );
   await page.reload();
   await settled(page);
   await page.context().setOffline(true);
@@ -210,9 +248,16 @@ test("once loaded it needs no network", { skip }, async () => {
 
 test("it asks no other place for anything, and its policy forbids it", { skip }, async () => {
   const page = await set.open();
-  const places = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => new URL(name).origin));
+  const places = await page.evaluate(() =>
+    performance.getEntriesByType("resource").map(({ name }) => new URL(name).origin),
+  );
   assert.ok(places.every((place) => place === new URL(set.at).origin));
-  const refused = await page.evaluate(() => fetch("http://127.0.0.1:9/").then(() => "", () => "refused"));
+  const refused = await page.evaluate(() =>
+    fetch("http://127.0.0.1:9/").then(
+      () => "",
+      () => "refused",
+    ),
+  );
   assert.equal(refused, "refused");
   await close(page);
 });

@@ -36,7 +36,9 @@ function compiler() {
   if (ours && existsSync(ours)) return { words: [], environment: {} };
   const debian = "/usr/bin/rustc";
   const sources = heard(debian, "--print", "sysroot");
-  const linker = ["wasm-ld", "wasm-ld-22", "wasm-ld-21", "wasm-ld-20", "wasm-ld-19"].find((name) => heard(name, "--version"));
+  const linker = ["wasm-ld", "wasm-ld-22", "wasm-ld-21", "wasm-ld-20", "wasm-ld-19"].find((name) =>
+    heard(name, "--version"),
+  );
   if (sources && linker && existsSync(resolve(sources, "lib/rustlib/src/rust/library/std"))) {
     return {
       words: ["-Zbuild-std=std,panic_abort"],
@@ -52,8 +54,24 @@ function compiler() {
 
 function buildEngine() {
   const { words, environment } = compiler();
-  const all = ["build", "--locked", "--package", "slideway-web", "--profile", "web", "--target", TARGET, "--target-dir", engineTarget, ...words];
-  execFileSync(process.env.CARGO ?? "cargo", all, { cwd: top, stdio: "inherit", env: { ...process.env, ...environment } });
+  const all = [
+    "build",
+    "--locked",
+    "--package",
+    "slideway-web",
+    "--profile",
+    "web",
+    "--target",
+    TARGET,
+    "--target-dir",
+    engineTarget,
+    ...words,
+  ];
+  execFileSync(process.env.CARGO ?? "cargo", all, {
+    cwd: top,
+    stdio: "inherit",
+    env: { ...process.env, ...environment },
+  });
 }
 
 /** The packages of the lock file. */
@@ -61,8 +79,12 @@ function install() {
   const wanted = readFileSync(resolve(web, "package-lock.json"), "utf8");
   const kept = resolve(web, "node_modules/.of-lock-file");
   if (existsSync(kept) && readFileSync(kept, "utf8") === wanted) return;
-  if (!heard("npm", "--version")) throw new Missing("npm is missing, which installs the packages of web/package-lock.json");
-  execFileSync("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"], { cwd: web, stdio: "inherit" });
+  if (!heard("npm", "--version"))
+    throw new Missing("npm is missing, which installs the packages of web/package-lock.json");
+  execFileSync("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"], {
+    cwd: web,
+    stdio: "inherit",
+  });
   writeFileSync(kept, wanted);
 }
 
@@ -84,7 +106,8 @@ async function bundle() {
 
 /** The notices of what is part of the page: those of the program, whose libraries the engine shares, and of packages. */
 function notices(packages) {
-  const licence = (name) => `\n${"=".repeat(72)}\n${name}\n\n${readFileSync(resolve(web, "node_modules", name, "LICENSE"), "utf8")}`;
+  const licence = (name) =>
+    `\n${"=".repeat(72)}\n${name}\n\n${readFileSync(resolve(web, "node_modules", name, "LICENSE"), "utf8")}`;
   return readFileSync(resolve(top, "THIRD-PARTY-NOTICES"), "utf8") + packages.map(licence).join("");
 }
 
@@ -93,7 +116,8 @@ async function gather(packages) {
   cpSync(engine, resolve(page, "engine.wasm"));
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
-  for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"]) cpSync(resolve(web, "src", name), resolve(page, name));
+  for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"])
+    cpSync(resolve(web, "src", name), resolve(page, name));
   writeFileSync(resolve(page, "notices.txt"), notices(packages));
   const files = readdirSync(page).sort();
   const hash = createHash("sha256");
@@ -107,9 +131,14 @@ async function gather(packages) {
 function weigh() {
   for (const name of ["engine.wasm", "page.js"]) {
     const bytes = readFileSync(resolve(page, name));
-    const [gzip, brotli] = [gzipSync(bytes, { level: 9 }), brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } })].map(({ length }) => length);
+    const [gzip, brotli] = [
+      gzipSync(bytes, { level: 9 }),
+      brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } }),
+    ].map(({ length }) => length);
     const shown = (length) => `${(length / 1e6).toFixed(2)} MB`;
-    say(`${name}: ${shown(statSync(resolve(page, name)).size)}, compressed ${shown(gzip)} (gzip) or ${shown(brotli)} (brotli)`);
+    say(
+      `${name}: ${shown(statSync(resolve(page, name)).size)}, compressed ${shown(gzip)} (gzip) or ${shown(brotli)} (brotli)`,
+    );
     if (gzip > LARGEST) throw new Error(`${name} has more than 2 MiB compressed`);
   }
 }

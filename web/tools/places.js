@@ -10,7 +10,8 @@ const target = resolve(process.env.CARGO_TARGET_DIR ?? resolve(top, "target"));
 /** Where Cargo builds the engine: apart from everything else, so that neither waits for the other. */
 export const engineTarget = resolve(target, "web-engine");
 /** The engine. */
-export const engine = process.env.SLIDEWAY_ENGINE ?? resolve(engineTarget, "wasm32-unknown-unknown/web/slideway_web.wasm");
+export const engine =
+  process.env.SLIDEWAY_ENGINE ?? resolve(engineTarget, "wasm32-unknown-unknown/web/slideway_web.wasm");
 /** The page, ready to be served. */
 export const page = resolve(target, "web");
 
