@@ -55,6 +55,8 @@ test("scripts in titles, names and comments stay texts", { skip }, async () => {
   assert.equal(await page.evaluate(() => window.harm), undefined);
   assert.equal(await page.locator("main b, main img, main script").count(), 0);
   assert.match(await page.textContent("#about"), /<img src=x/);
+  const shown = `${await page.textContent("main")}${await page.title()}`;
+  assert.ok(!/[\u001b\u202e]/.test(shown), "characters that are not seen");
   assert.match(await page.textContent(".row .meaning:has-text('harm')"), /<script>/);
   assert.equal(await page.locator("main b, main img, main script").count(), 0);
   await drop(page, drawer.replaceAll("guide", '"<b onclick=alert(1)>"'));

@@ -9,6 +9,7 @@ use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
+use slideway::printable::line;
 use slideway::progress::Callback;
 use slideway::report::{Proof, SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
@@ -89,7 +90,7 @@ pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) ->
     let configuration = configuration.unwrap_or_else(|_| Configuration::drawing(&mechanism));
     let sheets = pieces(&mechanism, &configuration, solved.as_ref().ok());
     Ok(Look {
-        title: title(&mechanism),
+        title: line(&title(&mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
         left_out: model.parameters.len().saturating_sub(MOST),
         quantities: quantities(&model, &asked.text, &mechanism, &checked.coordinates)?,

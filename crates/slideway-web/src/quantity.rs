@@ -8,6 +8,7 @@ use slideway::expression::Symbol;
 use slideway::fault::{Faults, Source};
 use slideway::mechanism::{JointKind, Mechanism};
 use slideway::model::{Coordinate, CoordinateKind, Model};
+use slideway::printable::line;
 use slideway::units::Unit;
 use std::f64::consts::FRAC_PI_2;
 
@@ -115,7 +116,7 @@ fn of_parameter(model: &Model, text: &str, parameter: &slideway::model::Paramete
 fn comment(text: &str, end: usize) -> Option<String> {
     let rest = text.get(end..)?.lines().next()?;
     let comment = rest.trim_start().strip_prefix('#')?.trim();
-    (!comment.is_empty()).then(|| comment.to_owned())
+    (!comment.is_empty()).then(|| line(comment).into_owned())
 }
 
 fn of_position(
