@@ -421,6 +421,7 @@ addEventListener("hashchange", async () => {
 
 byId("share").addEventListener("click", async () => {
   written = await state.address();
+  if (!written) return notice("This model is too large for a link: send its file.");
   history.replaceState(null, "", `#${written}`);
   await copy(location.href, byId("share"), "Copied");
 });

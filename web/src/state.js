@@ -48,11 +48,12 @@ export class State {
     return ["slideway", verb, this.file, ...words, ...more].join(" ");
   }
 
-  /** The part of the address behind "#". */
+  /** The part of the address behind "#"; empty for a model that is too large for one. */
   async address() {
     const parts = new URLSearchParams();
     if (this.from) parts.set("model", this.from);
     else parts.set("text", await packed(this.text));
+    if (parts.get("text")?.length > LONGEST) return "";
     for (const { kind, name, value } of this.settings()) parts.append(KEYS[kind], `${name}=${value}`);
     if (this.strip) parts.set("vary", written(this.strip));
     if (this.map) {
@@ -106,6 +107,8 @@ export function quoted(word) {
   return /^[\w.,:=+/-]+$/.test(word) ? word : `"${word.replace(/["\\$`]/g, "\\$&")}"`;
 }
 
+/** The longest text in an address, packed: what browsers, mails and chats let through. */
+const LONGEST = 60_000;
 /** The largest text that is unpacked: as large as a model may be, and a little more, so that it is refused as too large. */
 const LARGEST = (4 << 20) + 1;
 

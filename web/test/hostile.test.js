@@ -83,6 +83,11 @@ test("a model of 4 MB is refused or read, and the page stays alive", { skip }, a
   const page = await set.open();
   await drop(page, `${drawer}\n# ${"x".repeat((4 << 20) - drawer.length - 10)}\n`);
   await refused(page, "x".repeat(5 << 20));
+  // Not even packed it fits into an address.
+  const noise = Array.from({ length: 100_000 }, () => Math.random().toString(36).slice(2)).join("");
+  await drop(page, `${drawer}\n# ${noise}\n`);
+  await page.click("#share");
+  assert.match(await page.textContent("#notice"), /too large for a link/);
   await assertAlive(page);
   await page.context().close();
 });
