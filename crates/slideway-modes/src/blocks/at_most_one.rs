@@ -102,20 +102,25 @@ fn deviation(problem: &BlockProblem, piece: &Piece, row: usize, block: usize) ->
     }
 }
 
-/// Whether `B u < u` for some `u > 0`, so that the spectral radius of `B >= 0` is below 1; verified.
+/// Whether the spectral radius of `B >= 0` is below 1; verified.
 pub(super) fn is_contraction(norms: &DMatrix<f64>) -> bool {
+    weights_of_contraction(norms).is_some()
+}
+
+/// Some `u > 0` with `B u < u`, so that the spectral radius of `B >= 0` is below 1; verified.
+pub(super) fn weights_of_contraction(norms: &DMatrix<f64>) -> Option<DVector<f64>> {
     let mut weights = DVector::repeat(norms.nrows(), 1.0);
     for _ in 0..STEPS {
         let image = upper_product(norms, &weights);
         if image.iter().zip(&weights).all(|(image, weight)| image < weight) {
-            return true;
+            return Some(weights);
         }
         let largest = image.amax();
         if !largest.is_finite() || image.iter().zip(&weights).all(|(image, weight)| image >= weight) {
-            return false;
+            return None;
         }
         // Not the image alone, which would swing if the matrix is periodic.
         weights = (weights + image / largest).map(|weight| 0.5 * weight);
     }
-    false
+    None
 }

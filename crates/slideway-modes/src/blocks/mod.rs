@@ -23,11 +23,13 @@
 //! # Files
 //! `problem.rs`, `result.rs`: what is given and returned. `sector.rs`: directions; `equations.rs`: a piece and
 //! its equations. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
-//! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load. `tree.rs`: the
-//! search; `unloaded.rs`: blocks on which nothing acts; `open.rs`: what it leaves open; `solutions.rs`: what it found.
+//! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load; `only.rs`: that one, for many
+//! neighbouring problems. `tree.rs`: the search; `unloaded.rs`: blocks on which nothing acts; `open.rs`: what it leaves
+//! open; `solutions.rs`: what it found.
 
 mod at_most_one;
 mod equations;
+mod only;
 mod open;
 mod problem;
 mod relaxation;
@@ -39,6 +41,7 @@ mod uniqueness;
 mod unloaded;
 mod zero;
 
+pub use only::{OnlySolution, only_solution};
 pub use problem::BlockProblem;
 pub use result::{BlockResult, BlockSolution, OpenLabel, OpenRegion, UniqueForEveryLoad};
 pub use uniqueness::unique_for_every_load;

@@ -7,6 +7,7 @@ use super::equations::Piece;
 use super::problem::BlockProblem;
 use super::result::UniqueForEveryLoad;
 use crate::certificate::{IntervalMatrix, has_norm_below_one};
+use crate::interval_matrix::rounding;
 use crate::problem::Side;
 
 /// Patterns of contacts whose two columns differ are tried up to this many contacts.
@@ -53,15 +54,17 @@ fn has_scaled_norm_below_one(problem: &BlockProblem) -> bool {
         })
 }
 
-/// The norms of blocks of `H`, the larger of both versions; rounded.
-fn block_norms(problem: &BlockProblem) -> DMatrix<f64> {
+/// Upper bounds on the norms of the blocks of `H`, in both versions and for all values within the bounds.
+pub(super) fn block_norms(problem: &BlockProblem) -> DMatrix<f64> {
     let blocks = problem.blocks();
+    let factor = 1.0 + 2.0 * rounding(4);
     let norm = |side: Side, block: usize, column: usize| {
-        let entries = problem.rows_of(block).map(|row| problem.response(side).centre()[(row, column)]);
-        entries.map(|value| value * value).sum::<f64>().sqrt()
+        let part = problem.response(side);
+        let largest = |row: usize| part.centre()[(row, column)].abs() + part.radius()[(row, column)];
+        problem.rows_of(block).map(largest).reduce(f64::hypot).unwrap_or(0.0)
     };
     DMatrix::from_fn(blocks, blocks, |block, column| {
-        norm(Side::Positive, block, column).max(norm(Side::Negative, block, column))
+        norm(Side::Positive, block, column).max(norm(Side::Negative, block, column)) * factor
     })
 }
 

@@ -1,6 +1,8 @@
 //! Random problems.
 
 use nalgebra::{DMatrix, DVector};
+use slideway_modes::blocks::only_solution;
+use slideway_modes::certificate::Sign;
 
 use crate::support::{Numbers, Plain, assert_proven, assert_same, degree, unknowns};
 
@@ -43,6 +45,38 @@ fn newtons_method_from_many_starts_finds_no_other_solution() {
         }
     }
     assert!(most >= 8, "{most}");
+}
+
+/// From a neighbour or from nowhere: the solution that the search proves, within the bound; nothing where the norms are
+/// too large.
+#[test]
+fn the_only_solution_is_that_of_the_search() {
+    let mut numbers = Numbers(17);
+    let (mut shown, mut left) = (0, 0);
+    for step in 0..60 {
+        let (contacts, hinges) = [(0, 1), (2, 0), (2, 2), (1, 3)][step % 4];
+        let plain = Plain::random(&mut numbers, contacts, hinges, 0.05 + 0.02 * step as f64);
+        let near = numbers.vector(plain.load.len());
+        for near in [None, Some(near.as_slice())] {
+            let Some(only) = only_solution(&plain.problem(), near) else {
+                left += 1;
+                continue;
+            };
+            shown += 1;
+            let result = plain.solve();
+            assert_proven(&result);
+            let [solution] = result.solutions.as_slice() else {
+                panic!("{} solutions", result.solutions.len())
+            };
+            assert_eq!(solution.orientation, Some(Sign::Positive));
+            let distances = plain.lengths(&(unknowns(solution) - DVector::from_column_slice(&only.point)));
+            for (distance, error) in distances.iter().zip(&only.errors) {
+                assert!(distance <= &(error + solution.radius), "{distance} {error}");
+                assert!(*error <= 1e-12 * unknowns(solution).amax().max(1.0), "{error}");
+            }
+        }
+    }
+    assert!(shown > 20 && left > 20, "{shown} {left}");
 }
 
 #[test]
