@@ -143,6 +143,10 @@ fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report
             let scale = hinge.force[0].hypot(hinge.force[1]);
             let found = number(sweep, rows, row, &format!("hinge_force_y.{}", hinge.name));
             assert!(close(found, hinge.force[1], scale), "{}", hinge.name);
+            if let Some(friction) = hinge.friction {
+                let found = number(sweep, rows, row, &format!("friction_couple.{}", hinge.name));
+                assert!(close(found, friction.couple, scale * friction.radius), "{}", hinge.name);
+            }
         }
     }
 }
@@ -161,7 +165,10 @@ fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report
 #[case("sleeve-on-arm", &["phi=-0.5..0.5", "s=0.2..0.5", "mu=0..0.6"])]
 #[case("slider-crank", &["phi=-1.4..1.4", "phi.rate=-150..150"])]
 #[case("slider-crank", &["mu=0..2", "r=40 mm..60 mm"])]
+#[case("slider-crank-with-pins", &["phi=-3..3", "mu_pin=0..0.4", "phi.rate=-150..150"])]
+#[case("slider-crank-with-pins", &["mu_pin=0..2", "pin=10 mm..40 mm", "mu=0..0.6"])]
 #[case("telescopic-boom", &["mu=0..0.6", "s_1=-0.1..0.3"])]
+#[case("toggle-press", &["alpha=0.01..1.2", "alpha.rate=-1..1", "mu_pin=0..0.5"])]
 fn rows_are_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     let model = model(name);
     let sampling = Sampling { count: 120, spread: Spread::Random, seed: 11 };

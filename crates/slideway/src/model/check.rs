@@ -148,8 +148,10 @@ impl Model {
     }
 
     /// Whether a parameter changes nothing but coefficients of friction and preloads.
-    pub(crate) fn changes_friction_alone(&self, parameter: usize) -> bool {
-        self.changes_nothing_but(&self.contacts().flat_map(Contact::friction).collect::<Vec<_>>(), parameter)
+    pub(crate) fn changes_friction_or_pins_alone(&self, parameter: usize) -> bool {
+        let of_hinges = self.hinge_friction().flat_map(|friction| friction.formulas());
+        let friction: Vec<FormulaId> = self.contacts().flat_map(Contact::friction).chain(of_hinges).collect();
+        self.changes_nothing_but(&friction, parameter)
     }
 
     /// Whether nothing but the friction of contacts and hinges depends on a parameter, counted from 0.
@@ -439,7 +441,7 @@ impl Model {
     }
 
     /// What is wrong with a kinetic and a static value of friction, if the static one is the smaller one.
-    fn static_below_kinetic(
+    pub(crate) fn static_below_kinetic(
         &self,
         name: &str,
         pair: [FormulaId; 2],

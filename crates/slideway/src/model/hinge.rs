@@ -59,6 +59,15 @@ impl HingeFriction {
         }
     }
 
+    /// Everything that the friction circles follow from.
+    pub(crate) fn formulas(self) -> impl Iterator<Item = FormulaId> {
+        let pin = match self {
+            Self::Circle(_) => None,
+            Self::Pin { radius, .. } => Some(radius),
+        };
+        self.kinetic_and_static().into_iter().chain(pin)
+    }
+
     /// Its friction coefficients, kinetic and static, if it is that of a pin.
     pub(crate) fn coefficients(&self) -> Option<[FormulaId; 2]> {
         match *self {

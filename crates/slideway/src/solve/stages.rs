@@ -1,5 +1,6 @@
 //! The stages of a model up to the numbers of its mode problem.
 
+use super::hinges::HingedData;
 use super::mode_problem::{assembled_problem, mode_problem, self_stresses, velocity_signs};
 use super::parts::Parts;
 use super::sharing::check_assembly;
@@ -60,7 +61,6 @@ impl Stages {
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
-        mechanism.check_frictionless_hinges()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         Self::of(mechanism, configuration, influences)
     }
@@ -119,6 +119,16 @@ impl Stages {
     pub(crate) fn data(&self) -> ProblemData<'_> {
         ProblemData {
             mechanism: &self.mechanism,
+            influence: &self.influence,
+            velocity_signs: &self.velocity_signs,
+        }
+    }
+
+    /// What its block mode problem is made of.
+    pub(crate) fn hinged(&self) -> HingedData<'_> {
+        HingedData {
+            mechanism: &self.mechanism,
+            configuration: &self.configuration,
             influence: &self.influence,
             velocity_signs: &self.velocity_signs,
         }

@@ -18,6 +18,9 @@ pub struct Branches {
     last: u32,
     /// For each axis the states of the last point at which all later axes were at their first value.
     neighbours: Vec<Vec<Tracked>>,
+    /// The places of the forces of hinges with friction in a row.
+    #[serde(default)]
+    hinge_forces: Vec<usize>,
 }
 
 /// A state that may be continued.
@@ -26,15 +29,18 @@ struct Tracked {
     branch: u32,
     pattern: Vec<u8>,
     normal_forces: Vec<f64>,
+    /// Forces of hinges with friction.
+    #[serde(default)]
+    hinge_forces: Vec<f64>,
     kind: RowKind,
     negative_determinant: Option<bool>,
 }
 
 /// A state of the next point.
-#[derive(Clone, Copy)]
 struct Next<'r> {
     pattern: &'r [u8],
     normal_forces: &'r [f64],
+    hinge_forces: Vec<f64>,
     kind: RowKind,
     negative_determinant: Option<bool>,
 }
@@ -43,9 +49,9 @@ struct Next<'r> {
 type Cost = (usize, f64);
 
 impl Branches {
-    /// No branch yet; for so many axes.
-    pub(super) fn new(axes: usize) -> Self {
-        Self { last: 0, neighbours: vec![Vec::new(); axes] }
+    /// No branch yet; for so many axes. The forces of hinges with friction are at these places of a row.
+    pub(super) fn new(axes: usize, hinge_forces: Vec<usize>) -> Self {
+        Self { last: 0, neighbours: vec![Vec::new(); axes], hinge_forces }
     }
 
     /// How many branches there are.
@@ -62,14 +68,14 @@ impl Branches {
         while first < rows.len() {
             let range = first..first + rows.states_from(first);
             match &before {
-                Some(before) if is_same(rows, before, &range) => {
+                Some(before) if self.is_same(rows, before, &range) => {
                     for (row, known) in range.clone().zip(before.clone()) {
                         rows.heads[row].branch = rows.heads[known].branch;
                     }
                 }
                 _ => {
                     if let Some(before) = before {
-                        remember(&mut self.neighbours[0], rows, before);
+                        self.remember(0, rows, before);
                     }
                     let place = rows.heads[first].point;
                     self.number(rows, range.clone(), &[place]);
@@ -79,7 +85,7 @@ impl Branches {
             before = Some(range);
         }
         if let Some(before) = before {
-            remember(&mut self.neighbours[0], rows, before);
+            self.remember(0, rows, before);
         }
     }
 
@@ -101,7 +107,7 @@ impl Branches {
         }
         let first = moved.unwrap_or(0);
         for axis in first..self.neighbours.len() {
-            remember(&mut self.neighbours[axis], rows, range.clone());
+            self.remember(axis, rows, range.clone());
         }
     }
 
@@ -109,8 +115,9 @@ impl Branches {
         let known = &self.neighbours[axis];
         // Nearly always nothing has changed but the numbers.
         let same = known.len() == range.len()
+            && !self.has_alike(rows, &range)
             && range.clone().zip(known).all(|(row, known)| {
-                let next = next(rows, row);
+                let next = self.next(rows, row);
                 known.kind == next.kind
                     && known.pattern == next.pattern
                     && known.negative_determinant == next.negative_determinant
@@ -123,7 +130,7 @@ impl Branches {
         let mut pairs: Vec<(Cost, usize, usize)> = Vec::new();
         for (at, tracked) in known.iter().enumerate() {
             for row in range.clone() {
-                if let Some(cost) = cost(tracked, next(rows, row)) {
+                if let Some(cost) = cost(tracked, &self.next(rows, row)) {
                     pairs.push((cost, at, row));
                 }
             }
@@ -143,73 +150,89 @@ impl Branches {
             }
         }
     }
-}
 
-/// Whether the rows of a point have the kinds, patterns and signs of another one's, all of them states.
-fn is_same(rows: &Rows, known: &Range<usize>, range: &Range<usize>) -> bool {
-    known.len() == range.len()
-        && known.clone().zip(range.clone()).all(|(known, row)| {
-            let (one, other) = (&rows.heads[known], &rows.heads[row]);
-            is_state(other.kind)
-                && one.kind == other.kind
-                && one.negative_determinant == other.negative_determinant
-                && rows.pattern(known) == rows.pattern(row)
-        })
+    /// Whether the rows of a point have the kinds, patterns and signs of another one's, all of them states.
+    fn is_same(&self, rows: &Rows, known: &Range<usize>, range: &Range<usize>) -> bool {
+        known.len() == range.len()
+            && !self.has_alike(rows, range)
+            && known.clone().zip(range.clone()).all(|(known, row)| {
+                let (one, other) = (&rows.heads[known], &rows.heads[row]);
+                is_state(other.kind)
+                    && one.kind == other.kind
+                    && one.negative_determinant == other.negative_determinant
+                    && rows.pattern(known) == rows.pattern(row)
+            })
+    }
+
+    /// Whether a mode of a point has several solutions of the same sign, as it may with friction in hinges.
+    fn has_alike(&self, rows: &Rows, range: &Range<usize>) -> bool {
+        let alike = |one: usize, other: usize| {
+            rows.heads[one].negative_determinant == rows.heads[other].negative_determinant
+                && rows.pattern(one) == rows.pattern(other)
+        };
+        !self.hinge_forces.is_empty()
+            && range.clone().any(|row| (range.start..row).any(|other| alike(row, other)))
+    }
+
+    fn next<'r>(&self, rows: &'r Rows, row: usize) -> Next<'r> {
+        let head = &rows.heads[row];
+        let numbers = rows.numbers(row);
+        Next {
+            pattern: rows.pattern(row),
+            normal_forces: &numbers[rows.varied..rows.varied + rows.contacts],
+            hinge_forces: self.hinge_forces.iter().map(|&place| numbers[place]).collect(),
+            kind: head.kind,
+            negative_determinant: head.negative_determinant,
+        }
+    }
+
+    /// Keeps the states of a point for the next one along an axis.
+    fn remember(&mut self, axis: usize, rows: &Rows, range: Range<usize>) {
+        let mut count = 0;
+        for row in range.filter(|&row| is_state(rows.heads[row].kind)) {
+            let next = self.next(rows, row);
+            let branch = rows.heads[row].branch;
+            let list = &mut self.neighbours[axis];
+            if let Some(place) = list.get_mut(count) {
+                place.branch = branch;
+                place.pattern.clear();
+                place.pattern.extend_from_slice(next.pattern);
+                place.normal_forces.clear();
+                place.normal_forces.extend_from_slice(next.normal_forces);
+                place.hinge_forces = next.hinge_forces;
+                place.kind = next.kind;
+                place.negative_determinant = next.negative_determinant;
+            } else {
+                list.push(Tracked {
+                    branch,
+                    pattern: next.pattern.to_vec(),
+                    normal_forces: next.normal_forces.to_vec(),
+                    hinge_forces: next.hinge_forces,
+                    kind: next.kind,
+                    negative_determinant: next.negative_determinant,
+                });
+            }
+            count += 1;
+        }
+        self.neighbours[axis].truncate(count);
+    }
 }
 
 fn is_state(kind: RowKind) -> bool {
     matches!(kind, RowKind::Solution | RowKind::Boundary | RowKind::PreloadGap)
 }
 
-fn next(rows: &Rows, row: usize) -> Next<'_> {
-    let head = &rows.heads[row];
-    let varied = rows.varied;
-    Next {
-        pattern: rows.pattern(row),
-        normal_forces: &rows.numbers(row)[varied..varied + rows.contacts],
-        kind: head.kind,
-        negative_determinant: head.negative_determinant,
-    }
-}
-
-fn remember(list: &mut Vec<Tracked>, rows: &Rows, range: Range<usize>) {
-    let states = range.filter(|&row| is_state(rows.heads[row].kind));
-    let mut count = 0;
-    for row in states {
-        let next = next(rows, row);
-        let branch = rows.heads[row].branch;
-        if let Some(place) = list.get_mut(count) {
-            place.branch = branch;
-            place.pattern.clear();
-            place.pattern.extend_from_slice(next.pattern);
-            place.normal_forces.clear();
-            place.normal_forces.extend_from_slice(next.normal_forces);
-            place.kind = next.kind;
-            place.negative_determinant = next.negative_determinant;
-        } else {
-            list.push(Tracked {
-                branch,
-                pattern: next.pattern.to_vec(),
-                normal_forces: next.normal_forces.to_vec(),
-                kind: next.kind,
-                negative_determinant: next.negative_determinant,
-            });
-        }
-        count += 1;
-    }
-    list.truncate(count);
-}
-
 /// Number of contacts with opposite sides, and distance of the forces; none if the one cannot continue the
 /// other.
-fn cost(known: &Tracked, next: Next<'_>) -> Option<Cost> {
+fn cost(known: &Tracked, next: &Next<'_>) -> Option<Cost> {
     if !is_state(next.kind) {
         return None;
     }
-    let largest = |forces: &[f64]| forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
-    let scale = largest(&known.normal_forces).max(largest(next.normal_forces));
+    let of_hinges = known.hinge_forces.iter().zip(&next.hinge_forces);
     let pairs = known.normal_forces.iter().zip(next.normal_forces);
-    let distance = pairs.clone().map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+    let all = pairs.clone().chain(of_hinges);
+    let scale = all.clone().map(|(one, other)| one.abs().max(other.abs())).fold(0.0, f64::max);
+    let distance = all.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
     let distance = if scale > 0.0 { distance / scale } else { 0.0 };
     let opposite = pairs.filter(|(one, other)| *one * *other < 0.0).count();
     let signs = match (known.negative_determinant, next.negative_determinant) {

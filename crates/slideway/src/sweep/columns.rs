@@ -10,7 +10,8 @@ use crate::model::{Model, SliderKind};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
     /// Its name: that of a varied quantity, or `normal_force.CONTACT`, `friction_force.CONTACT`,
-    /// `preload_share.CONTACT`, `couple.JOINT`, `acceleration.COORDINATE`, `effort.DRIVE` and the like.
+    /// `preload_share.CONTACT`, `couple.JOINT`, `acceleration.COORDINATE`, `effort.DRIVE` and the like. With
+    /// friction in hinges `number_in_mode` counts the solutions of each mode of a point.
     pub name: String,
     /// Its unit, "SI" where it depends on a parameter.
     pub unit: &'static str,
@@ -23,6 +24,20 @@ pub(super) enum Output {
     Coordinate(usize),
     /// One of the unknowns, with a sign.
     Unknown(usize, f64),
+    /// What is no unknown: the friction couple of a hinge, a number within a mode.
+    Other,
+}
+
+/// What is told of a hinge with friction: three outputs, its force and its friction couple.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct HingeColumns {
+    pub(super) joint: JointId,
+    /// Its friction circle among those of the mechanism.
+    pub(super) circle: usize,
+    /// The place of the first among the outputs.
+    pub(super) output: usize,
+    /// 1 if they are those on the first body, -1 if they are those on the second.
+    pub(super) sign: f64,
 }
 
 /// The couple of a guided slider among the numbers of a row.
@@ -43,6 +58,8 @@ pub(super) struct Columns {
     pub(super) shares: Vec<usize>,
     /// Those of guided sliders.
     pub(super) couples: Vec<CoupleColumn>,
+    /// Hinges with friction.
+    pub(super) hinges: Vec<HingeColumns>,
     pub(super) outputs: Vec<Output>,
     pub(super) list: Vec<Column>,
     /// Whether bodies and hinges have columns.
@@ -73,6 +90,7 @@ impl Columns {
             contacts,
             shares: Vec::new(),
             couples: Vec::new(),
+            hinges: Vec::new(),
             outputs: Vec::new(),
             list: Vec::new(),
             all,
@@ -142,10 +160,25 @@ impl Columns {
             let place = layout.effort(DriveId(index));
             self.output(Output::Unknown(place, 1.0), format!("effort.{}", drive.name), unit);
         }
+        let rough = |index: usize| mechanism.friction_circle(JointId(index)).is_some();
+        for index in (0..mechanism.joints.len()).filter(|&index| rough(index)) {
+            self.add_hinge(mechanism, &layout, index);
+        }
         if all {
             self.add_bodies(mechanism, &layout);
-            self.add_hinges(mechanism, &layout);
+            for index in (0..mechanism.joints.len()).filter(|&index| !rough(index)) {
+                self.add_hinge(mechanism, &layout, index);
+            }
         }
+        if !self.hinges.is_empty() {
+            self.output(Output::Other, "number_in_mode".to_owned(), "1");
+        }
+    }
+
+    /// The places of the forces of hinges with friction in a row: with the normal forces they tell solutions apart.
+    pub(super) fn hinge_forces(&self) -> Vec<usize> {
+        let first = self.list.len() - self.outputs.len();
+        self.hinges.iter().flat_map(|hinge| [0, 1].map(|axis| first + hinge.output + axis)).collect()
     }
 
     fn add_bodies(&mut self, mechanism: &Mechanism, layout: &Layout) {
@@ -159,16 +192,21 @@ impl Columns {
         }
     }
 
-    /// As in the report of `solve`: forces on the first body, or on the second if the first is ground.
-    fn add_hinges(&mut self, mechanism: &Mechanism, layout: &Layout) {
-        for (index, joint) in mechanism.joints.iter().enumerate() {
-            let JointKind::Hinge(ends) = &joint.kind else { continue };
-            let sign = if ends[0].frame.body().is_some() { 1.0 } else { -1.0 };
-            for (axis, word) in ["hinge_force_x", "hinge_force_y"].into_iter().enumerate() {
-                if let Some(place) = layout.reaction(Reaction::Hinge(JointId(index), axis)) {
-                    self.output(Output::Unknown(place, sign), format!("{word}.{}", joint.name), "N");
-                }
+    /// As in the report of `solve`: forces on the first body, or on the second if the first is ground; of a hinge with
+    /// friction its couple, too.
+    fn add_hinge(&mut self, mechanism: &Mechanism, layout: &Layout, index: usize) {
+        let (id, joint) = (JointId(index), &mechanism.joints[index]);
+        let JointKind::Hinge(ends) = &joint.kind else { return };
+        let sign = if ends[0].frame.body().is_some() { 1.0 } else { -1.0 };
+        let output = self.outputs.len();
+        for (axis, word) in ["hinge_force_x", "hinge_force_y"].into_iter().enumerate() {
+            if let Some(place) = layout.reaction(Reaction::Hinge(id, axis)) {
+                self.output(Output::Unknown(place, sign), format!("{word}.{}", joint.name), "N");
             }
+        }
+        if let Some(circle) = mechanism.friction_circles.iter().position(|circle| circle.joint == id) {
+            self.hinges.push(HingeColumns { joint: id, circle, output, sign });
+            self.output(Output::Other, format!("friction_couple.{}", joint.name), "N m");
         }
     }
 

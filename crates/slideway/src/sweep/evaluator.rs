@@ -11,13 +11,16 @@ use super::told;
 use super::writer::{Writer, head};
 use crate::attainability::ElasticGuides;
 use crate::fault::{FaultKind, Faults};
+use crate::influence::HingeState;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
+use crate::modes::ContactState;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::progress::{Callback, Progress};
 use crate::solve::{
-    self, SolveOptions, Trail, mode_problem, solve_with, solve_with_friction, velocity_signs,
+    self, HingedData, HingedState, LastSolution, SolveOptions, Trail, hinged_states, mode_problem,
+    solve_with, solve_with_friction, velocity_signs,
 };
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -48,7 +51,8 @@ impl Plan {
     pub(super) fn prepare(&mut self) {
         let Some(formulas) = self.friction.as_ref().filter(|_| self.same_state()) else { return };
         self.stages = Stages::along(&mut Trail::default(), &self.mechanism, &self.columns).ok();
-        let needs_each = self.attainability || self.columns.may_be_between_faces(&self.mechanism);
+        let rubs = !self.mechanism.friction_circles.is_empty();
+        let needs_each = self.attainability || rubs || self.columns.may_be_between_faces(&self.mechanism);
         if let Some(stages) = self.stages.as_ref().filter(|_| !needs_each) {
             self.together = Together::new(&self.mechanism, stages, formulas, &self.varied);
         }
@@ -145,6 +149,8 @@ pub(super) struct Evaluator<'p> {
     trail: Trail,
     stages: Option<Cow<'p, Stages>>,
     small: Option<(Screen, SmallProblem)>,
+    /// With friction in hinges.
+    last: LastSolution,
 }
 
 impl<'p> Evaluator<'p> {
@@ -162,6 +168,7 @@ impl<'p> Evaluator<'p> {
                 let screen = Screen::new(contacts).with_open(plan.mechanism.excess.open.clone());
                 (screen, SmallProblem::new(contacts))
             }),
+            last: LastSolution::default(),
         }
     }
 
@@ -237,7 +244,7 @@ impl<'p> Evaluator<'p> {
             return false;
         }
         found.put_friction(index, &mut self.mechanism.contacts);
-        Writer { plan: self.plan, mechanism: &self.mechanism, stages, guides: None }
+        Writer { plan: self.plan, mechanism: &self.mechanism, stages, guides: None, hinges: &[] }
             .write(states, point, rows)
     }
 
@@ -280,6 +287,7 @@ impl<'p> Evaluator<'p> {
         let plan = self.plan;
         if let Some(formulas) = &plan.friction {
             formulas.apply(&plan.model, values, &mut self.parameters, &mut self.friction)?;
+            formulas.put_circles(&plan.model, &self.parameters, &mut self.mechanism)?;
         }
         let kinds = plan.varied.iter().zip(values);
         let factor = kinds.filter(|(kind, _)| **kind == Kind::Friction).map(|(_, value)| *value).next();
@@ -297,7 +305,11 @@ impl<'p> Evaluator<'p> {
         if contacts.any(|(contact, sign)| *sign == 0.0 && !contact.is_frictionless()) {
             velocity_signs(&self.mechanism, &stages.configuration)?;
         }
-        if let Some((screen, problem)) = &mut self.small {
+        if self.mechanism.rough_hinges().next().is_some() {
+            if write_with_hinges(self.plan, &self.mechanism, stages, (&mut self.last, point), rows, look)? {
+                return Ok(());
+            }
+        } else if let Some((screen, problem)) = &mut self.small {
             fill(problem, &self.mechanism, stages);
             problem.load = if self.plan.columns.may_be_between_faces(&self.mechanism) {
                 stages.accuracy.of_load
@@ -334,12 +346,50 @@ fn write(
     rows: &mut Rows,
 ) -> Result<bool, Faults> {
     if !plan.attainability || states.is_empty() {
-        return Ok(Writer { plan, mechanism, stages, guides: None }.write(states, point, rows));
+        return Ok(Writer { plan, mechanism, stages, guides: None, hinges: &[] }.write(states, point, rows));
     }
     let problem = mode_problem(mechanism, &stages.influence, &stages.signs)?;
     let equations = KineticEquations::new(mechanism, &stages.configuration)?;
     let guides = Some(ElasticGuides::new(mechanism, &equations, &problem));
-    Ok(Writer { plan, mechanism, stages, guides }.write(states, point, rows))
+    Ok(Writer { plan, mechanism, stages, guides, hinges: &[] }.write(states, point, rows))
+}
+
+/// The same with friction in hinges; also nothing, and `false`, where a careful answer is needed, or attainability is
+/// asked for.
+fn write_with_hinges(
+    plan: &Plan,
+    mechanism: &Mechanism,
+    stages: &Stages,
+    (last, point): (&mut LastSolution, Point<'_>),
+    rows: &mut Rows,
+    look: &mut Callback<'_>,
+) -> Result<bool, Faults> {
+    if plan.attainability || mechanism.contacts.len() > MOST_CONTACTS {
+        return Ok(false);
+    }
+    let data = HingedData {
+        mechanism,
+        configuration: &stages.configuration,
+        influence: &stages.influence,
+        velocity_signs: &stages.signs,
+    };
+    let Some(found) = hinged_states(data, stages.accuracy, last, look)? else { return Ok(false) };
+    let states: Vec<SmallState> = found.iter().map(small).collect();
+    let hinges: Vec<Vec<HingeState>> = found.into_iter().map(|state| state.hinges).collect();
+    Ok(Writer { plan, mechanism, stages, guides: None, hinges: &hinges }.write(&states, point, rows))
+}
+
+/// A state of few contacts.
+fn small(state: &HingedState) -> SmallState {
+    let mut small = SmallState {
+        pattern: [ContactState::Positive; MOST_CONTACTS],
+        unknowns: [0.0; MOST_CONTACTS],
+        negative_determinant: state.negative_determinant,
+    };
+    for (k, force) in state.normal_forces.iter().enumerate() {
+        (small.pattern[k], small.unknowns[k]) = (state.pattern[k], force.abs());
+    }
+    small
 }
 
 /// The columns and jumps of eq. (6).

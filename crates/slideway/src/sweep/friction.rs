@@ -5,7 +5,7 @@ use super::quantity::Kind;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::FormulaId;
 use crate::mechanism::Mechanism;
-use crate::model::Model;
+use crate::model::{HingeFriction, Model};
 use std::sync::Arc;
 
 /// Coefficients of friction and preload of a contact at its two faces, before the common factor.
@@ -32,6 +32,8 @@ pub(super) struct FrictionFormulas {
     following: Vec<usize>,
     /// Coefficients and preloads that follow from them.
     contacts: Vec<ContactFormulas>,
+    /// Friction of hinges that follows from them, with the number of its friction circle.
+    circles: Vec<(usize, HingeFriction)>,
     /// All parameters in the model's own state.
     pub(super) parameters: Vec<f64>,
 }
@@ -67,7 +69,7 @@ impl FrictionFormulas {
         let has_press_fits = model.contacts().any(|contact| contact.face.is_some());
         if depends_on_speed
             || has_press_fits
-            || given.iter().any(|(index, _)| !model.changes_friction_alone(*index))
+            || given.iter().any(|(index, _)| !model.changes_friction_or_pins_alone(*index))
         {
             return Ok(None);
         }
@@ -82,10 +84,12 @@ impl FrictionFormulas {
                 });
             }
         }
+        let changes = |friction: &HingeFriction| friction.formulas().any(uses);
+        let circles = model.hinge_friction().enumerate().filter(|(_, friction)| changes(friction)).collect();
         let numbers: Vec<usize> = given.iter().map(|(index, _)| *index).collect();
         let following = model.following(&numbers);
         let parameters = model.parameter_values(&model.constants()?);
-        Ok(Some(Self { given, following, contacts, parameters }))
+        Ok(Some(Self { given, following, contacts, circles, parameters }))
     }
 
     /// The contacts whose coefficient varies; none if some coefficient differs between the faces, or a
@@ -96,6 +100,33 @@ impl FrictionFormulas {
             is_one.then_some(formulas.contact)
         };
         self.contacts.iter().map(one).collect()
+    }
+
+    /// Puts the radii of a point into the friction circles; `parameters` are its own.
+    ///
+    /// # Errors
+    /// Values that are not allowed.
+    pub(super) fn put_circles(
+        &self,
+        model: &Model,
+        parameters: &[f64],
+        mechanism: &mut Mechanism,
+    ) -> Result<(), Faults> {
+        for (index, friction) in &self.circles {
+            let mut values = Vec::new();
+            for id in friction.formulas() {
+                values.push((id, model.formula(id).constant(parameters)?));
+            }
+            let value =
+                |id: FormulaId| values.iter().find(|(other, _)| *other == id).map(|(_, value)| *value);
+            let circle = &mut mechanism.friction_circles[*index];
+            let name = &mechanism.joints[circle.joint.index()].name;
+            if let Some(fault) = model.static_below_kinetic(name, friction.kinetic_and_static(), &value) {
+                return Err(fault.into());
+            }
+            [circle.radius, circle.static_radius] = friction.radii(|id| value(id).unwrap_or(f64::NAN));
+        }
+        Ok(())
     }
 
     /// Puts the friction of a point into that of all contacts; `parameters` are those of another point.

@@ -28,6 +28,10 @@
 //! pressed face, their solutions are found together ([`crate::modes::batch`]); points near a boundary are
 //! left to elimination.
 //!
+//! With friction in hinges, what the norms of the blocks show to be the only solution is sought from that of the point
+//! before ([`crate::modes::blocks::only_solution`]), within bounds; where they show nothing, all solutions are searched
+//! for. Near a boundary, and where attainability is asked for, the point is left to [`mod@crate::solve`].
+//!
 //! # Order
 //! Points are numbered with the last quantity varying fastest. They are computed in chunks whose size hangs
 //! on the model and on what is varied alone, so that nothing depends on the number of threads.
@@ -81,6 +85,7 @@ use columns::Columns;
 use evaluator::{Evaluator, Plan, Points};
 use friction::FrictionFormulas;
 use options::fault;
+use quantity::Kind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::{ControlFlow, Range};
@@ -168,9 +173,11 @@ impl Sweep {
     ) -> Result<Option<Self>, Faults> {
         let mechanism = Mechanism::new(model)?;
         mechanism.check_size()?;
-        mechanism.check_frictionless_hinges()?;
         let axes = axes(model, &options.points)?;
         let varied: Vec<_> = axes.iter().map(|axis| axis.quantity.kind).collect();
+        if varied.contains(&Kind::Friction) {
+            mechanism.check_frictionless_hinges()?;
+        }
         let friction = FrictionFormulas::new(model, &varied)?;
         let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
         let attainability = options.attainability;
@@ -283,7 +290,11 @@ impl Sweep {
 
     /// Where a sweep begins.
     pub fn start(&self) -> SweepState {
-        SweepState { done: 0, branches: Branches::new(self.axes.len()), tally: Tally::default() }
+        SweepState {
+            done: 0,
+            branches: Branches::new(self.axes.len(), self.plan.columns.hinge_forces()),
+            tally: Tally::default(),
+        }
     }
 
     /// What the whole sweep comes to.

@@ -30,6 +30,8 @@ pub(super) struct Stages {
     pub(super) frictionless: Vec<f64>,
     /// What a unit friction adds to the outputs: contact by contact, for both faces.
     pub(super) influences: Vec<[Vec<f64>; 2]>,
+    /// What a unit friction couple of each friction circle adds to the outputs.
+    pub(super) couples: Vec<Vec<f64>>,
     /// What a unit normal force of each cut contact of redundant guides adds to the outputs.
     pub(super) self_stresses: Vec<Vec<f64>>,
     /// The greatest applied force (N).
@@ -58,12 +60,14 @@ impl Stages {
             let one = |output: &Output| match *output {
                 Output::Coordinate(index) => influences.coordinate(index, unknowns, without_friction),
                 Output::Unknown(place, sign) => sign * unknowns[place],
+                Output::Other => 0.0,
             };
             columns.outputs.iter().map(one).collect()
         };
         let frictionless = outputs(&influences.frictionless, true);
         let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, false));
         let per_force = influences.columns.iter().map(per_force).collect();
+        let couples = influences.couples.iter().map(|couple| outputs(couple, false)).collect();
         let self_stresses = influences.self_stresses.iter().map(|stress| outputs(stress, false)).collect();
         let (greatest_load, accuracy) = (influences.greatest_load, influences.accuracy());
         let influence = Influence::of(influences);
@@ -77,6 +81,7 @@ impl Stages {
             signs,
             frictionless,
             influences: per_force,
+            couples,
             self_stresses,
             greatest_load,
             accuracy,

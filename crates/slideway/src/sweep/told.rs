@@ -2,8 +2,8 @@
 
 use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
-use super::writer::{head, verdict};
-use crate::report::{CertificateKind, Solution, SolveReport, Status};
+use super::writer::{head, number_in_modes, verdict};
+use crate::report::{CertificateKind, Hinge, Solution, SolveReport, Status};
 
 /// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.
 pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &mut Rows) {
@@ -35,6 +35,7 @@ pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &
     if rows.len() == first {
         rows.push_empty(head(point, status), point.values);
     }
+    number_in_modes(plan, first, rows);
     let count = |text: &str| text.parse().unwrap_or(u32::MAX);
     for head in &mut rows.heads[first..] {
         head.solutions = count(&report.count);
@@ -63,11 +64,18 @@ impl Telling<'_> {
         numbers.extend(couples);
         numbers.extend(state.coordinates.iter().map(|coordinate| coordinate.acceleration));
         numbers.extend(state.drives.iter().map(|drive| drive.effort));
+        let names = &self.plan.mechanism.joints;
+        let rough =
+            |hinge: &Hinge| columns.hinges.iter().any(|one| names[one.joint.index()].name[..] == hinge.name);
+        for hinge in state.hinges.iter().filter(|hinge| rough(hinge)) {
+            numbers.extend(hinge.force);
+            numbers.push(hinge.friction.as_ref().map_or(0.0, |friction| friction.couple));
+        }
         if columns.all {
             for body in &state.bodies {
                 numbers.extend([body.acceleration[0], body.acceleration[1], body.angular_acceleration]);
             }
-            numbers.extend(state.hinges.iter().flat_map(|hinge| hinge.force));
+            numbers.extend(state.hinges.iter().filter(|hinge| !rough(hinge)).flat_map(|hinge| hinge.force));
         }
         self.finish(
             &state.pattern,

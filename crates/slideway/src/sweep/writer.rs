@@ -5,6 +5,7 @@ use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
 use super::stages::Stages;
 use crate::attainability::ElasticGuides;
+use crate::influence::HingeState;
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::PreloadLine;
 use crate::modes::ContactState;
@@ -19,6 +20,8 @@ pub(super) struct Writer<'w> {
     pub(super) stages: &'w Stages,
     /// If attainability is asked for.
     pub(super) guides: Option<ElasticGuides<'w>>,
+    /// For each state the hinges that rub; nothing if none does.
+    pub(super) hinges: &'w [Vec<HingeState>],
 }
 
 /// States of a point, by kind.
@@ -48,9 +51,10 @@ impl Writer<'_> {
         let contacts = self.plan.columns.contacts;
         let mut counts = Counts::default();
         for with_gap in [false, true] {
-            for state in states {
+            for (index, state) in states.iter().enumerate() {
                 let in_gap = state.pattern[..contacts].contains(&ContactState::Gap);
-                if in_gap == with_gap && self.row(state, point, rows, &mut counts).is_none() {
+                let hinges = self.hinges.get(index).map_or(&[][..], Vec::as_slice);
+                if in_gap == with_gap && self.row((state, hinges), point, rows, &mut counts).is_none() {
                     rows.truncate(first);
                     return false;
                 }
@@ -59,6 +63,7 @@ impl Writer<'_> {
         if rows.len() == first {
             rows.push_empty(head(point, counts.status()), point.values);
         }
+        number_in_modes(self.plan, first, rows);
         for head in &mut rows.heads[first..] {
             head.status = counts.status();
             head.solutions = counts.solutions;
@@ -70,7 +75,13 @@ impl Writer<'_> {
 
     /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told, or a number
     /// overflows.
-    fn row(&self, state: &SmallState, point: Point<'_>, rows: &mut Rows, counts: &mut Counts) -> Option<()> {
+    fn row(
+        &self,
+        (state, hinges): (&SmallState, &[HingeState]),
+        point: Point<'_>,
+        rows: &mut Rows,
+        counts: &mut Counts,
+    ) -> Option<()> {
         let columns = &self.plan.columns;
         let contacts = columns.contacts;
         let pattern = &state.pattern[..contacts];
@@ -102,6 +113,7 @@ impl Writer<'_> {
             let force = forces[contact.index()];
             outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
         }
+        self.add_couples(hinges, outputs);
         for forces in forces.chunks_mut(contacts.max(1)) {
             self.mechanism.put_at_faces(pattern, forces, 0.0, |one, other| one + other);
         }
@@ -125,6 +137,21 @@ impl Writer<'_> {
         rows.heads.push(RowHead { kind, verdict, negative_determinant, ..head(point, PointStatus::None) });
         *if in_gap { &mut counts.gap_states } else { &mut counts.solutions } += 1;
         Some(())
+    }
+
+    /// Adds the friction couples of hinges to the outputs.
+    fn add_couples(&self, hinges: &[HingeState], outputs: &mut [f64]) {
+        for hinge in hinges {
+            let per_couple = &self.stages.couples[hinge.circle];
+            outputs
+                .iter_mut()
+                .zip(per_couple)
+                .for_each(|(sum, per_couple)| *sum += hinge.couple * per_couple);
+        }
+        for columns in &self.plan.columns.hinges {
+            let own = hinges.iter().find(|hinge| hinge.circle == columns.circle);
+            outputs[columns.output + 2] = own.map_or(0.0, |hinge| columns.sign * hinge.couple);
+        }
     }
 
     /// Friction at both faces of a contact, eq. (2) with F_k = (mu_k |N_k| + F_k0) s_k.
@@ -172,6 +199,19 @@ impl Writer<'_> {
     fn verdict(&self, pattern: &[ContactState]) -> RowVerdict {
         let Some(guides) = &self.guides else { return RowVerdict::NotComputed };
         verdict(guides.verdict_on(pattern))
+    }
+}
+
+/// With friction in hinges: numbers the states of each mode among the rows of a point, which begin with `first`.
+pub(super) fn number_in_modes(plan: &Plan, first: usize, rows: &mut Rows) {
+    if plan.columns.hinges.is_empty() {
+        return;
+    }
+    for row in first..rows.len() {
+        let has_state = !matches!(rows.heads[row].kind, RowKind::Nothing | RowKind::Undecided);
+        let before = (first..row).filter(|&other| rows.pattern(other) == rows.pattern(row)).count();
+        let place = (row + 1) * rows.width - 1;
+        rows.numbers[place] = if has_state { (before + 1) as f64 } else { f64::NAN };
     }
 }
 

@@ -8,6 +8,7 @@ use crate::enclosure::{NotEnclosed, TurningHinge};
 use crate::ids::JointId;
 use crate::influence::HingeState;
 use crate::interval::Interval;
+use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState};
 use crate::report::{Proof, SolveReport};
@@ -94,7 +95,7 @@ impl HingedAnswer<'_> {
                 on_boundary: !solution.on_boundary.is_empty(),
                 determinant: oriented * solution.states.iter().map(|state| state.sign()).product::<f64>(),
                 certificate: &certificate(solution),
-                hinges: &self.hinge_states(solution),
+                hinges: &hinge_states(self.answer.mechanism, self.hinges, &solution.reactions),
             };
             let Some(mut kept) = self.answer.kept(&state, &mut tipping) else { continue };
             if !solution.gaps.is_empty() {
@@ -152,15 +153,20 @@ impl HingedAnswer<'_> {
             if row == column { 1.0 - product } else { -product }
         })
     }
+}
 
-    fn hinge_states(&self, solution: &BlockSolution) -> Vec<HingeState> {
-        let one = |(hinge, force): (&TurningHinge, &[f64; 2])| {
-            let radius = self.answer.mechanism.friction_circles[hinge.circle].radius;
-            let couple = -hinge.sense * radius * force[0].hypot(force[1]);
-            HingeState { circle: hinge.circle, joint: hinge.joint, force: *force, couple }
-        };
-        self.hinges.iter().zip(&solution.reactions).map(one).collect()
-    }
+/// Hinges with their forces and friction couples, `M = -r |R| sgn(omega)`.
+pub(super) fn hinge_states(
+    mechanism: &Mechanism,
+    hinges: &[TurningHinge],
+    reactions: &[[f64; 2]],
+) -> Vec<HingeState> {
+    let one = |(hinge, force): (&TurningHinge, &[f64; 2])| {
+        let radius = mechanism.friction_circles[hinge.circle].radius;
+        let couple = -hinge.sense * radius * force[0].hypot(force[1]);
+        HingeState { circle: hinge.circle, joint: hinge.joint, force: *force, couple }
+    };
+    hinges.iter().zip(reactions).map(one).collect()
 }
 
 /// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps.

@@ -4,6 +4,10 @@
 mod found;
 mod spin;
 mod standing;
+mod states;
+
+pub(crate) use spin::HingedData;
+pub(crate) use states::{HingedState, LastSolution, hinged_states};
 
 use super::answer::Answer;
 use super::mode_problem::{overflow, preload_columns, without_rounding};
@@ -49,12 +53,12 @@ pub(super) fn solve(
         enclosed: None,
     };
     check_determinate(mechanism)?;
-    let Spins { turning, standing } = spins(stages)?;
+    let Spins { turning, standing } = spins(stages.hinged())?;
     if let ([hinge], [], true) = (&standing[..], &turning[..], contacts <= standing::MOST_CONTACTS) {
         return standing::ranges(&answer, stages, *hinge);
     }
     never_turn(mechanism, &standing)?;
-    let problem = block_problem(stages, &turning)?;
+    let problem = block_problem(stages.hinged(), &turning)?;
     let enclosed = enclosed_block_problem(model, &middle(ranges), (mechanism, configuration), &turning);
     let result = blocks::search(enclosed.as_ref().unwrap_or(&problem), &options.search, progress);
     let found = BlocksFound {
@@ -78,9 +82,9 @@ pub fn exact_block_problem(model: &Model) -> Result<BlockProblem, Faults> {
     check_determinate(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
-    let Spins { turning, standing } = spins(&stages)?;
+    let Spins { turning, standing } = spins(stages.hinged())?;
     never_turn(&stages.mechanism, &standing)?;
-    block_problem(&stages, &turning)
+    block_problem(stages.hinged(), &turning)
 }
 
 /// Refuses friction in hinges where guides share a load.
@@ -92,14 +96,14 @@ fn check_determinate(mechanism: &Mechanism) -> Result<(), Faults> {
     Err(Fault::general(FaultKind::FrictionInHingesOfRedundant { hinges: hinges.collect() }).into())
 }
 
-fn block_problem(stages: &Stages, hinges: &[TurningHinge]) -> Result<BlockProblem, Faults> {
-    let numbers = block_coefficients(stages, hinges);
+fn block_problem(data: HingedData<'_>, hinges: &[TurningHinge]) -> Result<BlockProblem, Faults> {
+    let numbers = block_coefficients(data, hinges);
     BlockProblem::new(numbers.response(), numbers.jumps(), numbers.frictionless).map_err(|_| overflow())
 }
 
 /// What the block mode problem is made of, in floating point.
-fn block_coefficients(stages: &Stages, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
-    let Stages { mechanism, influence, velocity_signs, .. } = stages;
+fn block_coefficients(data: HingedData<'_>, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
+    let HingedData { mechanism, influence, velocity_signs, .. } = data;
     let contacts = &mechanism.contacts;
     let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
     let rows = influence.block_rows(&joints);

@@ -2,16 +2,25 @@
 
 use super::super::mode_problem::AT_REST;
 use super::super::no_sliding::why;
-use super::super::stages::Stages;
 use crate::configuration::{Configuration, free_motions};
 use crate::enclosure::{TurningHinge, spin};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
+use nalgebra::DVector;
 
 /// Of a hinge that no free motion turns, what rounding leaves of its angular acceleration, as a part of the greatest.
 const NO_ACCELERATION: f64 = 1e-9;
+
+/// A mechanism in its state, as far as the block mode problem needs it.
+#[derive(Clone, Copy)]
+pub(crate) struct HingedData<'a> {
+    pub(crate) mechanism: &'a Mechanism,
+    pub(crate) configuration: &'a Configuration,
+    pub(crate) influence: &'a Influence,
+    pub(crate) velocity_signs: &'a DVector<f64>,
+}
 
 /// The hinges with friction.
 pub(super) struct Spins {
@@ -29,8 +38,8 @@ pub(super) struct Spins {
 ///
 /// # Errors
 /// A fault for each hinge with friction that could turn and does not.
-pub(super) fn spins(stages: &Stages) -> Result<Spins, Faults> {
-    let Stages { mechanism, configuration, influence, .. } = stages;
+pub(super) fn spins(data: HingedData<'_>) -> Result<Spins, Faults> {
+    let HingedData { mechanism, configuration, influence, .. } = data;
     let mut faults = Faults::default();
     let mut spins = Spins { turning: Vec::new(), standing: Vec::new() };
     for (circle, joint) in mechanism.rough_hinges() {

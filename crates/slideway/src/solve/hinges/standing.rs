@@ -34,7 +34,7 @@ pub(super) fn ranges(
     stages: &Stages,
     hinge: TurningHinge,
 ) -> Result<SolveReport, Faults> {
-    let numbers = block_coefficients(stages, &[hinge]);
+    let numbers = block_coefficients(stages.hinged(), &[hinge]);
     let modes = Modes {
         answer,
         hinge,
