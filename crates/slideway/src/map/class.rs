@@ -8,6 +8,7 @@ use crate::report::SpeedChange;
 use crate::solve::{AT_ONCE, Parts, pattern};
 use nalgebra::DVector;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// Bounds of the classes of margins.
 const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
@@ -73,6 +74,24 @@ pub enum ClassMeaning {
 pub(super) struct ClassKey(pub(super) ClassMeaning);
 
 /// What is known of one direction at a point.
+pub(super) enum Answer {
+    /// Its mode problem.
+    Problem(Box<Point>),
+    /// With friction in hinges: its states.
+    States(States),
+}
+
+impl Answer {
+    /// The states; none if there are too many patterns.
+    fn states(&self) -> Option<Cow<'_, States>> {
+        match self {
+            Self::Problem(point) => states(point).map(Cow::Owned),
+            Self::States(states) => Some(Cow::Borrowed(states)),
+        }
+    }
+}
+
+/// A mode problem.
 pub(super) struct Point {
     /// Its mode problem; for `Motion` with the accelerations of the coordinates as outputs.
     pub(super) parts: Parts,
@@ -84,33 +103,42 @@ pub(super) struct Point {
 }
 
 /// The patterns of all states of a point.
-#[derive(Default)]
-struct States {
-    solutions: Vec<String>,
-    /// The sides of the solutions.
-    sides: Vec<Vec<ContactState>>,
-    gaps: Vec<String>,
-    continuum: bool,
+#[derive(Debug, Clone, Default)]
+pub(super) struct States {
+    pub(super) solutions: Vec<String>,
+    /// The sides of the solutions; none with friction in hinges.
+    pub(super) sides: Vec<Vec<ContactState>>,
+    pub(super) gaps: Vec<String>,
+    pub(super) continuum: bool,
+    /// Whether it is open how many there are.
+    pub(super) undecided: bool,
+    /// With friction in hinges and for `Motion`: what becomes of the speeds in each solution.
+    pub(super) changes: Vec<Vec<SpeedChange>>,
 }
 
 /// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone.
 pub(super) fn class(
     colour_by: ColourBy,
-    forwards: Result<&Point, &'static str>,
-    opposite: Option<Result<&Point, &'static str>>,
+    forwards: Result<&Answer, &'static str>,
+    opposite: Option<Result<&Answer, &'static str>>,
 ) -> ClassMeaning {
-    let point = match forwards {
-        Ok(point) => point,
+    let answer = match forwards {
+        Ok(answer) => answer,
         Err(reason) => return ClassMeaning::NotSolved { reason },
     };
-    let Some(states) = states(point) else { return ClassMeaning::TooLarge };
+    let Some(states) = answer.states() else { return ClassMeaning::TooLarge };
+    let undecided = ClassMeaning::NotSolved { reason: "not decided" };
+    if states.undecided {
+        return undecided;
+    }
     let moves =
         |states: &States| states.continuum || !(states.solutions.is_empty() && states.gaps.is_empty());
     if colour_by == ColourBy::Jam {
         let as_in_model = moves(&states);
-        return match opposite.map(|opposite| opposite.map(self::states)) {
+        return match opposite.map(|opposite| opposite.map(Answer::states)) {
             None | Some(Ok(None)) => ClassMeaning::TooLarge,
             Some(Err(reason)) => ClassMeaning::NotSolved { reason },
+            Some(Ok(Some(other))) if other.undecided => undecided,
             Some(Ok(Some(other))) => ClassMeaning::Moves { as_in_model, opposite: moves(&other) },
         };
     }
@@ -122,15 +150,24 @@ pub(super) fn class(
     }
     let number =
         ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
-    match colour_by {
-        ColourBy::Margin if states.solutions.len() == 1 => {
+    match (colour_by, answer) {
+        (ColourBy::Margin, Answer::Problem(point)) if states.solutions.len() == 1 => {
             margin(&point.parts).unwrap_or(ClassMeaning::TooLarge)
         }
-        ColourBy::Motion if !point.free.is_empty() && !states.solutions.is_empty() => motion(point, &states),
+        (ColourBy::Motion, Answer::Problem(point))
+            if !(point.free.is_empty() || states.solutions.is_empty()) =>
+        {
+            motion(speeds(point, &states))
+        }
+        (ColourBy::Motion, Answer::States(_)) if states.changes.iter().any(|changes| !changes.is_empty()) => {
+            motion(states.changes.clone())
+        }
         // Whoever asks whether it holds asks no mode problem.
-        ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam | ColourBy::Motion | ColourBy::Hold => number,
-        ColourBy::Modes => {
-            let mut patterns = [states.solutions, states.gaps].concat();
+        (ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam | ColourBy::Motion | ColourBy::Hold, _) => {
+            number
+        }
+        (ColourBy::Modes, _) => {
+            let mut patterns = [&states.solutions[..], &states.gaps[..]].concat();
             // '+' comes before '-', and '-' before '0', as the states do in an enumeration.
             patterns.sort_unstable();
             ClassMeaning::Modes { patterns }
@@ -138,8 +175,14 @@ pub(super) fn class(
     }
 }
 
+/// What becomes of the speeds in the solutions, in any order.
+fn motion(mut solutions: Vec<Vec<SpeedChange>>) -> ClassMeaning {
+    solutions.sort_unstable();
+    ClassMeaning::Motion { solutions }
+}
+
 /// What becomes of the speeds in each solution.
-fn motion(point: &Point, states: &States) -> ClassMeaning {
+fn speeds(point: &Point, states: &States) -> Vec<Vec<SpeedChange>> {
     let line = point.parts.line_to(&point.parts);
     let of_solution = |sides: &Vec<ContactState>| {
         let change = |&(coordinate, rate): &(usize, f64)| {
@@ -148,9 +191,7 @@ fn motion(point: &Point, states: &States) -> ClassMeaning {
         };
         point.free.iter().map(change).collect()
     };
-    let mut solutions: Vec<Vec<SpeedChange>> = states.sides.iter().map(of_solution).collect();
-    solutions.sort_unstable();
-    ClassMeaning::Motion { solutions }
+    states.sides.iter().map(of_solution).collect()
 }
 
 /// All states in which no guided slider tips; none if there are too many patterns.
@@ -212,7 +253,9 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
         }
         Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
         Some(FaultKind::HingeDoesNotTurn { .. }) => "a hinge with friction does not turn",
-        Some(FaultKind::FrictionInHinges { .. }) => "friction in hinges, which maps do not take into account",
+        Some(FaultKind::FrictionInHingesOfRedundant { .. }) => {
+            "friction in hinges beside guides that share a load"
+        }
         Some(
             FaultKind::OutOfRange { .. }
             | FaultKind::StaticBelowKinetic { .. }

@@ -1,15 +1,15 @@
 //! The mode problem at a point of the plane: interpolated where it depends bilinearly on both quantities,
 //! else made anew.
 
-use super::class::{ClassKey, ClassMeaning, Point, class, reason};
-use super::{Axis, ColourBy};
+use super::class::{Answer, ClassKey, ClassMeaning, Point, class, reason};
+use super::{Axis, ColourBy, hinges};
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
 use crate::limits::mechanism_with;
 use crate::model::{Model, Settings};
 use crate::progress::{Progress, Work, undisturbed};
-use crate::solve::{Parts, SolveOptions, Stages, Trail, states_between_faces};
+use crate::solve::{LastSolution, Parts, SolveOptions, Stages, Trail, states_between_faces};
 use crate::standstill::{HoldOptions, can_rest};
 
 /// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least
@@ -59,7 +59,7 @@ impl<'a> Evaluator<'a> {
 
     /// The classes of points with these values, one after another, until the work is to end.
     pub(super) fn classes(&self, points: impl Iterator<Item = [f64; 2]>, work: Work<'_>) -> Vec<ClassKey> {
-        let mut trails = [Trail::default(), Trail::default()];
+        let mut trails = [Before::default(), Before::default()];
         let points = points.take_while(|_| !work.is_over());
         points.map(|values| self.class(values, &mut trails, work)).collect()
     }
@@ -70,7 +70,7 @@ impl<'a> Evaluator<'a> {
         let faults = match &self.forwards {
             None => undisturbed(|work| self.rests(middle, work)).err(),
             Some(source) => {
-                undisturbed(|work| source.point(self.axes, middle, &mut Trail::default(), work)).err()
+                undisturbed(|work| source.point(self.axes, middle, &mut Before::default(), work)).err()
             }
         };
         let faults = faults.unwrap_or_default();
@@ -85,15 +85,15 @@ impl<'a> Evaluator<'a> {
         can_rest((&model, friction), &HoldOptions::default(), work)
     }
 
-    fn class(&self, values: [f64; 2], [there, back]: &mut [Trail; 2], work: Work<'_>) -> ClassKey {
+    fn class(&self, values: [f64; 2], [there, back]: &mut [Before; 2], work: Work<'_>) -> ClassKey {
         let Some(source) = &self.forwards else {
             return ClassKey(match self.rests(values, work) {
                 Ok(holds) => ClassMeaning::Rest { holds },
                 Err(faults) => ClassMeaning::NotSolved { reason: reason(&faults) },
             });
         };
-        let at = |source: &Source, trail: &mut Trail| {
-            source.point(self.axes, values, trail, work).map_err(|faults| reason(&faults))
+        let at = |source: &Source, before: &mut Before| {
+            source.point(self.axes, values, before, work).map_err(|faults| reason(&faults))
         };
         let forwards = at(source, there);
         let opposite = self.opposite.as_ref().map(|opposite| at(opposite, back));
@@ -117,6 +117,7 @@ impl Source {
         nothing_varies(axes, [x, y])?;
         // What is affine in each of both while the other stays as it is, is bilinear in both.
         let corners = if x.max(y) <= Degree::Affine
+            && model.hinge_friction().next().is_none()
             && let [Ok(a), Ok(b), Ok(c), Ok(d)] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at)
             && [&b.2, &c.2, &d.2].into_iter().all(|other| have_same_signs(&a.2, other))
         {
@@ -134,21 +135,27 @@ impl Source {
         &self,
         axes: &[Axis; 2],
         values: [f64; 2],
-        trail: &mut Trail,
+        before: &mut Before,
         work: Work<'_>,
-    ) -> Result<Point, Faults> {
+    ) -> Result<Answer, Faults> {
         let (parts, accuracy, free, stages) = if let Some(corners) = &self.corners {
             let parts = corners.parts_at(axes, values).ok_or_else(Faults::default)?;
             (parts, corners.accuracy, corners.free.clone(), None)
         } else {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
             let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
-            let stages = Stages::along(trail, mechanism)?;
+            let stages = Stages::along(&mut before.trail, mechanism)?;
+            if stages.mechanism.rough_hinges().next().is_some() {
+                let model = || Ok(model_at(&self.model, axes, values)?.0);
+                let careful = self.with_accelerations || self.model.has_guided_sliders();
+                let found = hinges::states(&stages, &model, careful, &mut before.last, work)?;
+                return Ok(Answer::States(found));
+            }
             let parts = parts(&stages, friction, self.with_accelerations)?;
             (parts, stages.accuracy, free(&stages), Some(stages))
         };
         if parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy) {
-            return Ok(Point { parts, free, between_faces: Vec::new() });
+            return Ok(Answer::Problem(Box::new(Point { parts, free, between_faces: Vec::new() })));
         }
         let (model, friction) = model_at(&self.model, axes, values)?;
         let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
@@ -156,8 +163,15 @@ impl Source {
         let (at, options) = (stages.rougher(friction), SolveOptions::default());
         let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();
-        Ok(Point { parts, free, between_faces })
+        Ok(Answer::Problem(Box::new(Point { parts, free, between_faces })))
     }
+}
+
+/// What is known from the points before.
+#[derive(Default)]
+struct Before {
+    trail: Trail,
+    last: LastSolution,
 }
 
 /// The mode problem of stages, with the accelerations of the coordinates as outputs if these are asked.
@@ -257,7 +271,8 @@ mod tests {
                             let (model, friction) = model_at(model, &axes, values)?;
                             let parts = Stages::new(&model)?.parts(friction)?;
                             assert!(parts.with_free_faces().is_empty(), "{name}");
-                            Ok(Point { parts, free: Vec::new(), between_faces: Vec::new() })
+                            let point = Point { parts, free: Vec::new(), between_faces: Vec::new() };
+                            Ok(Answer::Problem(Box::new(point)))
                         };
                         let at = |model: &Model| anew(model).map_err(|faults| reason(&faults));
                         let (forwards, opposite) = (at(&model), at(&backwards));

@@ -18,10 +18,11 @@
 //!
 //! # Files
 //! `map` colours a plane: `evaluate.rs` has the mode problem at a point and its states between faces,
-//! `class.rs` what its solutions come to, `refine.rs` solves pixels only where neighbours differ.
+//! `hinges.rs` those with friction in hinges, `class.rs` what its solutions come to, `refine.rs` solves pixels only where neighbours differ.
 
 mod class;
 mod evaluate;
+mod hinges;
 mod refine;
 mod report;
 
@@ -156,10 +157,10 @@ struct Axis {
 
 impl Axis {
     fn new(model: &Model, vary: &Vary, colour_by: ColourBy) -> Result<Self, Faults> {
-        let varied = match colour_by {
-            ColourBy::Hold => vary.at_rest(model)?,
-            _ => vary.of(model)?,
-        };
+        let mut varied = vary.at_rest(model)?;
+        if colour_by == ColourBy::Margin || colour_by != ColourBy::Hold && varied.is_friction_factor() {
+            varied = vary.of(model)?;
+        }
         let range = vary.ends(&varied, || Err(varied.range_needed()))?;
         Ok(Self { varied, range })
     }

@@ -1,0 +1,65 @@
+//! The states of a point with friction in hinges.
+
+use super::class::States;
+use crate::fault::Faults;
+use crate::model::Model;
+use crate::progress::{Progress, Work};
+use crate::report::{Solution, SolveReport, SpeedChange, Status};
+use crate::solve::{HingedState, LastSolution, SolveOptions, Stages, hinged_states, pattern, solve_with};
+
+/// An acceleration below this part of the greatest one is zero within rounding.
+const NO_ACCELERATION: f64 = 1e-9;
+
+/// All states of a point. `model` makes its model for a careful answer, which is given if `careful` says so: what becomes
+/// of the speeds and whether guided sliders tip needs one.
+///
+/// # Errors
+/// Whatever `solve` refuses.
+pub(super) fn states(
+    stages: &Stages,
+    model: &dyn Fn() -> Result<Model, Faults>,
+    careful: bool,
+    last: &mut LastSolution,
+    work: Work<'_>,
+) -> Result<States, Faults> {
+    let mut goes_on = |_: &Progress| work.flow();
+    if !careful && let Some(found) = hinged_states(stages.hinged(), stages.accuracy, last, &mut goes_on)? {
+        return Ok(of_found(&found));
+    }
+    let options = SolveOptions { margins: false, ..SolveOptions::default() };
+    Ok(of_report(&solve_with(&model()?, &options, &mut goes_on)?, stages))
+}
+
+fn of_found(found: &[HingedState]) -> States {
+    let patterns = found.iter().map(|state| pattern(&state.pattern));
+    States { solutions: patterns.collect(), ..States::default() }
+}
+
+fn of_report(report: &SolveReport, stages: &Stages) -> States {
+    let patterns = |states: &[Solution]| states.iter().map(|state| state.pattern.clone()).collect();
+    States {
+        solutions: patterns(&report.solutions),
+        gaps: patterns(&report.preload_gap_states),
+        continuum: report.status == Status::Continuum,
+        undecided: report.status == Status::Unknown,
+        changes: report.solutions.iter().map(|solution| changes(solution, stages)).collect(),
+        ..States::default()
+    }
+}
+
+/// What becomes of the speed of each coordinate that no drive moves.
+fn changes(solution: &Solution, stages: &Stages) -> Vec<SpeedChange> {
+    let of_bodies = solution.bodies.iter().flat_map(|body| body.acceleration);
+    let greatest = of_bodies.fold(0.0_f64, |greatest, value| greatest.max(value.abs()));
+    let angular = solution.bodies.iter().map(|body| body.angular_acceleration.abs());
+    let greatest_angular = angular.fold(0.0, f64::max);
+    let coordinates = stages.mechanism.coordinates.iter().zip(&solution.coordinates).enumerate();
+    let free = coordinates.filter(|(index, _)| stages.mechanism.is_free(*index));
+    free.map(|(_, (coordinate, found))| {
+        let scale = if coordinate.kind.is_angle() { greatest_angular } else { greatest };
+        let least = NO_ACCELERATION * scale;
+        let sign = i8::from(found.acceleration > least) - i8::from(found.acceleration < -least);
+        SpeedChange::of_sign(coordinate.rate, Some(sign))
+    })
+    .collect()
+}
