@@ -44,12 +44,12 @@ pub(super) fn direction(
     let without_mode_problem = RangeWithoutProblem::of(&found);
     Ok((
         guarantee(&found, &varied.shown_in),
-        CourseDirection { direction, rows, modes, blow_ups, without_mode_problem },
+        CourseDirection { direction, rows, modes, blow_ups, locked: Vec::new(), without_mode_problem },
     ))
 }
 
-/// The modes of the rows, each once, in words.
-fn modes(rows: &[CourseRow], naming: &Naming) -> Vec<CourseMode> {
+/// The modes of rows, each once, in words.
+pub(super) fn modes(rows: &[CourseRow], naming: &Naming) -> Vec<CourseMode> {
     let mut modes: Vec<CourseMode> = Vec::new();
     for pattern in rows.iter().filter_map(|row| row.pattern.as_ref()) {
         if modes.iter().all(|known| known.pattern != *pattern) {
@@ -208,7 +208,8 @@ impl Tabulated<'_> {
     }
 }
 
-fn nothing(value: f64) -> CourseRow {
+/// A row of a value at which nothing is known.
+pub(super) fn nothing(value: f64) -> CourseRow {
     CourseRow {
         at: value,
         pattern: None,

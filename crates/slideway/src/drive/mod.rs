@@ -29,10 +29,12 @@
 //!
 //! # Files
 //! `drive` adds the efforts of drives to the mode problem as outputs (`solve::Parts`), so that each branch,
-//! and its growth without bound, comes from the modes that `limits` finds.
+//! and its growth without bound, comes from the modes that `limits` finds. With friction in hinges each row is solved
+//! by itself (`hinges.rs`).
 
 mod course;
 mod efforts;
+mod hinges;
 mod report;
 mod state;
 mod text;
@@ -40,11 +42,11 @@ mod text;
 pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
-    DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense,
+    DriveSolution, Efficiency, EfficiencyKind, Frictionless, LockedRange, SCHEMA, Sense,
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{VariedQuantity, Vary, range_around};
+use crate::limits::{FRICTION, VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{finite, locked};
@@ -143,12 +145,15 @@ fn course(
     rows: usize,
     work: Work<'_>,
 ) -> Result<Course, Faults> {
-    let varied = vary.of(model)?;
+    let rough = model.hinge_friction().next().is_some() && vary.name != FRICTION;
+    let varied_in = |model: &Model| if rough { vary.at_rest(model) } else { vary.of(model) };
+    let direction = if rough { hinges::direction } else { course::direction };
+    let varied = varied_in(model)?;
     let range = vary.ends(&varied, || range_around(model, &varied))?;
-    let opposite = vary.of(reversed)?;
+    let opposite = varied_in(reversed)?;
     let steps = rows.clamp(2, GREATEST_ROWS) - 1;
-    let (guarantee, forwards) = course::direction(&varied, (range, steps), Sense::Model, work.part(0, 2))?;
-    let (_, backwards) = course::direction(&opposite, (range, steps), Sense::Reversed, work.part(1, 2))?;
+    let (guarantee, forwards) = direction(&varied, (range, steps), Sense::Model, work.part(0, 2))?;
+    let (_, backwards) = direction(&opposite, (range, steps), Sense::Reversed, work.part(1, 2))?;
     Ok(Course {
         vary: VariedQuantity::new(&varied, range, varied.present()?),
         directions: vec![forwards, backwards],

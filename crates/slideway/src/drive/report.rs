@@ -193,8 +193,21 @@ pub struct CourseDirection {
     pub modes: Vec<CourseMode>,
     /// Values at which efforts grow without bound, in ascending order.
     pub blow_ups: Vec<BlowUp>,
+    /// With friction in hinges: ranges without a solution.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub locked: Vec<LockedRange>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+}
+
+/// A range in which no effort moves the mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct LockedRange {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
 }
 
 /// A mode that occurs.

@@ -2,7 +2,7 @@
 
 use super::report::{
     Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, Efficiency,
-    EfficiencyKind, Sense,
+    EfficiencyKind, LockedRange, Sense,
 };
 use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
@@ -121,11 +121,13 @@ fn without_bound(report: &DriveReport, blow_up: &BlowUp) -> String {
         contacts => format!(", as the normal forces of {} do", contacts.join(", ")),
     };
     let only = if blow_up.side == Approach::Above { ", which exists above it" } else { "" };
-    format!(
-        "the {what} of {} {verb} without bound in the mode {}{only}{also}",
-        growing.join(", "),
-        spaced(&blow_up.pattern)
-    )
+    // Hinges alone have no modes.
+    let mode = match (blow_up.pattern.as_str(), blow_up.side) {
+        ("", Approach::Below) => " from below".to_owned(),
+        ("", Approach::Above) => " from above".to_owned(),
+        (pattern, _) => format!(" in the mode {}{only}", spaced(pattern)),
+    };
+    format!("the {what} of {} {verb} without bound{mode}{also}", growing.join(", "))
 }
 
 impl Page<'_, DriveReport> {
@@ -193,6 +195,11 @@ impl Page<'_, DriveReport> {
                 let at = course.vary.shown_in.precise(blow_up.at);
                 self.line(&format!("  At {} = {at} {told}.", course.vary.name));
             }
+            for LockedRange { from, to } in &direction.locked {
+                let unit = &course.vary.shown_in;
+                let [from, to] = [unit.precise_number(*from), unit.precise(*to)];
+                self.line(&format!("  From {} = {from} to {to} no effort moves it.", course.vary.name));
+            }
             for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
                 self.line(&no_answer([*from, *to], &course.vary.shown_in, reason));
             }
@@ -219,10 +226,8 @@ fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
     cells.push(match (&row.pattern, &row.frictionless) {
         (Some(pattern), _) => {
             let verdict = row.attainability.filter(|verdict| *verdict != Verdict::Attainable);
-            verdict.map_or_else(
-                || spaced(pattern),
-                |one| format!("{} ({})", spaced(pattern), verdict_in_words(one)),
-            )
+            let words = verdict.map_or_else(String::new, |one| format!("({})", verdict_in_words(one)));
+            [spaced(pattern), words].join(" ").trim().to_owned()
         }
         (None, Some(_)) => "no solution".to_owned(),
         (None, None) => "no answer".to_owned(),

@@ -1,0 +1,194 @@
+//! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and ranges
+//! without a solution, as about a dead centre, are sought between evenly spaced values.
+
+use super::course::{modes, nothing};
+use super::efforts::GROWTH;
+use super::report::{
+    Approach, BlowUp, CourseDirection, CourseRow, DriveDirection, DriveSolution, LockedRange, Sense,
+};
+use super::state;
+use crate::fault::Faults;
+use crate::limits::{Naming, Varied};
+use crate::mechanism::Mechanism;
+use crate::progress::{Progress, Work};
+use crate::report::Status;
+use crate::solve::{LastSolution, SolveOptions, Stages, Trail, hinged_states, solve_with};
+
+/// Steps between which changes between locked and not locked are sought.
+const STEPS: usize = 500;
+/// Halvings between two values: down to neighbouring numbers.
+const HALVINGS: usize = 60;
+/// How near to an end growth is judged, as fractions of the range.
+const NEAR: [f64; 2] = [1e-4, 1e-6];
+
+/// What can be missed.
+const GUARANTEE: &str = "Every row was solved by itself, and so were 501 evenly spaced values; between those with and without a solution the end was sought by bisection. What begins and ends between two of these values is missed.";
+
+/// The efforts in one direction of motion, and what can be missed.
+///
+/// # Errors
+/// A value in the middle of the range that `solve` refuses, if it refuses all.
+pub(super) fn direction(
+    varied: &Varied,
+    (range, steps): ([f64; 2], usize),
+    direction: Sense,
+    work: Work<'_>,
+) -> Result<(String, CourseDirection), Faults> {
+    let course = Sampled { varied, range, direction, work };
+    let mut rows: Vec<CourseRow> =
+        (0..=steps).flat_map(|step| course.rows_at(along(range, step, steps))).collect();
+    if rows.iter().all(|row| row.frictionless.is_none()) {
+        course.at(f64::midpoint(range[0], range[1]))?;
+    }
+    let locked = course.locked();
+    let blow_ups: Vec<BlowUp> = locked.iter().flat_map(|locked| course.blow_ups(locked)).collect();
+    rows.extend(blow_ups.iter().map(|blow_up| CourseRow {
+        at: blow_up.at,
+        pattern: Some(blow_up.pattern.clone()),
+        grows: blow_up.efforts.clone(),
+        ..nothing(blow_up.at)
+    }));
+    rows.sort_by(|one, other| one.at.total_cmp(&other.at));
+    let modes = modes(&rows, &Naming::new(varied.model())?);
+    let without_mode_problem = Vec::new();
+    Ok((
+        GUARANTEE.to_owned(),
+        CourseDirection { direction, rows, modes, blow_ups, locked, without_mode_problem },
+    ))
+}
+
+fn along([from, to]: [f64; 2], step: usize, steps: usize) -> f64 {
+    if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 }
+}
+
+struct Sampled<'c> {
+    varied: &'c Varied,
+    range: [f64; 2],
+    direction: Sense,
+    work: Work<'c>,
+}
+
+impl Sampled<'_> {
+    /// The answer in the state of a value.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    fn at(&self, value: f64) -> Result<DriveDirection, Faults> {
+        let (model, _) = self.varied.model_at(value)?;
+        Ok(state::direction(&model, self.direction, self.work.part(0, 2))?.1)
+    }
+
+    fn rows_at(&self, value: f64) -> Vec<CourseRow> {
+        let found = if self.work.is_over() { None } else { self.at(value).ok() };
+        let Some(found) = found else { return vec![nothing(value)] };
+        let frictionless = Some(found.frictionless.efforts);
+        if found.solutions.is_empty() {
+            return vec![CourseRow { frictionless, ..nothing(value) }];
+        }
+        let row = |solution: DriveSolution| CourseRow {
+            at: value,
+            pattern: Some(solution.pattern),
+            attainability: Some(solution.attainability),
+            grows: vec![0; solution.efforts.len()],
+            efforts: Some(solution.efforts),
+            frictionless: frictionless.clone(),
+            power: Some(solution.power),
+            efficiency: Some(solution.efficiency),
+        };
+        found.solutions.into_iter().map(row).collect()
+    }
+
+    /// Whether there is no solution at a value; none where there is no answer.
+    fn is_locked(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<bool> {
+        let mut goes_on = |_: &Progress| self.work.flow();
+        let (model, _) = self.varied.model_at(value).ok()?;
+        if !model.has_guided_sliders() {
+            let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
+            let found = hinged_states(stages.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
+            if let Some(states) = found {
+                return Some(states.is_empty());
+            }
+        }
+        let options = SolveOptions { margins: false, ..SolveOptions::default() };
+        match solve_with(&model, &options, &mut goes_on).ok()?.status {
+            Status::Unknown => None,
+            status => Some(status == Status::None),
+        }
+    }
+
+    /// The ranges without a solution.
+    fn locked(&self) -> Vec<LockedRange> {
+        let mut before = (Trail::default(), LastSolution::default());
+        let mut ranges: Vec<LockedRange> = Vec::new();
+        let mut open: Option<f64> = None;
+        let mut last: Option<(f64, bool)> = None;
+        for step in 0..=STEPS {
+            let value = along(self.range, step, STEPS);
+            let is_locked = if self.work.is_over() { None } else { self.is_locked(value, &mut before) };
+            match (last, is_locked) {
+                (Some((known, was)), Some(is)) if was != is => {
+                    let end = self.change([known, value], is, &mut before);
+                    if is {
+                        open = Some(end);
+                    } else if let Some(from) = open.take() {
+                        ranges.push(LockedRange { from, to: end });
+                    }
+                }
+                (None, Some(true)) => open = Some(value),
+                (Some((known, true)), None) => {
+                    ranges.extend(open.take().map(|from| LockedRange { from, to: known }));
+                }
+                _ => {}
+            }
+            last = is_locked.map(|is_locked| (value, is_locked));
+        }
+        ranges.extend(open.map(|from| LockedRange { from, to: self.range[1] }));
+        ranges
+    }
+
+    /// Where it changes between locked and not locked between two values; `after` says what it is at the second.
+    fn change(&self, [mut low, mut high]: [f64; 2], after: bool, before: &mut (Trail, LastSolution)) -> f64 {
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(low, high);
+            if middle == low || middle == high {
+                break;
+            }
+            match self.is_locked(middle, before) {
+                Some(is) if is == after => high = middle,
+                Some(_) => low = middle,
+                None => break,
+            }
+        }
+        f64::midpoint(low, high)
+    }
+
+    /// The solutions whose efforts grow without bound towards an end of a range without solutions.
+    fn blow_ups(&self, locked: &LockedRange) -> Vec<BlowUp> {
+        let [from, to] = self.range;
+        let ends = [(locked.from, -1.0, Approach::Below), (locked.to, 1.0, Approach::Above)];
+        let inside = ends.into_iter().filter(|(at, ..)| from < *at && *at < to);
+        let one = |(at, sense, side): (f64, f64, Approach)| {
+            let [far, close] = NEAR.map(|share| self.at(at + sense * share * (to - from)).ok());
+            let (far, close) = (far?, close?);
+            let growing = |solution: &DriveSolution| {
+                let before = far.solutions.iter().find(|other| other.pattern == solution.pattern)?;
+                let grows = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far.abs() {
+                    true if *close > 0.0 => 1,
+                    true => -1,
+                    false => 0,
+                };
+                let efforts: Vec<i8> = before.efforts.iter().zip(&solution.efforts).map(grows).collect();
+                let any = efforts.iter().any(|sign| *sign != 0);
+                any.then(|| BlowUp {
+                    at,
+                    pattern: solution.pattern.clone(),
+                    side,
+                    efforts,
+                    contacts: Vec::new(),
+                })
+            };
+            close.solutions.iter().find_map(growing)
+        };
+        inside.filter_map(one).collect()
+    }
+}
