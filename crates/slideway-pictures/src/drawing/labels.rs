@@ -234,7 +234,12 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> 
     let mut places = Vec::new();
     for element in scene.elements.iter().filter(|element| counts(element.class)) {
         let weight = match element.class {
-            Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => IMPORTANT,
+            Class::Reaction
+            | Class::Friction
+            | Class::PinForce
+            | Class::Load
+            | Class::Drive
+            | Class::Velocity => IMPORTANT,
             Class::Dimension => 2.0 * IMPORTANT,
             Class::Hatch => 3.0,
             Class::Slot => 0.4,

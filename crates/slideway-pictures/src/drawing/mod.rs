@@ -12,6 +12,7 @@ mod bodies;
 mod dimensions;
 mod faces;
 mod forces;
+mod hinges;
 mod labels;
 mod loads;
 mod looks;
@@ -27,6 +28,7 @@ pub mod svg;
 mod units;
 mod view;
 
+pub use hinges::PinForce;
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
 pub use sheet::{Caption, Panel, Sheet, Shown, pieces, sheet, title};
 pub use view::View;
@@ -56,6 +58,8 @@ pub struct ContactStates {
     pub contacts: Vec<ContactState>,
     /// The effort of each drive (N or N m).
     pub efforts: Vec<f64>,
+    /// The forces of hinges with friction.
+    pub pins: Vec<PinForce>,
 }
 
 /// How a contact is drawn.
@@ -100,6 +104,7 @@ impl ContactStates {
         Self {
             contacts: solution.contacts.iter().zip(solution.pattern.chars()).map(state).collect(),
             efforts: solution.drives.iter().map(|drive| drive.effort).collect(),
+            pins: PinForce::of(solution),
         }
     }
 
@@ -179,6 +184,7 @@ pub fn scene(
     painter.loads();
     if options.force_scale.is_some() {
         painter.contact_forces();
+        painter.pin_forces();
         painter.open_contacts();
     }
     if options.dimensions {

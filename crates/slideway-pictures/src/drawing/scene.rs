@@ -45,6 +45,12 @@ pub enum Class {
     Reaction,
     /// A friction force.
     Friction,
+    /// A friction circle of a hinge.
+    FrictionCircle,
+    /// The force of a hinge with friction.
+    PinForce,
+    /// The line along which that acts.
+    ActionLine,
     /// A load, a weight, or the effort of a drive.
     Load,
     /// A sign that an arrow is shorter than its scale says.
@@ -133,6 +139,8 @@ pub struct Scene {
     /// By how much the play, the misalignment and the deflections of guides that share a load are magnified; none
     /// without such guides.
     pub magnification: Option<f64>,
+    /// By how much friction circles of hinges are magnified; none without them.
+    pub friction_circles: Option<f64>,
 }
 
 impl Bounds {

@@ -44,6 +44,27 @@ fn scale_of_play(scene: &Scene) -> Option<String> {
     Some(format!("Play, misalignment and deflections are drawn {times} times as large as they are{others}."))
 }
 
+/// How large friction circles are drawn, in words.
+fn scale_of_circles(magnification: f64) -> String {
+    if magnification == 1.0 {
+        return "Friction circles are to scale.".to_owned();
+    }
+    format!("Friction circles are drawn {} times as large as they are.", number(magnification))
+}
+
+/// "Pins: O 1.2 kN and 1.5 N m on crank; ..."
+fn pins(solution: &Solution, mechanism: &Mechanism) -> Option<String> {
+    let [force, moment] = ["N", "N m"].map(|unit| mechanism.units.of(unit));
+    let one = |hinge: &slideway::report::Hinge| {
+        let friction = hinge.friction?;
+        let size = quantity(hinge.force[0].hypot(hinge.force[1]), &force);
+        let couple = quantity(friction.couple.abs(), &moment);
+        Some(format!("{} {size} and {couple} on {}", hinge.name, hinge.on))
+    };
+    let pins: Vec<String> = solution.hinges.iter().filter_map(one).collect();
+    (!pins.is_empty()).then(|| format!("Pins, force and friction couple: {}", pins.join("; ")))
+}
+
 /// Which solutions are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shown {
@@ -247,17 +268,21 @@ impl Drawn<'_> {
         let mut lines: Vec<String> =
             solution.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode)).collect();
         lines.push(solution.attainability.in_words());
+        lines.extend(pins(solution, self.mechanism));
         lines.extend(scale_of_play(&scene));
+        lines.extend(scene.friction_circles.map(scale_of_circles));
         let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
         let force_scale = (greatest > 0.0).then_some(force_scale);
         Panel { scene, caption: Caption { heading, lines }, force_scale }
     }
 
-    /// The greatest force of a contact (N), or of a load if no contact has any.
+    /// The greatest force of a contact or of a hinge with friction (N), or of a load if none has any.
     fn greatest_force(&self, solution: &Solution) -> f64 {
         let contacts =
             solution.contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
-        let greatest = contacts.map(f64::abs).fold(0.0, f64::max);
+        let rough = solution.hinges.iter().filter(|hinge| hinge.friction.is_some());
+        let pins = rough.map(|hinge| hinge.force[0].hypot(hinge.force[1]));
+        let greatest = contacts.map(f64::abs).chain(pins).fold(0.0, f64::max);
         if greatest > 0.0 {
             return greatest;
         }
@@ -403,8 +428,8 @@ impl Layout<'_> {
             let force = nice(0.7 * LONGEST_FORCE / scale, &unit);
             let from = Point::new(right + 26.0, corner.y);
             let to = from + Point::new(force * scale, 0.0);
-            let shows_reactions = panel.scene.elements.iter().any(|element| element.class == Class::Reaction);
-            let class = if shows_reactions { Class::Reaction } else { Class::Load };
+            let shows = |class: &Class| panel.scene.elements.iter().any(|element| element.class == *class);
+            let class = [Class::Reaction, Class::PinForce].into_iter().find(shows).unwrap_or(Class::Load);
             scene.add(class, Shape::Arrow { from, to });
             beside(scene, to, quantity(force, &unit));
         }
@@ -431,6 +456,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     let words = [
         (Class::Reaction, format!("normal reaction on {forces_on}")),
         (Class::Friction, format!("friction on {forces_on}")),
+        (Class::PinForce, "force of a pin, tangent to its friction circle".to_owned()),
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
         (Class::Velocity, "sliding velocity".to_owned()),

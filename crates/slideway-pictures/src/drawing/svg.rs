@@ -162,6 +162,9 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Mass => "s-mass",
         Class::Reaction => "s-reaction",
         Class::Friction => "s-friction",
+        Class::FrictionCircle => "s-friction-circle",
+        Class::PinForce => "s-pin-force",
+        Class::ActionLine => "s-action-line",
         Class::Load => "s-load",
         Class::Break => "s-break",
         Class::Drive => "s-drive",
@@ -251,12 +254,15 @@ pub fn rules(colour: &Colour) -> String {
     for (class, colour) in [
         (".s-reaction", reaction),
         (".s-friction", friction),
+        (".s-pin-force", reaction),
         (".s-load", load),
         (".s-drive", load),
         (".s-velocity", velocity),
     ] {
         rule(class, format!("fill: {colour}; {}", pen(colour, 2.4)));
     }
+    rule(".s-friction-circle", format!("fill: none; {}", pen(friction, 1.4)));
+    rule(".s-action-line", format!("fill: none; stroke-dasharray: 9 3 2 3; {}", pen(reaction, 1.0)));
     rule(".s-break", format!("fill: none; {}", pen(load, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));

@@ -29,7 +29,9 @@ fn forces(mechanism: &Mechanism, configuration: &Configuration, report: Option<&
     let of_state = |state: &Solution| -> Vec<f64> {
         let contacts =
             state.contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
+        let rough = state.hinges.iter().filter(|hinge| hinge.friction.is_some());
         contacts
+            .chain(rough.map(|hinge| hinge.force[0].hypot(hinge.force[1])))
             .chain(state.drives.iter().filter(|drive| drive.unit == "N").map(|drive| drive.effort))
             .collect()
     };

@@ -216,7 +216,8 @@ impl<'h> Painted<'h> {
             }),
             ..ContactState::default()
         });
-        let states = ContactStates { contacts: contacts.collect(), efforts: sample.efforts.clone() };
+        let (contacts, efforts) = (contacts.collect(), sample.efforts.clone());
+        let states = ContactStates { contacts, efforts, ..ContactStates::default() };
         scene(&self.history.mechanism, &sample.configuration, &states, &self.view, &self.options)
     }
 }

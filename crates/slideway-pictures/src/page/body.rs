@@ -150,19 +150,25 @@ pub(super) fn state(report: &SolveReport, heading: &str, solution: &Solution) ->
     } else {
         String::new()
     };
+    // Hinges alone have no contacts.
+    let contacts = match contacts(solution, units) {
+        rows if rows.is_empty() => rows,
+        rows => format!(
+            "<table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">{force}</th>\
+             <th class=\"number\">{friction}</th>\n<th class=\"number\">{sliding}</th>{deflection}</tr></thead>\n<tbody>\n\
+             {rows}</tbody>\n</table>\n"
+        ),
+    };
     let joints: Vec<String> = solution.joints.iter().map(|joint| joint_mode(joint, ": ")).collect();
     let end = if joints.is_empty() { "" } else { "." };
     format!(
         "<section class=\"state\">\n<h3>{}</h3>\n<p>{}{end}\n{}{}</p>\n<div class=\"wide\">\n\
-         <table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">{force}</th>\
-         <th class=\"number\">{friction}</th>\n<th class=\"number\">{sliding}</th>{deflection}</tr></thead>\n<tbody>\n{}\
-         </tbody>\n</table>\n<table class=\"rest\">\n<thead><tr><th>Of</th><th>What</th><th class=\"number\">Value</th>\
+         {contacts}<table class=\"rest\">\n<thead><tr><th>Of</th><th>What</th><th class=\"number\">Value</th>\
          <th>Unit</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n</section>\n",
-        text(heading),
+        text(heading.trim_end_matches([':', ' '])),
         joints.join("; "),
         all(report.speeds_in_words(solution), |sentence| text(&sentence) + "\n"),
         text(&solution.attainability.in_words()),
-        contacts(solution, units),
         everything_else(solution, units),
     )
 }
@@ -196,7 +202,7 @@ fn contacts(solution: &Solution, units: &Units) -> String {
     })
 }
 
-/// Rows of what is no contact: accelerations, efforts, hinge forces.
+/// Rows of what is no contact: accelerations, efforts, forces and friction couples of hinges.
 fn everything_else(solution: &Solution, units: &Units) -> String {
     let coordinates = all(&solution.coordinates, |coordinate| {
         row([&coordinate.name, "acceleration"], coordinate.acceleration, &units.of(coordinate.unit)) + "\n"
@@ -204,7 +210,11 @@ fn everything_else(solution: &Solution, units: &Units) -> String {
     let drives =
         all(&solution.drives, |drive| row([&drive.name, "effort"], drive.effort, &units.of(drive.unit)));
     let hinges = all(&solution.hinges, |hinge| {
+        let couple = hinge.friction.map(|friction| {
+            row(["", &format!("friction couple on {}", hinge.on)], friction.couple, &units.of("N m"))
+        });
         pair(&hinge.name, &format!("hinge force on {}", hinge.on), hinge.force, &units.of("N"))
+            + &couple.unwrap_or_default()
     });
     let bodies = all(&solution.bodies, |body| {
         pair(&body.name, "acceleration", body.acceleration, &units.of("m/s^2"))
