@@ -29,6 +29,12 @@ draw drawer-on-two-rails.svg models/drawer-on-two-rails.toml
 draw carriage-on-two-rods.svg models/carriage-on-two-rods.toml
 draw gate-on-two-posts.svg models/gate-on-two-posts.toml
 draw three-pad-telescope.svg models/three-pad-telescope.toml
+draw slider-crank-with-pins.svg models/slider-crank-with-pins.toml
+draw toggle-press.svg models/toggle-press.toml
+draw bell-crank.svg models/bell-crank.toml
+draw four-bar.svg models/four-bar.toml
+draw quick-return.svg models/quick-return.toml
+draw over-centre-clamp.svg models/over-centre-clamp.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
@@ -52,6 +58,7 @@ plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --qu
     >/dev/null 2>&1
 
 # Maps.
+"$slideway" map models/four-bar.toml --x "phi=0 deg..360 deg" --y mu_pin=0..1 --output "$pictures/map-treadle.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
     --output "$pictures/map-modes.svg" --force

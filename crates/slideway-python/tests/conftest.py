@@ -19,17 +19,21 @@ MODELS = sorted(slideway.gallery_models())
 
 # A dimension of each model and a range for it, beside friction: the second axis of its map.
 DIMENSIONS = {
+    "bell-crank": ("a", "60 mm", "100 mm"),
     "bracket-on-pole": ("x", "250 mm", "350 mm"),
     "cam-follower": ("A", "40 mm", "60 mm"),
     "carriage-on-two-rods": ("L", "50 mm", "70 mm"),
     "drawer": ("L", "300 mm", "500 mm"),
     "drawer-on-two-rails": ("L", "300 mm", "500 mm"),
     "elliptic-trammel": ("m", "1 kg", "3 kg"),
+    "four-bar": ("T", "1 N m", "3 N m"),
     "frictional-oscillator": ("k", "200 N/m", "300 N/m"),
     "gate-on-two-posts": ("L", "0.9 m", "1.1 m"),
     "klepp-2002": ("alpha", "70 deg", "85 deg"),
     "klepp-2002-spring": ("alpha", "70 deg", "85 deg"),
+    "over-centre-clamp": ("F", "1 kN", "3 kN"),
     "painleve-klein": ("phi", "20 deg", "40 deg"),
+    "quick-return": ("Q", "500 N", "700 N"),
     "scotch-yoke": ("L", "100 mm", "140 mm"),
     "screw": ("d_mean", "20 mm", "23 mm"),
     "sleeve-on-arm": ("L", "60 mm", "100 mm"),

@@ -8,4 +8,5 @@ mod gallery;
 mod reading;
 mod reference;
 mod standstill;
+mod tables;
 mod turning;

@@ -1,0 +1,235 @@
+//! Friction in hinges over many points: `sweep`, `map`, and the table of `drive`.
+
+use rstest::rstest;
+use serde::Deserialize;
+use slideway::fault::FaultKind;
+use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
+use slideway::report::Style;
+use slideway::sweep::{PointStatus, RowKind, Rows, Sweep, SweepOptions};
+use slideway::{DriveOptions, Model, Report, Settings, drive, gallery, solve};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// A bar with mass and radius of gyration 1, its mass centre at the distance c from a hinge with the friction radius r;
+/// it turns with the rate 1 under a load at its mass centre.
+fn bar(r: f64, load: [f64; 2]) -> Model {
+    let text = format!(
+        "[parameters]\nr = {r:?}\nF = {:?}\n\
+         [points]\nO = [0, 0]\nC = [0.5, 0]\n\
+         [bodies.bar]\npoints = [\"O\", \"C\"]\nmass = 1\nmoment_of_inertia = 1\ncentre_of_mass = \"C\"\n\
+         [joints.pin]\ntype = \"hinge\"\nbetween = [\"bar.O\", \"ground.O\"]\nfriction_radius = \"r\"\n\
+         [loads.pull]\ntype = \"force\"\nat = \"bar.C\"\ncomponents = [{:?}, \"F\"]\n\
+         [coordinates.phi]\nrotation = \"bar\"\nrate = 1\n",
+        load[1], load[0]
+    );
+    Model::parse(&text).unwrap()
+}
+
+fn rows(sweep: &Sweep) -> Vec<Rows> {
+    let mut all = Vec::new();
+    sweep.run(&mut sweep.start(), &Rows::clone, &mut |rows, _| {
+        all.extend(rows);
+        ControlFlow::Continue(())
+    });
+    all
+}
+
+fn column(sweep: &Sweep, name: &str) -> usize {
+    let place = sweep.columns().iter().position(|column| column.name == name);
+    place.unwrap_or_else(|| panic!("no column {name}"))
+}
+
+/// With the angular acceleration `a = (M_load - r w) / J_O` of the bar and the force `F` at its mass centre, the hinge has
+/// `R_x = -m c - F_x` and `R_y = m c a - F_y`, `w^2 = R_x^2 + R_y^2`: a quadratic equation for `w`.
+fn magnitudes(r: f64, [fx, fy]: [f64; 2]) -> Vec<f64> {
+    let (c, about_hinge) = (0.5, 1.25);
+    let x = -c - fx;
+    // R_y = p - q w
+    let (p, q) = (c * c * fy / about_hinge - fy, c * r / about_hinge);
+    // (1 - q^2) w^2 + 2 p q w - (x^2 + p^2) = 0
+    let (a, b, constant) = (1.0 - q * q, p * q, -(x * x + p * p));
+    let disc = b * b - a * constant;
+    if disc < 0.0 {
+        return Vec::new();
+    }
+    let mut roots: Vec<f64> = [-1.0, 1.0].into_iter().map(|sign| (-b + sign * disc.sqrt()) / a).collect();
+    roots.retain(|root| *root > 0.0);
+    roots.sort_by(f64::total_cmp);
+    roots
+}
+
+/// Over the radius: one solution, two in one mode beyond the centre of percussion, none beyond the fold. The branches of
+/// both have opposite determinants, and the table numbers them.
+#[test]
+fn a_bar_has_the_solutions_of_its_quadratic_equation() {
+    let load = [1.5, -4.0];
+    let sweep = Sweep::new(&bar(0.1, load), &SweepOptions::grid(["r=0.05..6:240".parse().unwrap()])).unwrap();
+    let (force, number) = (column(&sweep, "hinge_force_x.pin"), column(&sweep, "number_in_mode"));
+    let couple = column(&sweep, "friction_couple.pin");
+    let (mut met, mut branches) = ([0; 3], [0; 3]);
+    for rows in rows(&sweep) {
+        let mut first = 0;
+        while first < rows.len() {
+            let count =
+                rows.heads[first..].iter().take_while(|head| head.point == rows.heads[first].point).count();
+            let r = rows.numbers(first)[0];
+            let expected = magnitudes(r, load);
+            assert_eq!(rows.heads[first].solutions as usize, expected.len(), "r = {r}");
+            met[expected.len()] += 1;
+            let mut found: Vec<f64> = Vec::new();
+            for row in (first..first + count).filter(|&row| rows.heads[row].kind == RowKind::Solution) {
+                let numbers = rows.numbers(row);
+                let w = numbers[force].hypot(numbers[force + 1]);
+                assert!((numbers[couple] + r * w).abs() < 1e-9 * w);
+                assert_eq!(numbers[number], (found.len() + 1) as f64);
+                let greater = expected.len() == 2 && (w - expected[1]).abs() < (w - expected[0]).abs();
+                assert_eq!(rows.heads[row].negative_determinant, Some(greater), "r = {r}");
+                branches[rows.heads[row].branch as usize] += 1;
+                found.push(w);
+            }
+            found.sort_by(f64::total_cmp);
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((found / expected - 1.0).abs() < 1e-9, "r = {r}: {found} instead of {expected}");
+            }
+            first += count;
+        }
+    }
+    assert!(met.iter().all(|points| *points > 10), "{met:?}");
+    assert_eq!(branches, [0, met[1] + met[2], met[2]]);
+}
+
+/// The same bar as a map over radius and load.
+#[test]
+fn a_map_has_the_numbers_of_solutions_of_the_quadratic_equation() {
+    let options = MapOptions::new("r=0.05..6".parse().unwrap(), "F=-8..8".parse().unwrap()).size(40, 30);
+    let report = map(&bar(0.1, [1.5, -4.0]), &options.probe(1)).unwrap();
+    let mut seen = [0; 3];
+    for row in 0..30 {
+        for pixel in 0..40 {
+            let at =
+                |[from, to]: [f64; 2], pixel: f64, pixels: f64| from + (pixel + 0.5) / pixels * (to - from);
+            let (r, load) = (at([0.05, 6.0], pixel as f64, 40.0), at([-8.0, 8.0], row as f64, 30.0));
+            let expected = magnitudes(r, [1.5, load]).len();
+            seen[expected] += 1;
+            let found = match &report.classes[report.class_at(pixel, row)].meaning {
+                ClassMeaning::Locked => 0,
+                ClassMeaning::Solutions { solutions, preload_gap_states: 0 } => *solutions,
+                other => panic!("{other:?}"),
+            };
+            assert_eq!(found, expected, "r = {r}, F = {load}");
+        }
+    }
+    assert!(seen.iter().all(|pixels| *pixels > 20), "{seen:?}");
+}
+
+/// Every colour that does not follow friction to a margin has an answer.
+#[rstest]
+#[case(ColourBy::Modes)]
+#[case(ColourBy::Jam)]
+#[case(ColourBy::Motion)]
+#[case(ColourBy::Hold)]
+fn maps_answer(#[case] colour_by: ColourBy) {
+    let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
+    let options = MapOptions::new("phi=-170 deg..150 deg".parse().unwrap(), "mu_pin=0..0.5".parse().unwrap());
+    let report = map(&model, &options.size(9, 5).colour_by(colour_by)).unwrap();
+    let answered = |meaning: &ClassMeaning| !matches!(meaning, ClassMeaning::NotSolved { .. });
+    assert!(report.classes.iter().all(|class| answered(&class.meaning)), "{:?}", report.classes);
+}
+
+#[test]
+fn what_scales_all_friction_is_refused_and_the_hinges_named() {
+    let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
+    let options = SweepOptions::grid(["friction=0..2:5".parse().unwrap()]);
+    let margins = MapOptions::new("phi=0..1".parse().unwrap(), "mu=0..1".parse().unwrap());
+    for faults in [
+        Sweep::new(&model, &options).map(drop).unwrap_err(),
+        map(&model, &margins.colour_by(ColourBy::Margin)).map(drop).unwrap_err(),
+    ] {
+        let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };
+        assert_eq!(*hinges, ["O", "A", "B"]);
+    }
+}
+
+#[derive(Deserialize)]
+struct File {
+    dead_centre: Vec<DeadCentre>,
+}
+
+#[derive(Deserialize)]
+struct DeadCentre {
+    #[serde(rename = "rA")]
+    crank_pin: f64,
+    #[serde(rename = "rB")]
+    piston_pin: f64,
+    #[serde(rename = "rO")]
+    crank_shaft: f64,
+    mu_piston: f64,
+    outer_deg: f64,
+    inner_deg: f64,
+}
+
+/// A piston drives a crank against a torque; massless links, a = 50, l = 150 mm.
+fn driven_by_piston(case: &DeadCentre) -> Model {
+    let text = format!(
+        "[points]\nO = [0, 0]\nA = [0, 0.05]\nB = [\"sqrt(0.15^2 - 0.05^2)\", 0]\n\
+         [bodies.crank]\npoints = [\"O\", \"A\"]\nmassless = true\n\
+         [bodies.rod]\npoints = [\"A\", \"B\"]\nmassless = true\n\
+         [bodies.piston]\npoints = [\"B\"]\nmassless = true\n\
+         [joints.O]\ntype = \"hinge\"\nbetween = [\"crank.O\", \"ground.O\"]\nfriction_radius = {}\n\
+         [joints.A]\ntype = \"hinge\"\nbetween = [\"rod.A\", \"crank.A\"]\nfriction_radius = {}\n\
+         [joints.B]\ntype = \"hinge\"\nbetween = [\"rod.B\", \"piston.B\"]\nfriction_radius = {}\n\
+         [joints.cylinder]\ntype = \"block_slider\"\nblock = \"piston\"\nat = \"B\"\nalong = 0\nlength = 0.08\nmu = {}\n\
+         [loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = \"-5 N m\"\n\
+         [coordinates.phi]\nrotation = \"crank\"\ndrawn_at = \"90 deg\"\nrate = 1\n\
+         [drives.gas]\ncoordinate = \"phi\"\nforce = {{ at = \"piston.B\", direction = 0 }}\n",
+        case.crank_shaft, case.crank_pin, case.piston_pin, case.mu_piston
+    );
+    Model::parse(&text).unwrap()
+}
+
+/// About both dead centres no force on the piston turns the crank; the ranges end where the closed form says.
+#[test]
+fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
+    let file: File = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let case = &file.dead_centre[0];
+    let options = DriveOptions::default().vary("phi=-20 deg..200 deg".parse::<slideway::Vary>().unwrap());
+    let report = drive(&driven_by_piston(case), &options.rows(23)).unwrap();
+    let turning = &report.course.as_ref().unwrap().directions[0];
+    let expected = [[-case.outer_deg, case.outer_deg], [180.0 - case.inner_deg, 180.0 + case.inner_deg]];
+    assert_eq!(turning.locked.len(), 2, "{:?}", turning.locked);
+    for (locked, expected) in turning.locked.iter().zip(expected) {
+        let found = [locked.from, locked.to].map(f64::to_degrees);
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
+        }
+    }
+    assert_eq!(turning.blow_ups.len(), 4, "{:?}", turning.blow_ups);
+    assert!(report.text(Style::default()).contains("no effort moves it"));
+}
+
+/// The rows between are what `solve` says.
+#[test]
+fn rows_of_a_table_are_the_efforts_of_solve() {
+    let model = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
+    let options = DriveOptions::default().vary("alpha=1 deg..20 deg".parse::<slideway::Vary>().unwrap());
+    let report = drive(&model, &options.rows(5)).unwrap();
+    let rows = &report.course.as_ref().unwrap().directions[0].rows;
+    assert_eq!(rows.len(), 5);
+    for row in rows {
+        let expected = solve(&model.with(&Settings::default().position("alpha", row.at)).unwrap()).unwrap();
+        assert_eq!(row.efforts.as_ref().unwrap()[0], expected.solutions[0].drives[0].effort);
+        assert!(row.efficiency.unwrap().value.unwrap() < 1.0);
+    }
+}
+
+/// A position without a motion that turns a hinge is refused point by point.
+#[test]
+fn a_point_at_rest_is_refused_alone() {
+    let sweep =
+        Sweep::new(&bar(0.1, [0.0, -4.0]), &SweepOptions::grid(["phi.rate=-1..1:3".parse().unwrap()]))
+            .unwrap();
+    let statuses: Vec<PointStatus> =
+        rows(&sweep).iter().flat_map(|rows| rows.heads.iter().map(|head| head.status)).collect();
+    assert_eq!(statuses, [PointStatus::One, PointStatus::Refused, PointStatus::One]);
+}
