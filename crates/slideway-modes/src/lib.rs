@@ -86,11 +86,12 @@
 //!   another).
 //! - Hinges with friction: `blocks/`, problems with unknowns of two components.
 //! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without
-//!   scanning.
+//!   scanning. `branches/` follows the solutions of problems with hinges.
 //! - `raw_problem/`: problems in their original form.
 
 pub mod batch;
 pub mod blocks;
+pub mod branches;
 pub mod certificate;
 mod combinations;
 mod dense;

@@ -46,6 +46,7 @@ const FLOORS_OF_MODES: &[&[&str]] = &[
     &["batch", "existence", "exhaustive", "screen", "uniqueness"],
     &["search"],
     &["blocks"],
+    &["branches"],
     &["raw_problem"],
 ];
 

@@ -33,9 +33,9 @@ impl Piece {
 }
 
 /// Slopes of `w`: those of `|N_k|` of open contacts (others are not used), and of `|R_j|`.
-pub(super) struct Slopes<T> {
-    pub(super) contacts: Vec<T>,
-    pub(super) hinges: Vec<[T; 2]>,
+pub(crate) struct Slopes<T> {
+    pub(crate) contacts: Vec<T>,
+    pub(crate) hinges: Vec<[T; 2]>,
 }
 
 /// An entry of the data.
@@ -50,7 +50,7 @@ pub(super) fn entry<T: Real>(matrix: &IntervalMatrix, row: usize, column: usize)
 /// ```
 ///
 /// and of one in its gap `-(d_k^+ - d_k^-)`.
-pub(super) fn matrix<T: Real>(
+pub(crate) fn matrix<T: Real>(
     problem: &BlockProblem,
     states: &[Option<ContactState>],
     slopes: &Slopes<T>,
@@ -123,7 +123,7 @@ pub(super) fn matrix_in_frames(
 }
 
 /// `b + d`: the right-hand side for the states of a piece, in which no contact that jumps is open.
-pub(super) fn load<T: Real>(problem: &BlockProblem, states: &[Option<ContactState>]) -> DVector<T> {
+pub(crate) fn load<T: Real>(problem: &BlockProblem, states: &[Option<ContactState>]) -> DVector<T> {
     let jump = |row: usize, contact: usize, state: Option<ContactState>| {
         let side = state.map_or(Side::Positive, BlockProblem::constant_jump);
         entry::<T>(problem.jumps(side), row, contact)

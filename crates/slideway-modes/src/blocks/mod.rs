@@ -41,6 +41,7 @@ mod uniqueness;
 mod unloaded;
 mod zero;
 
+pub(crate) use equations::{Slopes, load, matrix};
 pub use only::{OnlySolution, only_solution};
 pub use problem::BlockProblem;
 pub use result::{BlockResult, BlockSolution, OpenLabel, OpenRegion, UniqueForEveryLoad};

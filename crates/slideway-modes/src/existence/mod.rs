@@ -100,6 +100,12 @@ pub enum EndCause {
     /// A sliding velocity vanishes, so its friction has no direction and reverses beyond; only if the numbers
     /// do not depend linearly on the parameter.
     Reversal,
+    /// Two solutions of opposite orientation merge; only with friction in hinges.
+    Fold,
+    /// The forces of these hinges with friction vanish.
+    HingeUnloaded(Vec<usize>),
+    /// It was not followed any further; only with friction in hinges.
+    NotFollowed,
     /// Beyond it, there is no mode problem; only if the numbers do not depend linearly on the parameter.
     NoProblem,
 }

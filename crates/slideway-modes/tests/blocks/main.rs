@@ -2,6 +2,7 @@
 //! many starts.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+mod branches;
 mod degenerate;
 mod jumps;
 mod one_hinge;

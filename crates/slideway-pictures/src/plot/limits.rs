@@ -298,6 +298,8 @@ fn cause_in_words(cause: ModeEndCause, contacts: &[String]) -> Option<String> {
         ModeEndCause::Locking | ModeEndCause::WithoutBound => cause.in_words().to_owned(),
         ModeEndCause::SideChange if plural => format!("{at} change side"),
         ModeEndCause::SideChange => format!("{at} changes side"),
+        ModeEndCause::Fold => "fold".to_owned(),
+        ModeEndCause::HingeUnloaded => format!("no force in {at}"),
         ModeEndCause::GapCloses => format!("gap of {at} closes"),
         ModeEndCause::Tipping if plural => format!("{at} tip"),
         ModeEndCause::Tipping => format!("{at} tips"),

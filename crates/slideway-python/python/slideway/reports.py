@@ -77,6 +77,7 @@ __all__ = [
     "EigenvalueUnit",
     "Elasticity",
     "End",
+    "EndHingeForce",
     "EndKind",
     "EndReaction",
     "EndReport",
@@ -397,7 +398,8 @@ numbers.
 LimitsMethod = Literal["closed form", "bracketing", "independent"]
 """How the ends of modes were found.
 
-- `"closed form"`: As zeros of determinants.
+- `"closed form"`: As zeros of determinants; of one hinge with friction over its radius as zeros of linear
+functions of its couple.
 - `"bracketing"`: Between values that were tried.
 - `"independent"`: Nothing depends on what is varied."""
 
@@ -438,6 +440,9 @@ ModeEndCause = Literal[
     "gap_closes",
     "tipping",
     "greatest_reaction",
+    "fold",
+    "hinge_unloaded",
+    "not_followed",
     "reversal",
     "no_mode_problem",
 ]
@@ -453,7 +458,10 @@ another solution.
 - `"gap_closes"`: A preload gap closes.
 - `"tipping"`: A guided slider tips.
 - `"greatest_reaction"`: A normal force reaches the greatest one that is allowed.
-- `"reversal"`: Sliding reverses.
+- `"fold"`: Two solutions merge.
+- `"hinge_unloaded"`: The force of a hinge with friction vanishes.
+- `"not_followed"`: It was not followed any further.
+- `"reversal"`: Sliding or turning reverses.
 - `"no_mode_problem"`: Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the
 model is not allowed."""
 
@@ -968,7 +976,8 @@ class Continuum(Record):
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ContinuumPart(Record):
     """Unknowns that vary together: all convex combinations of the vertices plus all nonnegative multiples of the
-    directions."""
+    directions. A set that contains lines, which takes free unknowns, has no vertices: these are points of its
+    smallest faces then, and the directions contain both ones of lines that span all of its lines."""
 
     indices: tuple[int, ...]
     """The unknowns, from 0, as `signs` counts them; vertices and directions have one entry for each."""
@@ -1413,6 +1422,23 @@ class Efficiency(Record):
     """Which way power flows."""
     value: float | None
     """The share; null where it has no meaning."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EndHingeForce(Record):
+    """What the force of a hinge with friction does towards both ends of an interval."""
+
+    hinge: str
+    """The hinge."""
+    from_: float | None
+    """The limit of its magnitude towards the beginning (N); null where it grows without bound or was not
+    computed."""
+    to: float | None
+    """Its limit towards the end, likewise."""
+    from_grows: bool
+    """Whether it grows without bound towards the beginning."""
+    to_grows: bool
+    """The same towards the end."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1983,6 +2009,11 @@ class ModeLimits(Record):
     """The contacts or guided sliders that end it."""
     reactions: tuple[EndReaction, ...]
     """What the normal force of each contact does towards both ends."""
+    orientation: int | None = None
+    """With friction in hinges the sign of `det(I - H D)`, 1 or -1: solutions of one mode that merge in a fold
+    have opposite ones, and the mechanism never settles where it is negative. Absent without."""
+    hinge_forces: tuple[EndHingeForce, ...] = ()
+    """What the force of each hinge with friction does towards both ends; absent without any."""
     speeds: tuple[SpeedLimits, ...]
     """What becomes of the speed of each coordinate that no drive moves, from value to value."""
 
@@ -2144,7 +2175,8 @@ class RawContinuum(Record):
     `BeyondRange`; its sign is that of the pattern."""
 
     pattern: str
-    """"+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap."""
+    """"+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap, and
+    "*" a free unknown that has both signs."""
     parts: tuple[ContinuumPart, ...]
     """Its parts: unknowns that vary together and, last, those that are fixed, if any."""
 

@@ -146,7 +146,7 @@ fn course(
     work: Work<'_>,
 ) -> Result<Course, Faults> {
     let rough = model.hinge_friction().next().is_some() && vary.name != FRICTION;
-    let varied_in = |model: &Model| if rough { vary.at_rest(model) } else { vary.of(model) };
+    let varied_in = |model: &Model| if rough { vary.at_rest(model) } else { vary.of_frictionless(model) };
     let direction = if rough { hinges::direction } else { course::direction };
     let varied = varied_in(model)?;
     let range = vary.ends(&varied, || range_around(model, &varied))?;

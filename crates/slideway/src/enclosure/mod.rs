@@ -122,6 +122,9 @@ impl UncertainParameters {
             for contact in &mut mechanism.contacts {
                 contact.mu = contact.mu.map(|mu| mu * factor);
             }
+            for circle in &mut mechanism.friction_circles {
+                *circle = circle.rougher(factor);
+            }
         }
         Ok(())
     }

@@ -45,7 +45,11 @@ impl Analysis {
         let found = find(&varied, 0)?;
         if found.counts.is_empty() {
             // Nowhere an answer: the faults in the middle say why.
-            varied.at(f64::midpoint(range[0], range[1]), Stages::parts)?;
+            let middle = f64::midpoint(range[0], range[1]);
+            match &*varied.rough_circles(range) {
+                [] => drop(varied.at(middle, Stages::parts)?),
+                circles => drop(varied.block_instance(middle, circles)?),
+            }
         }
         let reversed = if options.both_directions {
             let varied = vary.of(&model.reversed())?;

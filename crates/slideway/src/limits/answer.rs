@@ -4,8 +4,8 @@ use super::conclusion::conclusion;
 use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::guarantee::guarantee;
 use super::report::{
-    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
-    SCHEMA, SpeedLimits, VariedQuantity,
+    CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
+    RangeWithoutProblem, SCHEMA, SpeedLimits, VariedQuantity,
 };
 use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
@@ -14,6 +14,7 @@ use crate::ids::JointId;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
+use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{CoordinateState, JointMode, ModeEndCause, locked, no_drive_prescribes};
 use crate::solve::{joint_mode_in_words, pattern, signs};
@@ -102,7 +103,12 @@ impl Naming {
         bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
     }
 
-    fn mode(&self, mode: &ModeInterval, speeds: &[SpeedLimits], found: &ModesFound) -> ModeLimits {
+    fn mode(
+        &self,
+        (mode, branch): (&ModeInterval, Option<&Branch>),
+        speeds: &[SpeedLimits],
+        found: &ModesFound,
+    ) -> ModeLimits {
         let same_ends = found.same_ends;
         let end = |at: f64| finite(at).map(|at| same_ends.told(at));
         let speed = |speed: &SpeedLimits| SpeedLimits {
@@ -125,9 +131,11 @@ impl Naming {
             to: end(mode.to.at),
             from_is: ModeEndCause::new(&mode.from.cause, found.nothing_is_left(mode.from.at, true)),
             to_is: ModeEndCause::new(&mode.to.cause, found.nothing_is_left(mode.to.at, false)),
-            from_at: self.ends_at(&mode.from.cause),
-            to_at: self.ends_at(&mode.to.cause),
+            from_at: self.ends_at(&mode.from.cause, &found.circles),
+            to_at: self.ends_at(&mode.to.cause, &found.circles),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
+            orientation: branch.map(|branch| branch.orientation),
+            hinge_forces: branch.map_or_else(Vec::new, |branch| self.hinge_forces(branch, &found.circles)),
             speeds: speeds.iter().map(speed).collect(),
         }
     }
@@ -144,15 +152,39 @@ impl Naming {
         forces
     }
 
-    /// The contacts or guided sliders at which a mode ends.
-    fn ends_at(&self, cause: &EndCause) -> Vec<String> {
+    /// The contacts, guided sliders or hinges at which a mode ends.
+    fn ends_at(&self, cause: &EndCause, circles: &[usize]) -> Vec<String> {
         match cause {
             EndCause::SideChange(contacts)
             | EndCause::GapCloses(contacts)
             | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
             EndCause::OutputBound(bounds) => self.guided(bounds),
-            EndCause::Range | EndCause::Singular | EndCause::Reversal | EndCause::NoProblem => Vec::new(),
+            EndCause::HingeUnloaded(hinges) => {
+                hinges.iter().map(|&hinge| self.hinge(circles[hinge]).to_owned()).collect()
+            }
+            EndCause::Range
+            | EndCause::Singular
+            | EndCause::Fold
+            | EndCause::NotFollowed
+            | EndCause::Reversal
+            | EndCause::NoProblem => Vec::new(),
         }
+    }
+
+    /// The name of the hinge of a friction circle.
+    fn hinge(&self, circle: usize) -> &str {
+        &self.mechanism.joints[self.mechanism.friction_circles[circle].joint.index()].name
+    }
+
+    /// What the forces of hinges with friction do towards both ends of a branch.
+    fn hinge_forces(&self, branch: &Branch, circles: &[usize]) -> Vec<EndHingeForce> {
+        let [from, to] = [&branch.from, &branch.to].map(|end| end.hinge_force.as_deref().unwrap_or_default());
+        let force = |(index, &circle): (usize, &usize)| {
+            let ((from, from_grows), (to, to_grows)) = (limit(from, index), limit(to, index));
+            let [from_grows, to_grows] = [from_grows != 0, to_grows != 0];
+            EndHingeForce { hinge: self.hinge(circle).to_owned(), from, to, from_grows, to_grows }
+        };
+        circles.iter().enumerate().map(force).collect()
     }
 
     fn direction(&self, (found, speeds): Found<'_>) -> Direction {
@@ -175,8 +207,9 @@ impl Naming {
                 .existence
                 .modes
                 .iter()
+                .enumerate()
                 .zip(speeds)
-                .map(|(mode, speeds)| self.mode(mode, speeds, found))
+                .map(|((index, mode), speeds)| self.mode((mode, found.branches.get(index)), speeds, found))
                 .collect(),
             counts: found.counts.iter().zip(&found.known).map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),
@@ -218,7 +251,7 @@ pub(super) fn report(
         units: varied.model().units.clone(),
         steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
         method: match found.method {
-            Method::ClosedForm => LimitsMethod::ClosedForm,
+            Method::ClosedForm | Method::Hinge => LimitsMethod::ClosedForm,
             Method::Same { .. } => LimitsMethod::Independent,
             Method::Bracketing => LimitsMethod::Bracketing,
         },

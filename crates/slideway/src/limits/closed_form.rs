@@ -71,6 +71,8 @@ pub(super) fn closed_form(
         tried: pieces.into_iter().flatten().collect(),
         same_ends: SameEnds::zeros(options.range, [from, to]),
         between_faces: SingleValues::Impossible,
+        branches: Vec::new(),
+        circles: Vec::new(),
     }))
 }
 

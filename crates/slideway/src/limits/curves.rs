@@ -6,9 +6,10 @@ use super::found::ModesFound;
 use super::options::LimitsOptions;
 use super::report::LimitsReport;
 use super::varied::Varied;
-use crate::attainability::ElasticGuides;
+use crate::attainability::{ElasticGuides, ElasticHinges};
 use crate::choice::Choice;
 use crate::configuration::Configuration;
+use crate::enclosure::TurningHinge;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::DriveId;
 use crate::influence::ContactFriction;
@@ -16,10 +17,11 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::{Effort, Mechanism};
 use crate::model::Model;
 use crate::modes::ContactState;
+use crate::modes::branches::Branch;
 use crate::modes::existence::{EndCause, ModeInterval};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
-use crate::solve::{Parts, ProblemData, Stages, friction, rougher};
+use crate::solve::{Parts, ProblemData, Stages, block_instance, directions, friction, rougher, unknowns_of};
 use crate::units::{Unit, Units};
 use nalgebra::DVector;
 
@@ -153,7 +155,10 @@ fn curves_of(
     let series = series(&naming.mechanism, quantity)?;
     let curves = |varied: &Varied, found: &ModesFound| -> Vec<Curve> {
         let modes = &found.existence.modes;
-        let one = |(index, mode)| curve(varied, mode, quantity, work.part(1, 2).part(index, modes.len()));
+        let one = |(index, mode)| {
+            let along = found.branches.get(index).map(|branch| (branch, found.circles.as_slice()));
+            curve((varied, mode, along), quantity, work.part(1, 2).part(index, modes.len()))
+        };
         modes.iter().enumerate().map(one).collect()
     };
     let forwards = curves(&analysis.varied, &analysis.found);
@@ -195,18 +200,87 @@ fn series(mechanism: &Mechanism, quantity: Quantity) -> Result<Vec<Series>, Faul
     })
 }
 
-fn curve(varied: &Varied, mode: &ModeInterval, quantity: Quantity, work: Work<'_>) -> Curve {
+/// Its points; with friction in hinges those of the branch, with the circles of these.
+fn curve(
+    (varied, mode, along): (&Varied, &ModeInterval, Option<(&Branch, &[usize])>),
+    quantity: Quantity,
+    work: Work<'_>,
+) -> Curve {
     let places = places(mode);
     let point = |(index, at): (usize, f64)| {
         if work.piece("points", index, places.len()).is_break() {
             return None;
         }
-        let state = StateAt::new(varied, at).ok()?;
-        let values = state.values(&mode.pattern, quantity)?;
+        let (values, verdict) = match along {
+            Some((branch, circles)) => of_branch(varied, at, (branch, circles), quantity)?,
+            None => {
+                let state = StateAt::new(varied, at).ok()?;
+                (state.values(&mode.pattern, quantity)?, state.verdict(&mode.pattern))
+            }
+        };
         let finite = values.iter().all(|value| value.is_finite());
-        finite.then(|| CurvePoint { at, values, verdict: state.verdict(&mode.pattern) })
+        finite.then_some(CurvePoint { at, values, verdict })
     };
     Curve { points: places.iter().copied().enumerate().filter_map(point).collect() }
+}
+
+/// The values of a quantity on a branch, and whether a mechanism with slightly elastic joints settles there.
+fn of_branch(
+    varied: &Varied,
+    at: f64,
+    (branch, circles): (&Branch, &[usize]),
+    quantity: Quantity,
+) -> Option<(Vec<f64>, Verdict)> {
+    let forces = varied.branch_forces(at, circles, branch)?;
+    let values = |stages: &Stages, hinges: &[TurningHinge]| {
+        let unknowns = unknowns_of(stages, hinges, (&branch.states, &forces));
+        let normal_force = DVector::from_column_slice(&forces.normal);
+        let mut shares = vec![None; branch.states.len()];
+        forces.gaps.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
+        let of_state = OfState { pattern: &branch.states, normal_force: &normal_force, shares: &shares };
+        let equations = KineticEquations::new(&stages.mechanism, &stages.configuration)?;
+        let values = of_state.values(stages.data(), &equations, quantity, || unknowns.clone());
+        let joints: Vec<_> = hinges.iter().map(|hinge| hinge.joint).collect();
+        let elastic = ElasticHinges::new(&stages.mechanism, &equations, &joints);
+        let problem = block_instance(stages, hinges)?.problem;
+        Ok((values, elastic.of(directions(&problem, &branch.states, &forces.hinges)).verdict))
+    };
+    varied.with_hinges(at, circles, values).ok()
+}
+
+/// What is known of a state.
+struct OfState<'s> {
+    pattern: &'s [ContactState],
+    normal_force: &'s DVector<f64>,
+    shares: &'s [Option<f64>],
+}
+
+impl OfState<'_> {
+    /// The values of a quantity, some of which follow from all unknowns.
+    fn values(
+        &self,
+        data: ProblemData<'_>,
+        equations: &KineticEquations,
+        quantity: Quantity,
+        all: impl Fn() -> DVector<f64>,
+    ) -> Vec<f64> {
+        let ProblemData { mechanism, influence, velocity_signs } = data;
+        let Self { pattern, normal_force, shares } = *self;
+        match quantity {
+            Quantity::NormalForce => mechanism.forces_at_faces(pattern, normal_force.as_slice().to_vec()),
+            Quantity::Friction => {
+                let friction = friction(mechanism, velocity_signs, pattern, normal_force, shares);
+                let friction = friction.iter().map(|friction: &ContactFriction| friction.total());
+                mechanism.forces_at_faces(pattern, friction.collect())
+            }
+            Quantity::Acceleration => equations.coordinate_accelerations(&all()),
+            Quantity::Effort => {
+                let unknowns = all();
+                let drives = (0..mechanism.drives.len()).map(DriveId);
+                drives.map(|drive| unknowns[influence.layout().effort(drive)]).collect()
+            }
+        }
+    }
 }
 
 /// Where a mode is sampled.
@@ -259,22 +333,13 @@ impl StateAt {
         let normal_force = DVector::from_iterator(pattern.len(), states().map(|(state, y)| state.sign() * y));
         let shares: Vec<Option<f64>> =
             states().map(|(state, share)| (*state == ContactState::Gap).then_some(*share)).collect();
-        let ProblemData { mechanism, influence, velocity_signs } = self.stages.data();
-        let friction = friction(mechanism, velocity_signs, pattern, &normal_force, &shares);
-        let all = || influence.unknowns(&friction, &normal_force);
-        Some(match quantity {
-            Quantity::NormalForce => mechanism.forces_at_faces(pattern, normal_force.as_slice().to_vec()),
-            Quantity::Friction => {
-                let friction = friction.iter().map(|friction: &ContactFriction| friction.total());
-                mechanism.forces_at_faces(pattern, friction.collect())
-            }
-            Quantity::Acceleration => self.equations.coordinate_accelerations(&all()),
-            Quantity::Effort => {
-                let unknowns = all();
-                let drives = (0..mechanism.drives.len()).map(DriveId);
-                drives.map(|drive| unknowns[influence.layout().effort(drive)]).collect()
-            }
-        })
+        let data = self.stages.data();
+        let all = || {
+            let friction = friction(data.mechanism, data.velocity_signs, pattern, &normal_force, &shares);
+            data.influence.unknowns(&friction, &normal_force)
+        };
+        let of_state = OfState { pattern, normal_force: &normal_force, shares: &shares };
+        Some(of_state.values(data, &self.equations, quantity, all))
     }
 
     /// Whether a mechanism with slightly elastic guides settles on a mode.

@@ -26,6 +26,8 @@ const CHECKED: [f64; 8] = [0.5, 0.05, 0.95, 0.27, 0.73, 0.003, 0.997, 0.61];
 /// Proves numbers of solutions.
 pub(super) struct Examiner<'v> {
     varied: &'v Varied,
+    /// The friction circles of hinges with friction.
+    circles: &'v [usize],
     options: ExistenceOptions,
     solve: SolveOptions,
     /// Searches that may be made, and those that still may.
@@ -48,10 +50,15 @@ struct Cell {
 }
 
 impl<'v> Examiner<'v> {
-    pub(super) fn new(varied: &'v Varied, options: &ExistenceOptions, effort: u64, work: Work<'v>) -> Self {
+    pub(super) fn new(
+        (varied, circles): (&'v Varied, &'v [usize]),
+        options: &ExistenceOptions,
+        effort: u64,
+        work: Work<'v>,
+    ) -> Self {
         let search = SearchOptions { nodes: GREATEST_NODES, ..SearchOptions::default() };
         let solve = SolveOptions { search, margins: false, ..SolveOptions::default() };
-        Self { varied, options: *options, solve, effort, left: effort, work }
+        Self { varied, circles, options: *options, solve, effort, left: effort, work }
     }
 
     /// Says of every interval of `found` how its number of solutions is known. Returns values at which
@@ -168,7 +175,11 @@ impl<'v> Examiner<'v> {
             return None;
         }
         let greatest = self.options.greatest_normal_force;
-        let (counts, nodes) = self.varied.certain_counts(part, greatest, &self.solve, self.work);
+        let (counts, nodes) = if self.circles.is_empty() {
+            self.varied.certain_counts(part, greatest, &self.solve, self.work)
+        } else {
+            self.varied.certain_block_counts((part, self.circles), greatest, &self.solve, self.work)
+        };
         self.left = self.left.saturating_sub(1 + nodes / NODES);
         counts
     }

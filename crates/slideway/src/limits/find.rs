@@ -1,6 +1,7 @@
 //! Where modes exist in a range, how many solutions there are in between, and how that is known.
 
 use super::between_faces;
+use super::branches;
 use super::closed_form::closed_form;
 use super::examine::Examiner;
 use super::found::{Method, ModesFound, PATTERNS};
@@ -39,21 +40,37 @@ fn found(
     effort: u64,
     work: Work<'_>,
 ) -> Result<ModesFound, TooManyModes> {
+    let circles = varied.rough_circles(options.range);
     let scanner = Scanner { varied, options: *options, work: work.part(0, 2) };
-    let mut found = match closed_form(varied, options, work.part(0, 2))? {
+    let scan = |places: &[f64]| {
+        if circles.is_empty() {
+            scanner.scan(places)
+        } else {
+            Ok(branches::scan(varied, &circles, options, places, work.part(0, 2)))
+        }
+    };
+    let closed_form = if circles.is_empty() {
+        closed_form(varied, options, work.part(0, 2))?
+    } else {
+        branches::closed_form(varied, &circles, options)
+    };
+    let mut found = match closed_form {
         Some(found) => found,
-        None => scanner.scan(&[])?,
+        None => scan(&[])?,
     };
     let mut places = Vec::new();
     for round in 0..=ROUNDS {
-        let contradicted = Examiner::new(varied, options, effort, work.part(1, 2)).examine(&mut found);
+        let contradicted =
+            Examiner::new((varied, &circles), options, effort, work.part(1, 2)).examine(&mut found);
         if contradicted.is_empty() || round == ROUNDS {
             break;
         }
         places.extend(contradicted);
-        found = scanner.scan(&places)?;
+        found = scan(&places)?;
     }
-    between_faces::add(varied, options.greatest_normal_force, &mut found, work.part(1, 2));
+    if circles.is_empty() {
+        between_faces::add(varied, options.greatest_normal_force, &mut found, work.part(1, 2));
+    }
     if varied.dependence().problem == Degree::Constant && found.method == Method::Bracketing {
         found.method = Method::Same { at_rest: varied.dependence().at_rest };
     }

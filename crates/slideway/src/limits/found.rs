@@ -2,6 +2,7 @@
 
 use super::scan::HALVINGS;
 use crate::fault::Faults;
+use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, Existence, is_same_end, nothing_is_left};
 
 /// Bisected ends nearer to each other than this share of the range are one.
@@ -22,6 +23,10 @@ pub(crate) struct ModesFound {
     pub(crate) same_ends: SameEnds,
     /// The states with a guided slider between its faces at single values.
     pub(crate) between_faces: SingleValues,
+    /// With friction in hinges the branch of each of the modes, else none.
+    pub(crate) branches: Vec<Branch>,
+    /// The friction circles of their hinges.
+    pub(crate) circles: Vec<usize>,
 }
 
 impl ModesFound {
@@ -76,6 +81,8 @@ impl SameEnds {
 pub(crate) enum Method {
     /// As zeros of determinants.
     ClosedForm,
+    /// The forces in each mode are affine in the couple of the only hinge with friction, whose radius is varied.
+    Hinge,
     /// The mode problem is the same everywhere; `at_rest` if static friction is not.
     Same { at_rest: bool },
     /// From values that were tried.

@@ -10,6 +10,10 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
         Method::ClosedForm => {
             "The mode problem depends linearly on it, so all ends are zeros of determinants.".to_owned()
         }
+        Method::Hinge => {
+            "All forces of a mode are affine in the friction couple of the only hinge with friction, so all ends are in closed form."
+                .to_owned()
+        }
         Method::Same { at_rest: false } => "The mode problem does not depend on it.".to_owned(),
         Method::Same { at_rest: true } => {
             "The mode problem does not depend on it: static friction counts at rest (`slideway hold`)."

@@ -56,7 +56,8 @@ pub struct LimitsReport {
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum LimitsMethod {
-    /// As zeros of determinants.
+    /// As zeros of determinants; of one hinge with friction over its radius as zeros of linear functions of its
+    /// couple.
     #[serde(rename = "closed form")]
     ClosedForm,
     /// Between values that were tried.
@@ -125,6 +126,13 @@ pub struct ModeLimits {
     pub to_at: Vec<String>,
     /// What the normal force of each contact does towards both ends.
     pub reactions: Vec<EndReaction>,
+    /// With friction in hinges the sign of `det(I - H D)`, 1 or -1: solutions of one mode that merge in a fold have
+    /// opposite ones, and the mechanism never settles where it is negative. Absent without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<i8>,
+    /// What the force of each hinge with friction does towards both ends; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hinge_forces: Vec<EndHingeForce>,
     /// What becomes of the speed of each coordinate that no drive moves, from value to value.
     pub speeds: Vec<SpeedLimits>,
 }
@@ -160,6 +168,23 @@ pub struct EndReaction {
     pub from_grows: i8,
     /// The same towards the end.
     pub to_grows: i8,
+}
+
+/// What the force of a hinge with friction does towards both ends of an interval.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct EndHingeForce {
+    /// The hinge.
+    pub hinge: String,
+    /// The limit of its magnitude towards the beginning (N); null where it grows without bound or was not
+    /// computed.
+    pub from: Option<f64>,
+    /// Its limit towards the end, likewise.
+    pub to: Option<f64>,
+    /// Whether it grows without bound towards the beginning.
+    pub from_grows: bool,
+    /// The same towards the end.
+    pub to_grows: bool,
 }
 
 /// An interval with the same number of solutions throughout.

@@ -91,6 +91,8 @@ impl Scanner<'_> {
             tried: places.iter().map(|place| place.at).collect(),
             same_ends: self.same_ends(),
             between_faces: SingleValues::Impossible,
+            branches: Vec::new(),
+            circles: Vec::new(),
         })
     }
 

@@ -2,16 +2,18 @@
 //!
 //! Between places at which an acceleration changes its sign it has one answer, which the certified solution
 //! in the middle gives. Where modes were found from zeros of determinants these places are zeros of the
-//! accelerations, found likewise; elsewhere they are bisected between values that were tried.
+//! accelerations, found likewise; elsewhere they are bisected between values that were tried. With friction in hinges
+//! the solution is the one whose forces are those of the branch.
 
 use super::closed_form::value_at;
 use super::found::{Method, ModesFound};
 use super::report::SpeedLimits;
 use super::scan::bisect;
 use super::varied::Varied;
+use crate::modes::branches::{Branch, BranchForces};
 use crate::modes::existence::{ModeInterval, ModeProblemLine};
 use crate::progress::Work;
-use crate::report::SpeedChange;
+use crate::report::{Solution, SpeedChange};
 use crate::solve::{Stages, pattern};
 
 /// For each mode what becomes of the speed of each coordinate that no drive moves, from value to value; none
@@ -22,7 +24,8 @@ pub(super) fn speeds(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec
     let modes = found.existence.modes.iter().enumerate();
     let all = found.existence.modes.len();
     let of_mode = |(index, mode): (usize, &ModeInterval)| {
-        let along = Along { varied, found, mode, work: work.part(index, all) };
+        let branch = found.branches.get(index);
+        let along = Along { varied, found, mode, branch, work: work.part(index, all) };
         free.iter().flat_map(|&coordinate| along.speeds(coordinate)).collect()
     };
     modes.map(of_mode).collect()
@@ -33,6 +36,8 @@ struct Along<'a> {
     varied: &'a Varied,
     found: &'a ModesFound,
     mode: &'a ModeInterval,
+    /// Its branch, with friction in hinges.
+    branch: Option<&'a Branch>,
     work: Work<'a>,
 }
 
@@ -41,7 +46,7 @@ impl Along<'_> {
     fn speeds(&self, coordinate: usize) -> Vec<SpeedLimits> {
         let name = &self.varied.model().coordinates[coordinate].name;
         let cuts = match self.found.method {
-            Method::Bracketing => self.bisected(coordinate),
+            Method::Bracketing | Method::Hinge => self.bisected(coordinate),
             Method::ClosedForm | Method::Same { .. } => self.zeros(coordinate),
         };
         let ends = [vec![self.mode.from.at], cuts, vec![self.mode.to.at]].concat();
@@ -75,7 +80,13 @@ impl Along<'_> {
         let states =
             found.iter().flat_map(|report| report.solutions.iter().chain(&report.preload_gap_states));
         let mut states = states.filter(|state| state.patterns.contains(&sought) || state.pattern == sought);
-        let state = states.next();
+        let state = match self.branch {
+            None => states.next(),
+            Some(branch) => self.varied.branch_forces(at, &self.found.circles, branch).and_then(|forces| {
+                let distance = |state: &&Solution| distance(state, &forces);
+                states.min_by(|one, other| distance(one).total_cmp(&distance(other)))
+            }),
+        };
         let speed = state.and_then(|state| state.coordinates[coordinate].speed);
         (speed.unwrap_or(SpeedChange::Undecided), state.is_some_and(|state| state.friction_exceeds_loads))
     }
@@ -123,11 +134,19 @@ impl Along<'_> {
 
     /// The sign of the acceleration at a value, 0 where it is zero within rounding.
     fn sign(&self, coordinate: usize, at: f64) -> Option<i8> {
+        if self.branch.is_some() {
+            let value = self.acceleration(coordinate, at)?;
+            return Some(i8::from(value > 0.0) - i8::from(value < 0.0));
+        }
         let (line, output) = self.line(coordinate, at)?;
         line.output_sign(&self.mode.pattern, output, 0.0)
     }
 
     fn acceleration(&self, coordinate: usize, at: f64) -> Option<f64> {
+        if let Some(branch) = self.branch {
+            let accelerations = self.varied.branch_accelerations(at, &self.found.circles, branch)?;
+            return accelerations.get(coordinate).copied();
+        }
         let (line, output) = self.line(coordinate, at)?;
         Some(line.unknowns(&self.mode.pattern, 0.0)?[line.contacts() + output])
     }
@@ -140,4 +159,15 @@ impl Along<'_> {
         let parts = self.varied.at(at, Stages::parts_with_accelerations).ok()?;
         Some((parts.line_to(&parts), parts.couples() + coordinate))
     }
+}
+
+/// How far a solution is from forces of the same mode.
+fn distance(state: &Solution, forces: &BranchForces) -> f64 {
+    let normal =
+        state.contacts.iter().zip(&forces.normal).map(|(contact, force)| contact.normal_force - force);
+    let rough = state.hinges.iter().filter(|hinge| hinge.friction.is_some());
+    let hinges = rough
+        .zip(&forces.hinges)
+        .flat_map(|(hinge, force)| [hinge.force[0] - force[0], hinge.force[1] - force[1]]);
+    normal.chain(hinges).map(f64::abs).fold(0.0, f64::max)
 }

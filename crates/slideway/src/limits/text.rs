@@ -1,8 +1,8 @@
 //! Limits as text for people.
 
 use super::report::{
-    CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem, RestLimitsReport, SpanOfRest,
-    SpeedLimits,
+    CountLimits, EndHingeForce, EndReaction, Known, LimitsReport, ModeLimits, RangeWithoutProblem,
+    RestLimitsReport, SpanOfRest, SpeedLimits,
 };
 use crate::report::count as count_of;
 use crate::report::number::number;
@@ -90,10 +90,20 @@ impl Page<'_, LimitsReport> {
         self.headline(&format!("Contact modes{which}"));
         let unit = &self.report.vary.shown_in;
         let [from, to] = ["from", "to"].map(|end| unit.title(end));
-        let rows: Vec<Vec<String>> = modes.iter().map(|mode| mode_row(mode, unit)).collect();
-        self.lines(&table(&["signs", &from, &to, "begins with", "ends with", "contact mode"], &rows, 1));
+        let mut titles = vec!["signs", &from, &to, "begins with", "ends with", "contact mode"];
+        let mut rows: Vec<Vec<String>> = modes.iter().map(|mode| mode_row(mode, unit)).collect();
+        if modes.iter().any(|mode| mode.orientation.is_some()) {
+            titles.insert(1, "orientation");
+            rows.iter_mut().zip(modes).for_each(|(row, mode)| row.insert(1, orientation(mode).to_owned()));
+        }
+        let left = titles.len() - 5;
+        self.lines(&table(&titles, &rows, left));
         for mode in modes.iter().filter(|mode| !mode.speeds.is_empty()) {
-            self.line(&format!("  {}: {}", spaced(&mode.pattern), speeds_in_words(&mode.speeds, unit)));
+            let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
+            self.line(&format!("  {}: {}", name.trim(), speeds_in_words(&mode.speeds, unit)));
+        }
+        if modes.iter().any(|mode| mode.orientation == Some(-1)) {
+            self.line("  Solutions of negative orientation are never attained: with slightly elastic joints the mechanism leaves them.");
         }
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
@@ -118,14 +128,28 @@ fn mode_row(mode: &ModeLimits, unit: &Unit) -> Vec<String> {
     let end = |at: Option<f64>| at.map_or("infinity".to_owned(), |at| unit.precise_number(at));
     let words: Vec<String> =
         mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
+    let contacts =
+        |grows: fn(&EndReaction) -> i8| mode.reactions.iter().map(move |one| (&*one.contact, grows(one)));
+    let hinges = |grows: fn(&EndHingeForce) -> bool| {
+        mode.hinge_forces.iter().map(move |one| (&*one.hinge, i8::from(grows(one))))
+    };
     vec![
         spaced(&mode.pattern),
         end(mode.from),
         end(mode.to),
-        cause(mode.from_is, &mode.from_at, mode.reactions.iter().map(|r| (&*r.contact, r.from_grows))),
-        cause(mode.to_is, &mode.to_at, mode.reactions.iter().map(|r| (&*r.contact, r.to_grows))),
+        cause(
+            mode.from_is,
+            &mode.from_at,
+            contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows)),
+        ),
+        cause(mode.to_is, &mode.to_at, contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows))),
         words.join("; "),
     ]
+}
+
+/// The sign of a solution with friction in hinges.
+fn orientation(mode: &ModeLimits) -> &'static str {
+    mode.orientation.map_or("", |sign| if sign < 0 { "-" } else { "+" })
 }
 
 /// "z speeds up from 0 to 0.2, slows down from 0.2 to 1".
@@ -159,6 +183,10 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
         ModeEndCause::Tipping if several => format!("{at} tip"),
         ModeEndCause::Tipping => format!("{at} tips"),
         ModeEndCause::GreatestReaction => format!("{at} at the greatest reaction"),
+        ModeEndCause::Fold => "a fold".to_owned(),
+        ModeEndCause::HingeUnloaded if several => format!("the forces of {at} vanish"),
+        ModeEndCause::HingeUnloaded => format!("the force of {at} vanishes"),
+        ModeEndCause::NotFollowed => "not followed".to_owned(),
         ModeEndCause::Reversal => "sliding reverses".to_owned(),
         _ => "no position".to_owned(),
     }

@@ -1,17 +1,23 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
 use crate::configuration::Follower;
-use crate::enclosure::{UncertainParameters, enclosure};
+use crate::enclosure::{TurningHinge, UncertainParameters, enclosed_block_problem, enclosure};
 use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
+use crate::kinetics::coordinate_rows;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::{Dependence, Model, Setting, SettingKind, Settings, Value};
+use crate::modes::blocks::{self, BlockProblem, BlockResult};
+use crate::modes::branches::{Branch, BranchForces, Instance, NoInstance};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::progress::{Progress, Work};
-use crate::report::{Solution, SolveReport};
-use crate::solve::{Parts, SolveOptions, Stages, certain_counts, solve_with_friction, states_between_faces};
+use crate::report::{Proof, Solution, SolveReport};
+use crate::solve::{
+    Parts, SolveOptions, Stages, block_instance, certain_counts, solve_with_friction, states_between_faces,
+    turning_hinges, unknowns_of,
+};
 use crate::units::Unit;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -44,14 +50,11 @@ pub(crate) struct Varied {
 
 impl Varied {
     /// # Errors
-    /// An unknown name; friction in hinges; with a factor of friction whatever `solve` refuses.
+    /// An unknown name; with a factor of friction whatever `solve` refuses.
     pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
-        if let Ok(mechanism) = Mechanism::new(model) {
-            mechanism.check_frictionless_hinges()?;
-        }
         let mut varied = Self::at_rest(model, name)?;
         if varied.is_friction_factor() {
-            varied.stages = Some(Stages::new(model)?);
+            varied.stages = Some(Stages::following(&mut Follower::default(), Mechanism::new(model)?)?);
         }
         Ok(varied)
     }
@@ -180,26 +183,134 @@ impl Varied {
         options: &SolveOptions,
         work: Work<'_>,
     ) -> (Option<[usize; 2]>, u64) {
-        let enclosed = || {
-            let bounds = Interval::new(from, to)?;
-            let uncertain = UncertainParameters::default();
-            if let Some(stages) = &self.stages {
-                let uncertain = uncertain.with_friction(bounds);
-                return enclosure(&self.model, &uncertain, &stages.mechanism, &stages.configuration).ok();
-            }
-            let model = self.model_at(bounds.middle()).ok()?.0;
-            let uncertain = match self.kind {
-                Kind::Coordinate => uncertain.with_coordinate(&self.name, bounds),
-                _ => uncertain.with(&self.name, bounds),
-            };
-            let mechanism = Mechanism::new(&model).ok()?;
-            let configuration = self.follower().configuration(&mechanism).ok()?;
-            enclosure(&model, &uncertain, &mechanism, &configuration).ok()
-        };
-        let Some(enclosed) = enclosed() else { return (None, 1) };
+        let enclosed = self.enclosed([from, to], |model, uncertain, stages| {
+            enclosure(model, uncertain, &stages.mechanism, &stages.configuration).ok()
+        });
+        let Some(enclosed) = enclosed else { return (None, 1) };
         let mut goes_on = |_: &Progress| work.flow();
         let result = search(&enclosed.problem, &options.search, &mut goes_on);
         (certain_counts(&enclosed, &result, options, greatest), result.nodes())
+    }
+
+    /// The same with friction in the hinges of these circles; nothing is proven of guided sliders, which may tip.
+    pub(crate) fn certain_block_counts(
+        &self,
+        (bounds, circles): ([f64; 2], &[usize]),
+        greatest: Option<f64>,
+        options: &SolveOptions,
+        work: Work<'_>,
+    ) -> (Option<[usize; 2]>, u64) {
+        if self.model.has_guided_sliders() {
+            return (None, 1);
+        }
+        let problem = self.enclosed(bounds, |model, uncertain, stages| {
+            let hinges = turning_hinges(stages, circles).ok()?;
+            let state = (&stages.mechanism, &stages.configuration);
+            enclosed_block_problem(model, uncertain, state, &hinges).ok()
+        });
+        let Some(problem) = problem else { return (None, 1) };
+        let mut goes_on = |_: &Progress| work.flow();
+        let result = blocks::search(&problem, &options.search, &mut goes_on);
+        (certain_block_counts(&problem, &result, greatest), result.nodes)
+    }
+
+    /// What follows from the model, the bounds of what is varied, and the stages in the middle of them; none if
+    /// there are none.
+    fn enclosed<R>(
+        &self,
+        [from, to]: [f64; 2],
+        question: impl Fn(&Model, &UncertainParameters, &Stages) -> Option<R>,
+    ) -> Option<R> {
+        let bounds = Interval::new(from, to)?;
+        let uncertain = UncertainParameters::default();
+        if let Some(stages) = &self.stages {
+            return question(&self.model, &uncertain.with_friction(bounds), stages);
+        }
+        let model = self.model_at(bounds.middle()).ok()?.0;
+        let uncertain = match self.kind {
+            Kind::Coordinate => uncertain.with_coordinate(&self.name, bounds),
+            _ => uncertain.with(&self.name, bounds),
+        };
+        let stages = Stages::following(&mut self.follower(), Mechanism::new(&model).ok()?).ok()?;
+        question(&model, &uncertain, &stages)
+    }
+
+    /// The friction circles that have an extent somewhere in a range, as far as a few values show it.
+    pub(crate) fn rough_circles(&self, [from, to]: [f64; 2]) -> Vec<usize> {
+        let present = self.present().ok().filter(|value| (from..=to).contains(value));
+        let values = [from, f64::midpoint(from, to), to].into_iter().chain(present);
+        let rough = |value: f64| -> Option<Vec<usize>> {
+            let (model, factor) = self.model_at(value).ok()?;
+            let mechanism = Mechanism::new(&model).ok()?;
+            (factor > 0.0).then(|| mechanism.rough_hinges().map(|(circle, _)| circle).collect())
+        };
+        let mut circles: Vec<usize> = values.filter_map(rough).flatten().collect();
+        circles.sort_unstable();
+        circles.dedup();
+        circles
+    }
+
+    /// Whether the friction circles of hinges alone depend on it.
+    pub(crate) fn varies_friction_circles(&self) -> bool {
+        let index = self.model.parameters.iter().position(|parameter| *parameter.name == *self.name);
+        self.kind == Kind::Parameter && index.is_some_and(|index| self.model.varies_friction_circles(index))
+    }
+
+    /// The radius of a friction circle at a value; none if the model does not allow it.
+    pub(crate) fn friction_radius(&self, value: f64, circle: usize) -> Option<f64> {
+        let (model, _) = self.model_at(value).ok()?;
+        Some(Mechanism::new(&model).ok()?.friction_circles[circle].radius)
+    }
+
+    /// The block problem at a value, with friction in the hinges of these circles.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn block_instance(&self, value: f64, circles: &[usize]) -> Result<Instance, Faults> {
+        self.with_hinges(value, circles, block_instance)
+    }
+
+    /// What is asked of the stages at a value, and of the hinges of these friction circles.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there, and those of the question.
+    pub(crate) fn with_hinges<R>(
+        &self,
+        value: f64,
+        circles: &[usize],
+        question: impl Fn(&Stages, &[TurningHinge]) -> Result<R, Faults>,
+    ) -> Result<R, Faults> {
+        self.at(value, |stages, factor| {
+            let rougher = (factor != 1.0).then(|| stages.with_friction(factor));
+            let stages = rougher.as_ref().unwrap_or(stages);
+            question(stages, &turning_hinges(stages, circles)?)
+        })
+    }
+
+    /// The forces of a branch at a value; none if they are not found.
+    pub(crate) fn branch_forces(
+        &self,
+        value: f64,
+        circles: &[usize],
+        branch: &Branch,
+    ) -> Option<BranchForces> {
+        branch.solution(value, &|at| self.block_instance(at, circles).map_err(|_| NoInstance::Other))
+    }
+
+    /// The accelerations of the coordinates along a branch.
+    pub(crate) fn branch_accelerations(
+        &self,
+        value: f64,
+        circles: &[usize],
+        branch: &Branch,
+    ) -> Option<Vec<f64>> {
+        let forces = self.branch_forces(value, circles, branch)?;
+        let accelerations = |stages: &Stages, hinges: &[TurningHinge]| {
+            let unknowns = unknowns_of(stages, hinges, (&branch.states, &forces));
+            let rows = coordinate_rows(&stages.mechanism, &stages.configuration);
+            Ok(rows.iter().map(|row| row.times(&unknowns) - row.right_hand_side).collect())
+        };
+        self.with_hinges(value, circles, accelerations).ok()
     }
 
     /// The states with a guided slider between its faces that `solve` finds at a value and with so many times
@@ -334,6 +445,34 @@ impl Varied {
     pub(crate) fn is_coordinate(&self) -> bool {
         self.kind == Kind::Coordinate
     }
+}
+
+/// The numbers of solutions and gap states that are proven for all problems within bounds, if they are; none where a
+/// normal force may be above `greatest`, or may not.
+fn certain_block_counts(
+    problem: &BlockProblem,
+    result: &BlockResult,
+    greatest: Option<f64>,
+) -> Option<[usize; 2]> {
+    if result.complete != Proof::Proven {
+        return None;
+    }
+    let greatest = greatest.unwrap_or(f64::INFINITY);
+    let mut counts = [0; 2];
+    for solution in &result.solutions {
+        if solution.on_boundary.iter().any(|&contact| problem.has_jump(contact)) {
+            return None;
+        }
+        let forces = solution.enclosure.iter().zip(&solution.states);
+        let pressed = forces.filter(|(_, state)| state.side().is_some()).map(|(force, _)| force.abs());
+        let pressed: Vec<Interval> = pressed.collect();
+        if pressed.iter().all(|force| force.upper() <= greatest) {
+            counts[usize::from(!solution.gaps.is_empty())] += 1;
+        } else if pressed.iter().all(|force| force.lower() <= greatest) {
+            return None;
+        }
+    }
+    Some(counts)
 }
 
 /// The mechanism of a model with these values of what is varied, and the factor of its coefficients of

@@ -1,9 +1,8 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
-    FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, StaticLaw,
-    length, rot90,
+    Attachment, Body, CircleLaw, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
+    FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -157,13 +156,14 @@ impl<T: Real> Evaluation<'_, T> {
             model::JointKind::Hinge(hinge) => {
                 let friction = hinge.friction?;
                 let [radius, static_radius] = friction.radii(|id| self.value(id));
-                let static_law = match friction {
-                    HingeFriction::Circle(_) => StaticLaw::Radius,
-                    HingeFriction::Pin { mu: [_, mu], radius, law } => {
-                        StaticLaw::Pin { mu: self.value(mu), radius: self.value(radius), law }
+                let law = match friction {
+                    HingeFriction::Circle(_) => CircleLaw::Radius,
+                    HingeFriction::Pin { mu, radius, law } => {
+                        let mu = mu.map(|mu| self.value(mu));
+                        CircleLaw::Pin { mu, radius: self.value(radius), law }
                     }
                 };
-                Some(FrictionCircle { joint: JointId(index), radius, static_radius, static_law })
+                Some(FrictionCircle { joint: JointId(index), radius, static_radius, law })
             }
             model::JointKind::Slider(_) => None,
         };

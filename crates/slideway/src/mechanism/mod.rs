@@ -232,19 +232,19 @@ pub struct FrictionCircle<T = f64> {
     pub radius: T,
     /// Radius of the friction circle at rest (m).
     pub static_radius: T,
-    /// What the static radius follows from.
-    pub static_law: StaticLaw<T>,
+    /// What the radii follow from.
+    pub law: CircleLaw<T>,
 }
 
-/// What the radius of a friction circle at rest follows from.
+/// What the radii of a friction circle follow from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StaticLaw<T = f64> {
-    /// It is given.
+pub enum CircleLaw<T = f64> {
+    /// They are given.
     Radius,
     /// A pin.
     Pin {
-        /// Its static friction coefficient.
-        mu: T,
+        /// Its friction coefficients, kinetic and static.
+        mu: [T; 2],
         /// Its radius (m).
         radius: T,
         /// How the radius of the friction circle follows from them.
@@ -255,17 +255,31 @@ pub enum StaticLaw<T = f64> {
 impl FrictionCircle {
     /// What is varied where static friction is: the coefficient of a pin, else the radius.
     pub(crate) fn static_friction(&self) -> f64 {
-        match self.static_law {
-            StaticLaw::Radius => self.static_radius,
-            StaticLaw::Pin { mu, .. } => mu,
+        match self.law {
+            CircleLaw::Radius => self.static_radius,
+            CircleLaw::Pin { mu: [_, mu], .. } => mu,
         }
     }
 
     /// The radius of the friction circle at rest with another value of [`Self::static_friction`].
     pub(crate) fn static_radius_with(&self, friction: f64) -> f64 {
-        match self.static_law {
-            StaticLaw::Radius => friction,
-            StaticLaw::Pin { radius, law, .. } => law.friction_radius(friction, radius),
+        match self.law {
+            CircleLaw::Radius => friction,
+            CircleLaw::Pin { radius, law, .. } => law.friction_radius(friction, radius),
+        }
+    }
+}
+
+impl<T: Real> FrictionCircle<T> {
+    /// The same with its kinetic coefficient, or the radius that is given, multiplied by a factor.
+    pub(crate) fn rougher(self, factor: T) -> Self {
+        match self.law {
+            CircleLaw::Radius => Self { radius: self.radius * factor, ..self },
+            CircleLaw::Pin { mu: [mu, mu_static], radius, law } => {
+                let mu = mu * factor;
+                let rougher = CircleLaw::Pin { mu: [mu, mu_static], radius, law };
+                Self { radius: law.friction_radius(mu, radius), law: rougher, ..self }
+            }
         }
     }
 }

@@ -13,7 +13,7 @@
 //! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is
 //! constant.
 
-use super::{ForceValue, Gravity, Inertia, JointKind, LoadKind, Model, Moment, Slider, Stop};
+use super::{ForceValue, Gravity, HingeFriction, Inertia, JointKind, LoadKind, Model, Moment, Slider, Stop};
 use crate::expression::{Degree, Symbol, Values};
 use crate::ids::FormulaId;
 use std::collections::BTreeSet;
@@ -40,6 +40,16 @@ impl Model {
         let conditions = at_rest.max(places.conditions());
         let elsewhere = if places.others() == Degree::Constant { Degree::Constant } else { Degree::Other };
         Dependence { problem: affine.max(elsewhere), conditions, at_rest: at_rest != Degree::Constant }
+    }
+
+    /// Whether the mode problem depends on a parameter by the radii of friction circles alone, each of which is affine
+    /// in the parameter, or follows from a coefficient of friction that is.
+    pub(crate) fn varies_friction_circles(&self, parameter: usize) -> bool {
+        let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
+        let loads = places.loads().max(places.weights()).max(places.accelerations());
+        let others = loads.max(places.friction()).max(places.fits()).max(places.static_friction());
+        let others = others.max(places.conditions());
+        places.hinges() == Degree::Affine && others.max(places.others()) == Degree::Constant
     }
 
     /// The constant and the slope of a formula that does not depend on the motion and is affine in a
@@ -139,6 +149,28 @@ impl Places<'_> {
                 .collect::<Vec<_>>()
         };
         self.greatest(self.model.contacts().flat_map(own).collect::<Vec<_>>())
+    }
+
+    /// Kinetic friction in hinges; static friction counts at rest alone.
+    fn hinges(&mut self) -> Degree {
+        let hinges = self.model.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Hinge(hinge) => hinge.friction,
+            JointKind::Slider(_) => None,
+        });
+        let mut greatest = Degree::Constant;
+        for friction in hinges.collect::<Vec<_>>() {
+            self.greatest(friction.kinetic_and_static());
+            let kinetic = self.degree(friction.kinetic_and_static()[0]);
+            let degree = match friction {
+                HingeFriction::Circle(_) => kinetic,
+                HingeFriction::Pin { radius, .. } => match (kinetic, self.degree(radius)) {
+                    (one, Degree::Constant) | (Degree::Constant, one) => one,
+                    _ => Degree::Other,
+                },
+            };
+            greatest = greatest.max(degree);
+        }
+        greatest
     }
 
     fn loads(&mut self) -> Degree {

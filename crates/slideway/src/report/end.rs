@@ -25,7 +25,13 @@ pub enum ModeEndCause {
     Tipping,
     /// A normal force reaches the greatest one that is allowed.
     GreatestReaction,
-    /// Sliding reverses.
+    /// Two solutions merge.
+    Fold,
+    /// The force of a hinge with friction vanishes.
+    HingeUnloaded,
+    /// It was not followed any further.
+    NotFollowed,
+    /// Sliding or turning reverses.
     Reversal,
     /// Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the model is not
     /// allowed.
@@ -44,6 +50,9 @@ impl ModeEndCause {
             Self::GapCloses => "gap closes",
             Self::Tipping => "tipping",
             Self::GreatestReaction => "greatest reaction",
+            Self::Fold => "fold",
+            Self::HingeUnloaded => "hinge force vanishes",
+            Self::NotFollowed => "not followed",
             Self::Reversal => "reversal",
             Self::NoModeProblem => "no mode problem",
         }
@@ -61,6 +70,9 @@ impl ModeEndCause {
             EndCause::GapCloses(_) => Self::GapCloses,
             EndCause::OutputBound(_) => Self::Tipping,
             EndCause::GreatestNormalForce(_) => Self::GreatestReaction,
+            EndCause::Fold => Self::Fold,
+            EndCause::HingeUnloaded(_) => Self::HingeUnloaded,
+            EndCause::NotFollowed => Self::NotFollowed,
             EndCause::Reversal => Self::Reversal,
             EndCause::NoProblem => Self::NoModeProblem,
         }

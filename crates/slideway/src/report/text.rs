@@ -495,6 +495,8 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
         ModeEndCause::SideChange if margin.contacts.len() > 1 => format!("{contacts} change side"),
         ModeEndCause::SideChange => format!("{contacts} changes side"),
         ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
+        ModeEndCause::Fold => "it merges with another solution".to_owned(),
+        ModeEndCause::HingeUnloaded => "the force of a hinge vanishes".to_owned(),
         _ => "a guided slider tips".to_owned(),
     };
     format!("the mode ends at {} times the friction: {end}", number(factor))

@@ -29,6 +29,24 @@ pub(super) fn level(
     work: Work<'_>,
 ) -> Result<Option<f64>, Faults> {
     let efforts = Efforts::at(varied, value)?;
+    let between = |state: &Solution| Forces {
+        efforts: state.drives.iter().map(|drive| drive.effort).collect(),
+        normal_forces: state.contacts.iter().map(|contact| contact.normal_force).collect(),
+    };
+    let picked = picked(varied, against, &efforts)?;
+    let worst = |states: &mut dyn Iterator<Item = Forces>| -> Result<Option<f64>, Faults> {
+        let levels: Vec<f64> =
+            states.map(|forces| of_forces(against, picked, &efforts, &forces)).collect::<Result<_, _>>()?;
+        let worst = if matches!(against, Against::Efficiency) { f64::min } else { f64::max };
+        Ok(levels.into_iter().reduce(worst))
+    };
+    if !varied.rough_circles([value, value]).is_empty() {
+        let found = varied.solved(value, work)?;
+        if !found.continua.is_empty() {
+            return Err(Fault::general(FaultKind::LimitsNotComputed { modes: found.continua.len() }).into());
+        }
+        return worst(&mut found.solutions.iter().chain(&found.preload_gap_states).map(between));
+    }
     let goes_on = || !work.is_over();
     let patterns = efforts.present(&goes_on).map_err(|TooManyModes { contacts, limit, .. }| {
         Faults::from(Fault::general(FaultKind::TooManyModes { contacts, limit }))
@@ -36,17 +54,8 @@ pub(super) fn level(
     let of_pattern = |pattern: &Vec<_>| {
         Some(Forces { efforts: efforts.of(pattern)?, normal_forces: efforts.normal_forces(pattern)? })
     };
-    let between = |state: &Solution| Forces {
-        efforts: state.drives.iter().map(|drive| drive.effort).collect(),
-        normal_forces: state.contacts.iter().map(|contact| contact.normal_force).collect(),
-    };
     let between_faces = varied.states_between_faces(value, 1.0, None, work);
-    let states = patterns.iter().filter_map(of_pattern).chain(between_faces.iter().map(between));
-    let picked = picked(varied, against, &efforts)?;
-    let levels: Vec<f64> =
-        states.map(|forces| of_forces(against, picked, &efforts, &forces)).collect::<Result<_, _>>()?;
-    let worst = if matches!(against, Against::Efficiency) { f64::min } else { f64::max };
-    Ok(levels.into_iter().reduce(worst))
+    worst(&mut patterns.iter().filter_map(of_pattern).chain(between_faces.iter().map(between)))
 }
 
 /// The place of the drive or contact that is named among all; none if all of them count.

@@ -2,11 +2,12 @@
 
 use super::Against;
 use super::level::level;
+use crate::enclosure::TurningHinge;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::progress::Work;
-use crate::solve::{FALLING, GROWING};
+use crate::solve::{FALLING, GROWING, Stages, locking_factor};
 use crate::standstill::self_locking_factor;
 
 /// The most patterns for which a margin is computed.
@@ -127,6 +128,13 @@ impl MarginQuestion<'_> {
 /// States with a guided slider between its faces are no modes that could be followed: where there is one
 /// there is no answer.
 fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
+    let circles = varied.rough_circles([value, value]);
+    if !circles.is_empty() {
+        let factor = |stages: &Stages, hinges: &[TurningHinge]| locking_factor(stages, hinges, work);
+        let not_computed = || Fault::general(FaultKind::LimitsNotComputed { modes: 1 });
+        let factor = varied.with_hinges(value, &circles, factor)?.ok_or_else(not_computed)?;
+        return Ok(if factor.is_infinite() { Margin::Infinite } else { Margin::Finite(factor) });
+    }
     let margin = locking_margin(&varied.growing_friction(value)?, work)?;
     let is_between = |rougher: f64| !varied.states_between_faces(value, rougher, None, work).is_empty();
     // Where it is locked, from the friction to which it would have to fall.

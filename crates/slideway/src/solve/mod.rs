@@ -44,6 +44,7 @@ pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub use hinges::exact_block_problem;
 pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states};
+pub(crate) use hinges::{block_instance, directions, locking_factor, turning_hinges, unknowns_of};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
@@ -143,7 +144,13 @@ pub fn solve_with(
     let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
     if stages.mechanism.rough_hinges().next().is_some() {
-        let mut report = hinges::solve((model, &ranges), (&stages, &equations), options, progress)?;
+        let mut report = hinges::solve(
+            model,
+            (&middle(&ranges), !ranges.is_empty()),
+            (&stages, &equations),
+            options,
+            progress,
+        )?;
         report.rates_not_given = rates_not_given(model);
         report.suit_units();
         return finite(report);

@@ -290,7 +290,7 @@ fn free_face<'p>(all: impl Iterator<Item = &'p Parts> + Clone, k: usize) -> Opti
 }
 
 /// The bound of each guided slider's couple, and its row among the unknowns.
-fn couples(mechanism: &Mechanism, influence: &Influence) -> Vec<(OutputBound, usize)> {
+pub(super) fn couples(mechanism: &Mechanism, influence: &Influence) -> Vec<(OutputBound, usize)> {
     let mut couples = Vec::new();
     for (index, joint) in mechanism.joints.iter().enumerate() {
         let JointKind::Slider(slider) = &joint.kind else { continue };

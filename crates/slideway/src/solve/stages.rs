@@ -28,6 +28,7 @@ pub fn exact_mode_problem(model: &Model) -> Result<ModeProblem, Faults> {
 }
 
 /// A model in its state, ready for its mode problem.
+#[derive(Clone)]
 pub(crate) struct Stages {
     /// With the friction of its sliding speeds.
     pub(crate) mechanism: Mechanism,
@@ -41,7 +42,9 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
-        Self::following(&mut Follower::default(), Mechanism::new(model)?)
+        let mechanism = Mechanism::new(model)?;
+        mechanism.check_frictionless_hinges()?;
+        Self::following(&mut Follower::default(), mechanism)
     }
 
     /// Those of a mechanism, its positions from those of the last ones if these are near.
@@ -50,7 +53,6 @@ impl Stages {
     /// Whatever `solve` refuses.
     pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
-        mechanism.check_frictionless_hinges()?;
         let configuration = follower.configuration(&mechanism)?;
         Ok(Self::with_equations(mechanism, configuration)?.0)
     }
@@ -132,6 +134,11 @@ impl Stages {
             influence: &self.influence,
             velocity_signs: &self.velocity_signs,
         }
+    }
+
+    /// The same with every coefficient of friction multiplied by a factor, those of hinges, too.
+    pub(crate) fn with_friction(&self, factor: f64) -> Self {
+        Self { mechanism: rougher_throughout(&self.mechanism, factor), ..self.clone() }
     }
 
     /// The same with every coefficient of friction multiplied by a factor.
@@ -221,6 +228,15 @@ pub(crate) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> M
     let mut mechanism = mechanism.clone();
     for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
         contact.mu = contact.mu.map(|mu| mu * factor(k));
+    }
+    mechanism
+}
+
+/// A mechanism with all coefficients of friction multiplied by a factor, those of hinges, too.
+pub(super) fn rougher_throughout(mechanism: &Mechanism, factor: f64) -> Mechanism {
+    let mut mechanism = rougher(mechanism, &|_| factor);
+    for circle in &mut mechanism.friction_circles {
+        *circle = circle.rougher(factor);
     }
     mechanism
 }

@@ -2,6 +2,7 @@
 
 use super::answer::Answer;
 use super::found::SearchFound;
+use super::hinges;
 use super::stages::{ProblemData, RougherStages, Stages, rougher};
 use super::{SolveOptions, searched};
 use crate::enclosure::{UncertainParameters, enclosure};
@@ -24,6 +25,14 @@ pub(crate) fn solve_with_friction(
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
     let Stages { configuration, influence, velocity_signs, .. } = stages;
+    if stages.mechanism.rough_hinges().next().is_some() && factor > 0.0 {
+        let stages = stages.with_friction(factor);
+        let equations = KineticEquations::new(&stages.mechanism, configuration)?;
+        let uncertain = UncertainParameters::default().with_friction(Interval::point(factor));
+        let options = options.margins(false);
+        let report = hinges::solve(model, (&uncertain, false), (&stages, &equations), &options, progress)?;
+        return finite(report);
+    }
     let mechanism = rougher(&stages.mechanism, &|_| factor);
     let equations = KineticEquations::new(&mechanism, configuration)?;
     let uncertain = UncertainParameters::default().with_friction(Interval::point(factor));

@@ -123,6 +123,28 @@ impl Case {
         Model::parse(&self.text(factor, view)).unwrap_or_else(|faults| panic!("{}: {faults:?}", self.name))
     }
 
+    /// The radius of the only friction circle is the parameter `r`.
+    pub(crate) fn over_radius(&self, view: &View) -> Model {
+        Model::parse(&self.with_radius(view)).unwrap()
+    }
+
+    /// The same where the formula of the gravity has the radius, too, and its value does not change.
+    pub(crate) fn over_radius_and_load(&self) -> Model {
+        let text = self.with_radius(&View { turn: 0.0, mirror: false });
+        let [x, y] = self.gravity;
+        let given = format!("gravity = [{x:?}, {y:?}]");
+        assert!(text.contains(&given));
+        Model::parse(&text.replacen(&given, &format!("gravity = [\"{x:?} + (r*r - r^2)\", {y:?}]"), 1))
+            .unwrap()
+    }
+
+    fn with_radius(&self, view: &View) -> String {
+        let [hinge] = self.hinges.as_slice() else { panic!("{} has several hinges", self.name) };
+        let given = format!("friction_radius = {:?}", hinge.r);
+        let text = self.text(1.0, view).replacen(&given, "friction_radius = \"r\"", 1);
+        format!("{text}[parameters]\nr = {:?}\n", hinge.r)
+    }
+
     fn text(&self, factor: f64, view: &View) -> String {
         let gravity = view.of(self.gravity.into());
         let mut text = format!("gravity = [{:?}, {:?}]\n", gravity.x, gravity.y);

@@ -5,6 +5,7 @@
 mod cases;
 mod closed_forms;
 mod gallery;
+mod limits;
 mod reading;
 mod reference;
 mod standstill;

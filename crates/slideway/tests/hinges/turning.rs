@@ -4,7 +4,7 @@ use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
 use slideway::report::{Proof, Status};
-use slideway::{Faults, LimitsOptions, Model, Settings, SimulateOptions, gallery, limits, simulate, solve};
+use slideway::{Faults, Model, Settings, SimulateOptions, gallery, simulate, solve};
 use std::path::Path;
 
 /// A slider-crank, drawn with the crank at a right angle to the piston: the rod only shifts there.
@@ -161,7 +161,6 @@ fn at_rest_friction_has_no_sense() {
 /// Whatever does not take friction in hinges into account says so and names them.
 #[rstest]
 #[case(|model: &Model| simulate(model, &SimulateOptions::new(1.0)).map(drop))]
-#[case(|model: &Model| limits(model, &LimitsOptions::new("phi=0..0.1".parse().unwrap())).map(drop))]
 fn other_questions_are_refused(#[case] question: fn(&Model) -> Result<(), Faults>) {
     let faults = question(&slider_crank()).unwrap_err();
     let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };

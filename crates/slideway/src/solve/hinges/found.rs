@@ -3,6 +3,7 @@
 use super::super::answer::{Answer, Tipped, status};
 use super::super::attainability::not_computed;
 use super::super::state::{State, pattern, signs};
+use super::margins::Growth;
 use crate::attainability::ElasticHinges;
 use crate::enclosure::{NotEnclosed, TurningHinge};
 use crate::ids::JointId;
@@ -69,6 +70,8 @@ pub(super) struct HingedAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
     pub(super) hinges: &'a [TurningHinge],
+    /// For margins of friction, if they are asked for.
+    pub(super) growth: Option<Growth<'a>>,
 }
 
 impl HingedAnswer<'_> {
@@ -79,7 +82,7 @@ impl HingedAnswer<'_> {
         let mut tipping = Tipped::default();
         let (mut solutions, mut gaps) = (Vec::new(), Vec::new());
         for solution in found.result.solutions.iter().take(found.most) {
-            let directions = self.directions(solution);
+            let directions = directions(self.problem, &solution.states, &solution.reactions);
             let oriented = directions.determinant();
             let signs: Vec<i8> = (0..solution.states.len())
                 .map(|k| if solution.on_boundary.contains(&k) { 0 } else { signs(&solution.states)[k] })
@@ -98,6 +101,7 @@ impl HingedAnswer<'_> {
                 hinges: &hinge_states(self.answer.mechanism, self.hinges, &solution.reactions),
             };
             let Some(mut kept) = self.answer.kept(&state, &mut tipping) else { continue };
+            kept.margin = self.growth.as_ref().and_then(|growth| growth.margin(solution));
             if !solution.gaps.is_empty() {
                 gaps.push(kept);
                 continue;
@@ -130,43 +134,47 @@ impl HingedAnswer<'_> {
             ..self.answer.report_without_solutions(open)
         }
     }
-
-    /// `I - H D`, with the directions `x_j / |x_j|` of the blocks on the diagonal of D (theory of hinges, section 4).
-    fn directions(&self, solution: &BlockSolution) -> DMatrix<f64> {
-        let contacts = self.problem.contacts();
-        let rows = contacts + 2 * self.problem.hinges();
-        let response = |row: usize, column: usize, state: ContactState| match state.side() {
-            Some(side) => self.problem.response(side).centre()[(row, column)],
-            None => 0.0,
-        };
-        DMatrix::from_fn(rows, rows, |row, column| {
-            let product = match column.checked_sub(contacts) {
-                None => response(row, column, solution.states[column]) * solution.states[column].sign(),
-                Some(component) => {
-                    let (hinge, axis) = (component / 2, component % 2);
-                    let [x, y] = solution.reactions[hinge];
-                    let length = x.hypot(y);
-                    let direction = if length > 0.0 { solution.reactions[hinge][axis] / length } else { 0.0 };
-                    response(row, contacts + hinge, ContactState::Positive) * direction
-                }
-            };
-            if row == column { 1.0 - product } else { -product }
-        })
-    }
 }
 
-/// Hinges with their forces and friction couples, `M = -r |R| sgn(omega)`.
+/// `I - H D`, with the directions `x_j / |x_j|` of the blocks on the diagonal of D (theory of hinges, section 4), in a
+/// solution with these states of the contacts and forces of the hinges.
+pub(crate) fn directions(
+    problem: &BlockProblem,
+    states: &[ContactState],
+    forces: &[[f64; 2]],
+) -> DMatrix<f64> {
+    let contacts = problem.contacts();
+    let rows = contacts + 2 * problem.hinges();
+    let response = |row: usize, column: usize, state: ContactState| match state.side() {
+        Some(side) => problem.response(side).centre()[(row, column)],
+        None => 0.0,
+    };
+    DMatrix::from_fn(rows, rows, |row, column| {
+        let product = match column.checked_sub(contacts) {
+            None => response(row, column, states[column]) * states[column].sign(),
+            Some(component) => {
+                let (hinge, axis) = (component / 2, component % 2);
+                let length = forces[hinge][0].hypot(forces[hinge][1]);
+                let direction = if length > 0.0 { forces[hinge][axis] / length } else { 0.0 };
+                response(row, contacts + hinge, ContactState::Positive) * direction
+            }
+        };
+        if row == column { 1.0 - product } else { -product }
+    })
+}
+
+/// The forces and friction couples of hinges.
 pub(super) fn hinge_states(
     mechanism: &Mechanism,
     hinges: &[TurningHinge],
-    reactions: &[[f64; 2]],
+    forces: &[[f64; 2]],
 ) -> Vec<HingeState> {
     let one = |(hinge, force): (&TurningHinge, &[f64; 2])| {
         let radius = mechanism.friction_circles[hinge.circle].radius;
         let couple = -hinge.sense * radius * force[0].hypot(force[1]);
         HingeState { circle: hinge.circle, joint: hinge.joint, force: *force, couple }
     };
-    hinges.iter().zip(reactions).map(one).collect()
+    hinges.iter().zip(forces).map(one).collect()
 }
 
 /// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps.

@@ -1,7 +1,9 @@
 //! Solutions with friction in hinges: the block mode problem, and what its solutions are in the mechanism (theory of
 //! hinges).
 
+mod branches;
 mod found;
+mod margins;
 mod spin;
 mod standing;
 mod states;
@@ -9,32 +11,39 @@ mod states;
 pub(crate) use spin::HingedData;
 pub(crate) use states::{HingedState, LastSolution, hinged_states};
 
+pub(crate) use branches::{block_instance, turning_hinges, unknowns_of};
+
+use super::SolveOptions;
 use super::answer::Answer;
 use super::mode_problem::{overflow, preload_columns, without_rounding};
 use super::stages::Stages;
-use super::{SolveOptions, middle};
 use crate::configuration::Configuration;
-use crate::enclosure::{BlockCoefficients, TurningHinge, enclosed_block_problem};
+use crate::enclosure::{BlockCoefficients, TurningHinge, UncertainParameters, enclosed_block_problem};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
-use crate::model::{Model, ParameterRange};
+use crate::model::Model;
 use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
 use crate::progress::Callback;
 use crate::report::SolveReport;
+pub(crate) use found::directions;
 use found::{BlocksFound, HingedAnswer};
+use margins::Growth;
+pub(crate) use margins::locking_factor;
 use nalgebra::{DMatrix, DVector};
 use spin::{Spins, never_turn, spins};
 
-/// All solutions of a mechanism with friction in hinges.
+/// All solutions of a mechanism with friction in hinges, proven for these values of the model; `has_ranges` says whether
+/// parameters are known within bounds.
 ///
 /// # Errors
 /// Hinges with friction that do not turn now, or more than one that never does; friction in hinges beside guides that share a load; numbers beyond the range
 /// of floating point.
 pub(super) fn solve(
-    (model, ranges): (&Model, &[ParameterRange]),
+    model: &Model,
+    (uncertain, has_ranges): (&UncertainParameters, bool),
     (stages, equations): (&Stages, &KineticEquations),
     options: &SolveOptions,
     progress: &mut Callback<'_>,
@@ -59,15 +68,12 @@ pub(super) fn solve(
     }
     never_turn(mechanism, &standing)?;
     let problem = block_problem(stages.hinged(), &turning)?;
-    let enclosed = enclosed_block_problem(model, &middle(ranges), (mechanism, configuration), &turning);
+    let enclosed = enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning);
     let result = blocks::search(enclosed.as_ref().unwrap_or(&problem), &options.search, progress);
-    let found = BlocksFound {
-        result: &result,
-        rounded: enclosed.as_ref().err(),
-        most: options.most,
-        has_ranges: !ranges.is_empty(),
-    };
-    Ok(HingedAnswer { answer, problem: &problem, hinges: &turning }.report(&found))
+    let found =
+        BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most, has_ranges };
+    let growth = options.margins.then(|| Growth::new(stages, &turning)).transpose()?;
+    Ok(HingedAnswer { answer, problem: &problem, hinges: &turning, growth }.report(&found))
 }
 
 /// The block mode problem of a model with friction in hinges, in floating point: a problem with exact numbers, which
@@ -103,14 +109,27 @@ fn block_problem(data: HingedData<'_>, hinges: &[TurningHinge]) -> Result<BlockP
 
 /// What the block mode problem is made of, in floating point.
 fn block_coefficients(data: HingedData<'_>, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
+    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
+    let rows = data.influence.block_rows(&joints);
+    let eta = without_rounding(data.mechanism, answers(data, &rows));
+    coefficients_of(data, hinges, &rows, eta)
+}
+
+/// What a unit friction force of each contact adds to these unknowns, at either face.
+fn answers(data: HingedData<'_>, rows: &[usize]) -> [DMatrix<f64>; 2] {
+    let columns = &data.influence.columns;
+    [0, 1].map(|side| DMatrix::from_fn(rows.len(), columns.len(), |row, k| columns[k][side][rows[row]]))
+}
+
+/// What these unknowns are made of, with those answers to the friction of the contacts.
+fn coefficients_of(
+    data: HingedData<'_>,
+    hinges: &[TurningHinge],
+    rows: &[usize],
+    eta: BySide<DMatrix<f64>>,
+) -> BlockCoefficients<f64> {
     let HingedData { mechanism, influence, velocity_signs, .. } = data;
     let contacts = &mechanism.contacts;
-    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
-    let rows = influence.block_rows(&joints);
-    let eta = [0, 1].map(|side| {
-        DMatrix::from_fn(rows.len(), contacts.len(), |row, k| influence.columns[k][side][rows[row]])
-    });
-    let eta = without_rounding(mechanism, eta);
     let of_contacts = |value: &dyn Fn(usize) -> f64| DVector::from_fn(contacts.len(), |k, _| value(k));
     BlockCoefficients {
         eta_preload: preload_columns(mechanism, &eta),

@@ -62,12 +62,12 @@ pub(super) fn never_turn(mechanism: &Mechanism, standing: &[TurningHinge]) -> Re
     faults.or(())
 }
 
-fn does_not_turn(mechanism: &Mechanism, joint: JointId, why: NoSliding) -> Fault {
+pub(super) fn does_not_turn(mechanism: &Mechanism, joint: JointId, why: NoSliding) -> Fault {
     let Joint { name, place, .. } = &mechanism.joints[joint.index()];
     Fault::new(FaultKind::HingeDoesNotTurn { hinge: name.to_string(), why }, place.clone())
 }
 
-fn sense(
+pub(super) fn sense(
     mechanism: &Mechanism,
     configuration: &Configuration,
     influence: &Influence,

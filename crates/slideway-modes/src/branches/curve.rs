@@ -1,0 +1,337 @@
+//! The curve of a branch: steps along its arc, and its ends.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::conditions::{self, Condition, are_met, conditions, slack};
+use super::family::{Family, Instance};
+use super::place::{Equations, Place};
+use crate::existence::EndCause;
+use crate::interval::Sign;
+
+/// Steps of Newton's method.
+const NEWTON: usize = 25;
+/// A step of this length is the last one.
+const LAST: f64 = 4.0 * f64::EPSILON;
+/// Steps that no longer shrink have reached rounding, if they are below this.
+const SMALL: f64 = 1e-10;
+/// The longest step along the arc, of unit vectors `z` and of the way to the goal.
+const LONGEST: f64 = 0.2;
+/// Where a shorter one would be needed the curve is not followed any further.
+const SHORTEST: f64 = 1e-9;
+/// Steps along an arc.
+const STEPS: usize = 2000;
+/// Halvings of a step that leads beyond an end.
+const HALVINGS: usize = 70;
+/// Places this near to the goal, as a share of the way, are there.
+const AT_GOAL: f64 = 1e-7;
+/// A corrected step that is this much longer or shorter than the predicted one is too long.
+const FAR: f64 = 0.5;
+/// Differences of the parameter for derivatives, as a share of the way to the goal.
+const DIFFERENCE: f64 = 1e-3;
+/// Below this `lambda` the determinant vanishes together with it.
+const NEAR_INFINITY: f64 = 1e-7;
+/// Hinge forces below this share of the largest unknown vanish.
+const NO_FORCE: f64 = 1e-6;
+
+/// How far a branch goes towards a goal.
+#[derive(Debug, Clone)]
+pub(super) enum Way {
+    /// To the goal.
+    Reaches(Place),
+    /// To an end before it: the last place, and why.
+    Ends(Place, EndCause),
+}
+
+/// The curve of a branch.
+pub(super) struct Curve<'c> {
+    pub(super) family: &'c Family<'c>,
+    pub(super) equations: Equations,
+    /// The greatest normal force that counts.
+    pub(super) greatest: Option<f64>,
+    pub(super) orientation: Sign,
+}
+
+/// A direction along a curve: of `z`, and of the parameter in units of the way to the goal.
+type Tangent = DVector<f64>;
+
+/// A walk along a curve, whose parameter counts from its start in units of the way to its goal.
+struct Walk<'c> {
+    curve: &'c Curve<'c>,
+    from: f64,
+    way: f64,
+    /// By how much each condition may be missed.
+    slack: Vec<f64>,
+}
+
+impl Curve<'_> {
+    /// The solution at a value near one that is known; none if Newton's method does not converge.
+    pub(super) fn solution(&self, at: f64, near: &Place) -> Option<Place> {
+        let instance = (self.family)(at).ok()?;
+        self.solution_of(&instance, at, near)
+    }
+
+    fn solution_of(&self, instance: &Instance, at: f64, near: &Place) -> Option<Place> {
+        let normal = near.z.transpose();
+        let mut z = near.z.clone();
+        let rows = z.len() - 1;
+        let mut right = DVector::zeros(rows + 1);
+        right[rows] = 1.0;
+        let mut last = f64::INFINITY;
+        for _ in 0..NEWTON {
+            let mut matrix = self.equations.matrix(instance, &z).insert_row(rows, 0.0);
+            matrix.set_row(rows, &normal);
+            let next = matrix.lu().solve(&right)?;
+            let step = (&next - &z).amax();
+            z = next;
+            if !step.is_finite() {
+                return None;
+            }
+            if step <= LAST || step <= SMALL && step >= last {
+                return Some(Place { at, z: z.normalize() });
+            }
+            last = step;
+        }
+        None
+    }
+
+    /// Whether a place is part of the branch, apart from rounding.
+    pub(super) fn holds(&self, instance: &Instance, place: &Place) -> bool {
+        are_met(&conditions(&self.equations, instance, place, self.greatest))
+    }
+
+    /// How far the branch goes from a place towards a value.
+    pub(super) fn walk(&self, start: &Place, goal: f64) -> Way {
+        if start.at == goal {
+            return Way::Reaches(start.clone());
+        }
+        let Ok(instance) = (self.family)(start.at) else {
+            return Way::Ends(start.clone(), EndCause::NotFollowed);
+        };
+        let here = conditions(&self.equations, &instance, start, self.greatest);
+        let slack = here.iter().map(slack).collect();
+        Walk { curve: self, from: start.at, way: goal - start.at, slack }.walk(start)
+    }
+}
+
+impl Walk<'_> {
+    fn walk(&self, start: &Place) -> Way {
+        let mut place = start.clone();
+        let mut towards = DVector::zeros(start.z.len() + 1);
+        towards[start.z.len()] = 1.0;
+        let mut length = LONGEST;
+        for _ in 0..STEPS {
+            let Some(tangent) = self.tangent(&place, &towards) else { return self.lost(place) };
+            if let Some(end) = self.goal_within(&place, &tangent, length) {
+                return Way::Reaches(end);
+            }
+            let next = loop {
+                match self.step(&place, &tangent, length, None) {
+                    Some(next) => break next,
+                    None if length < SHORTEST => return self.lost(place),
+                    None => length *= 0.5,
+                }
+            };
+            if self.is_within(&next) && !self.is_beyond(&next) {
+                (place, towards) = (next, tangent);
+                length = (1.5 * length).min(LONGEST);
+                continue;
+            }
+            if self.is_within(&next) {
+                return self.at_goal(&next, place);
+            }
+            let (inside, outside) = self.bisected(&place, &tangent, length, next);
+            if self.is_beyond(&inside) {
+                return self.at_goal(&inside, place);
+            }
+            let cause = self.cause(&inside, &outside);
+            return Way::Ends(inside, cause);
+        }
+        self.lost(place)
+    }
+
+    fn goal(&self) -> f64 {
+        self.from + self.way
+    }
+
+    fn is_beyond(&self, place: &Place) -> bool {
+        (place.at - self.goal()) * self.way >= 0.0
+    }
+
+    /// The solution at the goal that continues a place beyond it.
+    fn at_goal(&self, beyond: &Place, last: Place) -> Way {
+        match self.curve.solution(self.goal(), beyond) {
+            Some(end) => Way::Reaches(end),
+            None => self.lost(last),
+        }
+    }
+
+    /// The solution at the goal, if that is less than a step away.
+    fn goal_within(&self, place: &Place, tangent: &Tangent, length: f64) -> Option<Place> {
+        let left = (self.goal() - place.at) / self.way;
+        if length * tangent[place.z.len()] < left {
+            return None;
+        }
+        let end = self.curve.solution(self.goal(), place)?;
+        let is_near = (&end.z - &place.z).norm() <= (1.0 + FAR) * length;
+        (is_near && !self.turns_back(place, &end) && self.is_within(&end)).then_some(end)
+    }
+
+    /// Where the curve is not followed any further: where a hinge force vanishes it has a kink.
+    fn lost(&self, place: Place) -> Way {
+        if ((self.goal() - place.at) / self.way).abs() <= AT_GOAL {
+            return Way::Reaches(place);
+        }
+        let contacts = self.curve.equations.states.len();
+        let hinges = (place.z.len() - 1 - contacts) / 2;
+        let least = NO_FORCE * place.z.amax();
+        let unloaded: Vec<usize> =
+            (0..hinges).filter(|&hinge| place.length(contacts, hinge) <= least).collect();
+        let cause =
+            if unloaded.is_empty() { EndCause::NotFollowed } else { EndCause::HingeUnloaded(unloaded) };
+        Way::Ends(place, cause)
+    }
+
+    /// Whether nothing has ended before a place of the curve.
+    fn is_within(&self, place: &Place) -> bool {
+        let Ok(instance) = (self.curve.family)(place.at) else { return false };
+        let curve = self.curve;
+        let all = conditions(&curve.equations, &instance, place, curve.greatest);
+        let is_met = |(condition, slack): (&Condition, &f64)| condition.value >= -slack;
+        all.iter().zip(&self.slack).all(is_met)
+            && (place.load() < NEAR_INFINITY
+                || self.curve.equations.orientation(&instance, &place.z) == self.curve.orientation)
+    }
+
+    /// Neighbouring places on a step, of which the second is beyond the end.
+    fn bisected(&self, start: &Place, tangent: &Tangent, length: f64, beyond: Place) -> (Place, Place) {
+        let (mut inside, mut outside) = ((0.0, start.clone()), (length, beyond));
+        let slope = self.slope(&outside.1);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(inside.0, outside.0);
+            if middle <= inside.0 || middle >= outside.0 {
+                break;
+            }
+            let Some(place) = self.step(start, tangent, middle, slope.as_ref()) else { break };
+            if self.is_within(&place) {
+                inside = (middle, place);
+            } else {
+                outside = (middle, place);
+            }
+        }
+        (inside.1, outside.1)
+    }
+
+    fn cause(&self, inside: &Place, outside: &Place) -> EndCause {
+        let at = |place: &Place| {
+            let instance = (self.curve.family)(place.at).ok()?;
+            Some(conditions(&self.curve.equations, &instance, place, self.curve.greatest))
+        };
+        let (Some(here), Some(beyond)) = (at(inside), at(outside)) else { return EndCause::NoProblem };
+        if inside.load().abs() <= NEAR_INFINITY {
+            return EndCause::Singular;
+        }
+        conditions::cause(&here, &beyond).unwrap_or(EndCause::Fold)
+    }
+
+    /// The place this far along a tangent: the solution on the plane across it; none if there is none nearby. The
+    /// derivative by the parameter may be one from nearby.
+    fn step(
+        &self,
+        place: &Place,
+        tangent: &Tangent,
+        length: f64,
+        slope: Option<&DVector<f64>>,
+    ) -> Option<Place> {
+        let size = place.z.len();
+        let rows = size - 1;
+        let guess = Place {
+            at: place.at + length * tangent[size] * self.way,
+            z: &place.z + tangent.rows(0, size) * length,
+        };
+        let slope = match slope {
+            Some(slope) => slope.clone(),
+            None => self.slope(&guess)?,
+        };
+        let (mut z, mut at) = (guess.z.clone(), guess.at);
+        let mut last = f64::INFINITY;
+        for _ in 0..NEWTON {
+            let instance = (self.curve.family)(at).ok()?;
+            let matrix = self.curve.equations.matrix(&instance, &z);
+            let residual = &matrix * &z;
+            let mut right = DVector::zeros(size + 1);
+            right.rows_mut(0, rows).copy_from(&-residual);
+            right[rows] = 1.0 - guess.z.dot(&z) / guess.z.norm();
+            right[size] =
+                -(tangent.rows(0, size).dot(&(&z - &guess.z)) + tangent[size] * (at - guess.at) / self.way);
+            let step = bordered(matrix, &slope, &guess.z, tangent).lu().solve(&right)?;
+            z += step.rows(0, size);
+            at += step[size] * self.way;
+            let moved = step.amax();
+            if !moved.is_finite() {
+                return None;
+            }
+            if moved <= LAST || moved <= SMALL && moved >= last {
+                let found = Place { at, z: z.normalize() };
+                let way = (&found.z - &place.z).norm().hypot((at - place.at) / self.way);
+                let turns = self.turns_back(place, &found);
+                return ((way - length).abs() <= FAR * length && !turns).then_some(found);
+            }
+            last = moved;
+        }
+        None
+    }
+
+    /// Whether a hinge force has turned by more than a right angle.
+    fn turns_back(&self, one: &Place, other: &Place) -> bool {
+        let contacts = self.curve.equations.states.len();
+        let hinges = (one.z.len() - 1 - contacts) / 2;
+        let least = NO_FORCE * one.z.amax();
+        (0..hinges).any(|hinge| {
+            let of = |place: &Place| [0, 1].map(|axis| place.z[contacts + 2 * hinge + axis]);
+            let ([x, y], [u, v]) = (of(one), of(other));
+            x * u + y * v < 0.0 && x.hypot(y).max(u.hypot(v)) > least * SMALL
+        })
+    }
+
+    /// The unit tangent at a place that continues a direction.
+    fn tangent(&self, place: &Place, towards: &Tangent) -> Option<Tangent> {
+        let instance = (self.curve.family)(place.at).ok()?;
+        let matrix = self.curve.equations.matrix(&instance, &place.z);
+        let slope = self.slope(place)?;
+        let mut right = DVector::zeros(place.z.len() + 1);
+        right[place.z.len()] = 1.0;
+        let tangent = bordered(matrix, &slope, &place.z, towards).lu().solve(&right)?;
+        let length = tangent.norm();
+        (length.is_finite() && length > 0.0).then(|| tangent / length)
+    }
+
+    /// The derivative of the equations at fixed `z` by the parameter, by differences.
+    fn slope(&self, place: &Place) -> Option<DVector<f64>> {
+        let difference = DIFFERENCE * self.way;
+        let at = |offset: f64| {
+            let instance = (self.curve.family)(place.at + offset).ok()?;
+            Some(self.curve.equations.matrix(&instance, &place.z) * &place.z)
+        };
+        match (at(-difference), at(difference)) {
+            (Some(before), Some(after)) => Some((after - before) / (2.0 * DIFFERENCE)),
+            (Some(before), None) => Some((at(0.0)? - before) / DIFFERENCE),
+            (None, Some(after)) => Some((after - at(0.0)?) / DIFFERENCE),
+            (None, None) => None,
+        }
+    }
+}
+
+/// The equations with the derivative by the parameter, and the rows of both planes.
+fn bordered(
+    matrix: DMatrix<f64>,
+    slope: &DVector<f64>,
+    normal: &DVector<f64>,
+    tangent: &Tangent,
+) -> DMatrix<f64> {
+    let size = normal.len();
+    let mut whole = matrix.insert_rows(size - 1, 2, 0.0).insert_column(size, 0.0);
+    whole.view_mut((0, size), (size - 1, 1)).copy_from(slope);
+    whole.view_mut((size - 1, 0), (1, size)).copy_from(&(normal.transpose() / normal.norm()));
+    whole.set_row(size, &tangent.transpose());
+    whole
+}

@@ -1,0 +1,116 @@
+//! A mechanism with friction in hinges as a block problem of what is varied, and its forces along a branch.
+
+use super::super::friction::friction;
+use super::super::mode_problem::overflow;
+use super::super::parts::couples;
+use super::super::stages::Stages;
+use super::found::hinge_states;
+use super::spin::{does_not_turn, sense};
+use super::{answers, block_coefficients, check_determinate, coefficients_of};
+use crate::enclosure::{BlockCoefficients, TurningHinge};
+use crate::fault::Faults;
+use crate::modes::blocks::BlockProblem;
+use crate::modes::branches::{BranchForces, Instance, Outputs};
+use crate::modes::existence::OutputBound;
+use crate::modes::{BySide, ContactState};
+use nalgebra::DVector;
+
+/// The hinges of these friction circles, with the sense in which each turns; one that has no friction here may stand.
+///
+/// # Errors
+/// A fault for each hinge with friction that does not turn.
+pub(crate) fn turning_hinges(stages: &Stages, circles: &[usize]) -> Result<Vec<TurningHinge>, Faults> {
+    let Stages { mechanism, configuration, influence, .. } = stages;
+    let mut faults = Faults::default();
+    let mut turning = Vec::new();
+    for &circle in circles {
+        let joint = mechanism.friction_circles[circle].joint;
+        let is_smooth = mechanism.friction_circles[circle].radius == 0.0;
+        match sense(mechanism, configuration, influence, joint) {
+            Ok(sense) => turning.push(TurningHinge { circle, joint, sense }),
+            Err(_) if is_smooth => turning.push(TurningHinge { circle, joint, sense: 1.0 }),
+            Err(why) => faults.push(does_not_turn(mechanism, joint, why)),
+        }
+    }
+    faults.or(turning)
+}
+
+/// The block problem of these hinges, with the couples of guided sliders as outputs.
+///
+/// # Errors
+/// Guides that share a load; numbers beyond the range of floating point.
+pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result<Instance, Faults> {
+    GrowingFriction::new(stages, hinges)?.at(1.0)
+}
+
+/// The block problem of a mechanism, whose coefficients of friction may be multiplied by a factor.
+pub(crate) struct GrowingFriction<'a> {
+    stages: &'a Stages,
+    hinges: &'a [TurningHinge],
+    blocks: BlockCoefficients<f64>,
+    /// Of the couples of guided sliders.
+    outputs: BlockCoefficients<f64>,
+    bounds: Vec<OutputBound>,
+}
+
+impl<'a> GrowingFriction<'a> {
+    /// # Errors
+    /// Guides that share a load.
+    pub(crate) fn new(stages: &'a Stages, hinges: &'a [TurningHinge]) -> Result<Self, Faults> {
+        check_determinate(&stages.mechanism)?;
+        let (bounds, rows): (Vec<OutputBound>, Vec<usize>) =
+            couples(&stages.mechanism, &stages.influence).into_iter().unzip();
+        let data = stages.hinged();
+        let [positive, negative] = answers(data, &rows);
+        let outputs = coefficients_of(data, hinges, &rows, BySide { positive, negative });
+        Ok(Self { stages, hinges, blocks: block_coefficients(data, hinges), outputs, bounds })
+    }
+
+    /// With this factor.
+    ///
+    /// # Errors
+    /// Numbers beyond the range of floating point.
+    pub(crate) fn at(&self, factor: f64) -> Result<Instance, Faults> {
+        let [blocks, outputs] = [&self.blocks, &self.outputs].map(|part| self.rougher(part, factor));
+        let problem = BlockProblem::new(blocks.response(), blocks.jumps(), blocks.frictionless.clone())
+            .map_err(|_| overflow())?;
+        let outputs =
+            Outputs { response: outputs.response(), jumps: outputs.jumps(), load: outputs.frictionless };
+        let sides = [&outputs.response, &outputs.jumps];
+        let entries = sides.into_iter().flat_map(|both| both.positive.iter().chain(&both.negative));
+        if entries.chain(&outputs.load).any(|entry| !entry.is_finite()) {
+            return Err(overflow());
+        }
+        let turning = self.hinges.iter().map(|hinge| hinge.sense);
+        let sense = |sign: f64| i8::from(sign > 0.0) - i8::from(sign < 0.0);
+        let senses = self.stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
+        Ok(Instance { problem, outputs, bounds: self.bounds.clone(), senses })
+    }
+
+    fn rougher(&self, part: &BlockCoefficients<f64>, factor: f64) -> BlockCoefficients<f64> {
+        let radius = |hinge: &TurningHinge| {
+            self.stages.mechanism.friction_circles[hinge.circle].rougher(factor).radius
+        };
+        let leverage = self.hinges.iter().map(|hinge| -radius(hinge) * hinge.sense);
+        BlockCoefficients {
+            mu: BySide { positive: &part.mu.positive * factor, negative: &part.mu.negative * factor },
+            leverage: DVector::from_iterator(self.hinges.len(), leverage),
+            ..part.clone()
+        }
+    }
+}
+
+/// All unknowns of a solution with these states of the contacts.
+pub(crate) fn unknowns_of(
+    stages: &Stages,
+    hinges: &[TurningHinge],
+    (states, forces): (&[ContactState], &BranchForces),
+) -> DVector<f64> {
+    let Stages { mechanism, influence, velocity_signs, .. } = stages;
+    let normal = DVector::from_column_slice(&forces.normal);
+    let mut shares = vec![None; states.len()];
+    forces.gaps.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
+    let of_contacts = friction(mechanism, velocity_signs, states, &normal, &shares);
+    let of_hinges = hinge_states(mechanism, hinges, &forces.hinges);
+    influence.unknowns(&of_contacts, &normal) + influence.of_couples(&of_hinges)
+}
