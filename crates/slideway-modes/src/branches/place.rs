@@ -60,7 +60,7 @@ impl Equations {
     /// `[I - H D, -b]`, whose product with `z` vanishes in solutions.
     pub(super) fn matrix(&self, instance: &Instance, z: &DVector<f64>) -> DMatrix<f64> {
         let problem = &instance.problem;
-        let square: DMatrix<f64> = matrix(problem, &self.states, &self.slopes(problem, z));
+        let square: DMatrix<f64> = matrix(problem, &self.states, &slopes(problem, z));
         let rows = square.nrows();
         let mut whole = square.insert_column(rows, 0.0);
         // Shares of contacts in their gap are numbers, not forces.
@@ -73,21 +73,22 @@ impl Equations {
         whole
     }
 
-    fn slopes(&self, problem: &BlockProblem, z: &DVector<f64>) -> Slopes<f64> {
-        let contacts = problem.contacts();
-        let least = NO_DIRECTION * z.amax();
-        let hinge = |hinge: usize| {
-            let [x, y] = [0, 1].map(|axis| z[contacts + 2 * hinge + axis]);
-            let length = x.hypot(y);
-            if length <= least { [0.0; 2] } else { [x / length, y / length] }
-        };
-        Slopes { contacts: vec![0.0; contacts], hinges: (0..problem.hinges()).map(hinge).collect() }
-    }
-
     /// The sign of `det(I - H D)`.
     pub(super) fn orientation(&self, instance: &Instance, z: &DVector<f64>) -> Sign {
         let whole = self.matrix(instance, z);
         let square = whole.columns(0, whole.nrows()).into_owned();
         if square.determinant() < 0.0 { Sign::Negative } else { Sign::Positive }
     }
+}
+
+/// The slopes of hinge forces; those of contacts follow from their states.
+fn slopes(problem: &BlockProblem, z: &DVector<f64>) -> Slopes<f64> {
+    let contacts = problem.contacts();
+    let least = NO_DIRECTION * z.amax();
+    let hinge = |hinge: usize| {
+        let [x, y] = [0, 1].map(|axis| z[contacts + 2 * hinge + axis]);
+        let length = x.hypot(y);
+        if length <= least { [0.0; 2] } else { [x / length, y / length] }
+    };
+    Slopes { contacts: vec![0.0; contacts], hinges: (0..problem.hinges()).map(hinge).collect() }
 }
