@@ -110,6 +110,7 @@ __all__ = [
     "LoadReport",
     "LoadSharing",
     "LockedMode",
+    "LockedRange",
     "MapAxis",
     "MapClass",
     "MapReport",
@@ -1125,6 +1126,8 @@ class CourseDirection(Record):
     """The modes of the rows, each once."""
     blow_ups: tuple[BlowUp, ...]
     """Values at which efforts grow without bound, in ascending order."""
+    locked: tuple[LockedRange, ...] = ()
+    """With friction in hinges: ranges without a solution."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
     """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
 
@@ -1834,6 +1837,16 @@ class LockedMode(Record):
     """Its pattern."""
     joints: tuple[JointMode, ...]
     """The contact mode of each sliding joint."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LockedRange(Record):
+    """A range in which no effort moves the mechanism."""
+
+    from_: float
+    """Where it begins."""
+    to: float
+    """Where it ends."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
