@@ -70,7 +70,7 @@
 //! From the lowest floor up; a module imports only those before it.
 //!
 //! - `combinations.rs` (choices of indices), `error_free.rs` (exact rounding errors), `dense.rs` (factorizations and products that can be
-//!   interrupted), `simplex.rs` (linear programs), `interval/`, `interval_matrix.rs`: numbers.
+//!   interrupted), `simplex/` (linear programs), `interval/`, `interval_matrix.rs`: numbers.
 //! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances
 //!   are pure numbers.
 //! - `certificate/`: proofs that decide one pattern, and proofs that sets of patterns are empty.

@@ -8,8 +8,6 @@ use crate::solutions::ContactSet;
 /// Rounding to multiples of the unit changes products by at most half the sum of sizes of a column's entries;
 /// slightly more, for the rounding of the estimate.
 const HALF_AND_MORE: f64 = 0.51;
-/// Where two columns are alike, one in the basis and one not, this much and less is rounding.
-const NO_SLOPE: f64 = 1e-9;
 /// Ratios of entries may be off by this.
 const RATIO_ERROR: f64 = 1e-9;
 /// The largest of the smallest entries of integers with given ratios.
@@ -48,7 +46,7 @@ impl Relaxation {
         }
         let mut step = excess / loss.max(f64::MIN_POSITIVE);
         for &variable in &sides {
-            if let Some(slope) = shifts[variable].map(|shift| 1.0 - shift).filter(|&slope| slope > NO_SLOPE) {
+            if let Some(slope) = shifts[variable].map(|shift| 1.0 - shift).filter(|&slope| slope > 0.0) {
                 step = step.min(-products[variable] / slope);
             }
         }
