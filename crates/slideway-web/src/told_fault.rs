@@ -75,12 +75,13 @@ fn utf16(text: &str, byte: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use slideway::model::Settings;
 
     /// Before the misspelt unit stand two characters of two bytes and one of four, which is two UTF-16 units.
     #[test]
     fn places_are_counted_as_browsers_count() {
         let text = "# öü 𝛼\n[parameters]\nL = \"3 mn\"\n";
-        let asked = Asked { text: text.to_owned(), settings: Default::default() };
+        let asked = Asked { text: text.to_owned(), settings: Settings::default() };
         let faults = asked.model().expect_err("a unit is misspelt");
         let found = told(&faults, &asked);
         let place = found.iter().find_map(|fault| fault.place.as_ref()).expect("it has a place");
