@@ -105,9 +105,9 @@ fn of_parameter(model: &Model, text: &str, parameter: &slideway::model::Paramete
         _ => None,
     };
     Quantity {
+        meaning,
         is_computed,
         is_friction,
-        meaning,
         ..Quantity::new("parameter", &parameter.name, &unit, value, ends)
     }
 }

@@ -191,7 +191,7 @@ fn simulated(
     } else {
         None
     };
-    Ok(Some(Told { film, csv, ..Told::of(&report) }))
+    Ok(Some(Told { csv, film, ..Told::of(&report) }))
 }
 
 /// From the time of the state to that of the end (s).

@@ -144,7 +144,7 @@ pub(super) fn prove(
             }
         }
         for (value, &at) in enclosure.iter_mut().zip(point) {
-            *value = *value + Interval::point(at);
+            *value += Interval::point(at);
         }
         let is_inside = enclosure
             .iter()

@@ -233,7 +233,7 @@ impl Given {
                 let a = self.has("A").then(|| matrix("A"));
                 let equation =
                     BlockEquation::new(a, matrix("B"), vector("b"), &block_sizes(&vector("blocks"))?);
-                RawProblem::BlockAbsoluteValue(equation.map_err(RawFault::Blocks)?)
+                RawProblem::BlockAbsoluteValue(Box::new(equation.map_err(RawFault::Blocks)?))
             }
             RawKind::Hlcp => {
                 RawProblem::HorizontalComplementarity { a: matrix("A"), b: matrix("B"), q: vector("q") }

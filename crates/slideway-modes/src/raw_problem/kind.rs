@@ -116,10 +116,9 @@ impl RawKind {
     pub(super) fn dimensions(self, name: &str) -> (usize, Option<usize>) {
         match (self, name) {
             (Self::Mlcp, "b") | (Self::BlockAve, "blocks") => (1, None),
-            (Self::BlockAve, "B") => (0, Some(1)),
             (Self::Mlcp, "B") => (1, Some(1)),
             (Self::Mlcp, "D") => (1, Some(0)),
-            (Self::Mlcp, "C") | (Self::Game, _) => (0, Some(1)),
+            (Self::Mlcp, "C") | (Self::BlockAve, "B") | (Self::Game, _) => (0, Some(1)),
             (_, "a" | "b" | "q" | "l" | "u" | "right_hand_side") => (0, None),
             _ => (0, Some(0)),
         }

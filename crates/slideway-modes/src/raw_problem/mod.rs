@@ -118,7 +118,7 @@ pub enum RawProblem {
         right_hand_side: DVector<f64>,
     },
     /// `A x + B |x| = b`, `|x|` block by block.
-    BlockAbsoluteValue(BlockEquation),
+    BlockAbsoluteValue(Box<BlockEquation>),
     /// `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0`.
     HorizontalComplementarity {
         /// The matrix of `w`.

@@ -211,12 +211,11 @@ fn curve(
         if work.piece("points", index, places.len()).is_break() {
             return None;
         }
-        let (values, verdict) = match along {
-            Some((branch, circles)) => of_branch(varied, at, (branch, circles), quantity)?,
-            None => {
-                let state = StateAt::new(varied, at).ok()?;
-                (state.values(&mode.pattern, quantity)?, state.verdict(&mode.pattern))
-            }
+        let (values, verdict) = if let Some((branch, circles)) = along {
+            of_branch(varied, at, (branch, circles), quantity)?
+        } else {
+            let state = StateAt::new(varied, at).ok()?;
+            (state.values(&mode.pattern, quantity)?, state.verdict(&mode.pattern))
         };
         let finite = values.iter().all(|value| value.is_finite());
         finite.then_some(CurvePoint { at, values, verdict })

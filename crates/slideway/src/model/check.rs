@@ -149,7 +149,7 @@ impl Model {
 
     /// Whether a parameter changes nothing but coefficients of friction and preloads.
     pub(crate) fn changes_friction_or_pins_alone(&self, parameter: usize) -> bool {
-        let of_hinges = self.hinge_friction().flat_map(|friction| friction.formulas());
+        let of_hinges = self.hinge_friction().flat_map(super::hinge::HingeFriction::formulas);
         let friction: Vec<FormulaId> = self.contacts().flat_map(Contact::friction).chain(of_hinges).collect();
         self.changes_nothing_but(&friction, parameter)
     }

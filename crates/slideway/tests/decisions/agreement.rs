@@ -66,6 +66,10 @@ fn sliding_mechanisms_have_the_solutions_of_solve() {
                 continue;
             }
             let state = State::of(&model);
+            // Motions do not take friction in hinges into account.
+            if !state.mechanism.friction_circles.is_empty() {
+                continue;
+            }
             let found = state.successors(&vec![false; slider_count(&state)], None);
             assert!(found.unsolved.is_empty());
             let mut found_patterns: Vec<(String, Vec<f64>)> =

@@ -109,7 +109,8 @@ struct Locked {
 struct Effort {
     phi: f64,
     sense: f64,
-    effort: f64,
+    #[serde(rename = "effort")]
+    value: f64,
 }
 
 #[derive(Deserialize)]
@@ -187,7 +188,7 @@ fn the_table_of_the_treadle_has_its_locked_ranges() {
 
 #[test]
 fn the_quick_return_mechanism_needs_what_the_balances_say() {
-    for Effort { phi, sense, effort } in reference().quick_return {
+    for Effort { phi, sense, value: effort } in reference().quick_return {
         let settings = Settings::default().position("phi", phi.to_radians()).rate("phi", 5.0 * sense);
         assert_effort("quick-return", &settings, &[effort]);
     }
@@ -196,7 +197,7 @@ fn the_quick_return_mechanism_needs_what_the_balances_say() {
 #[test]
 fn the_clamp_needs_what_the_balances_say_and_holds_before_its_centre() {
     let reference = reference();
-    for Effort { phi, sense, effort } in reference.clamp {
+    for Effort { phi, sense, value: effort } in reference.clamp {
         let settings = Settings::default().position("phi", phi.to_radians()).rate("phi", sense);
         assert_effort("over-centre-clamp", &settings, &[effort]);
     }

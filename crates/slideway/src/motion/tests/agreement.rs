@@ -94,6 +94,10 @@ fn all_gallery_models_at_random_states() {
     for gallery_model in gallery::MODELS.iter().filter(|entry| !entry.redundant) {
         let model = Model::parse(gallery_model.text).unwrap();
         let mechanism = Mechanism::new(&model).unwrap();
+        // Motions do not take friction in hinges into account.
+        if !mechanism.friction_circles.is_empty() {
+            continue;
+        }
         let mut compared = 0;
         for _ in 0..8 {
             let mut settings = Settings::default();
