@@ -125,7 +125,11 @@ pub(super) fn prove(
 ) -> Option<Zero> {
     let residual = residual::<Interval>(problem, states, point);
     let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(point.len(), 1, |row, _| -residual[row]))?;
-    RADII.iter().find_map(|radius| {
+    // A box that does not hold the next point of Newton's method proves nothing.
+    let next =
+        matrix(problem, states, &slopes_at(problem, point)).lu().solve(&residual.map(Interval::middle))?;
+    let least = next.amax() / size_of_forces(problem, states, point);
+    RADII.iter().filter(|radius| **radius > least).find_map(|radius| {
         let isolation = around(problem, states, point, *radius);
         let of_hinge = |hinge: usize| {
             let rows = problem.rows_of_hinge(hinge);
@@ -160,6 +164,17 @@ pub(super) fn prove(
     })
 }
 
+/// Whether the unknown of a row is the share of a contact in its gap.
+fn is_share(states: &[Option<ContactState>], row: usize) -> bool {
+    states.get(row) == Some(&Some(ContactState::Gap))
+}
+
+/// The largest component of the forces.
+fn size_of_forces(problem: &BlockProblem, states: &[Option<ContactState>], point: &DVector<f64>) -> f64 {
+    let forces = (0..problem.rows()).filter(|&row| !is_share(states, row)).map(|row| point[row].abs());
+    forces.fold(f64::MIN_POSITIVE, f64::max)
+}
+
 /// A box about a point, with the same radius for all forces.
 fn around(
     problem: &BlockProblem,
@@ -167,10 +182,8 @@ fn around(
     point: &DVector<f64>,
     radius: f64,
 ) -> Vec<Interval> {
-    let is_share = |row: usize| states.get(row) == Some(&Some(ContactState::Gap));
-    let forces = (0..problem.rows()).filter(|&row| !is_share(row)).map(|row| point[row].abs());
-    let largest = forces.fold(f64::MIN_POSITIVE, f64::max);
-    let size = |row: usize| if is_share(row) { 1.0 } else { largest };
+    let largest = size_of_forces(problem, states, point);
+    let size = |row: usize| if is_share(states, row) { 1.0 } else { largest };
     (0..problem.rows()).map(|row| Interval::around(point[row], radius * size(row))).collect()
 }
 
