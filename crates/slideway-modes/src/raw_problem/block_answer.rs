@@ -70,7 +70,7 @@ fn strategy(equation: &BlockEquation, result: &BlockResult) -> String {
         return "proof that there is exactly one solution for every right-hand side".to_owned();
     }
     format!(
-        "sectors of the directions of {} blocks of two components, signs of {} of one",
+        "directions of the blocks of two components ({}) in sectors, signs of those of one ({})",
         problem.hinges(),
         problem.contacts()
     )
