@@ -16,7 +16,7 @@ from . import _display, _motion, _sweep, reports
 from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "frozen_array", "gallery_models", "game", "hlcp", "import_dxf", "lcp", "mcp", "merge", "mlcp", "mode_problem", "png", "printable", "solve", "templates", "theme"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "blocks", "frozen_array", "gallery_models", "game", "hlcp", "import_dxf", "lcp", "mcp", "merge", "mlcp", "mode_problem", "png", "printable", "solve", "templates", "theme"]
 
 GROUND: Final[str]
 """
@@ -1470,6 +1470,11 @@ class Table:
         """
         Number of varied quantities.
         """
+
+def blocks(matrices: tuple[ArrayLike, ArrayLike | None], right_hand_side: ArrayLike, blocks: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
+    """
+    All solutions of `A x + B |x| = b` with the lengths of blocks.
+    """
 
 def frozen_array(numbers: Sequence[float]) -> NDArray[np.float64]:
     """
