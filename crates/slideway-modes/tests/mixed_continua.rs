@@ -5,6 +5,7 @@
 //! such that `T` and the free columns have no more, and that a solution has positive values in all of `T`; its directions,
 //! up to the null space, are those `T` with one dimension more and a null vector that is positive in all of `T`.
 
+use crate::mixed_problems::pair;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
@@ -210,17 +211,6 @@ fn told(continuum: &RawContinuum, equations: &Equations) -> Face {
 fn sorted<T: Ord>(mut list: Vec<T>) -> Vec<T> {
     list.sort();
     list
-}
-
-/// `z` and `w` of the unknowns of a part; free ones come first in a mixed linear problem.
-fn pair(unknowns: &Unknowns) -> (Vec<f64>, Vec<f64>) {
-    match unknowns {
-        Unknowns::Complementary { z, w } => (z.clone(), w.clone()),
-        Unknowns::Mixed { u, z, w } => {
-            ([u.clone(), z.clone()].concat(), [vec![0.0; u.len()], w.clone()].concat())
-        }
-        _ => panic!("z and w"),
-    }
 }
 
 /// The continua of a problem are the faces that are not points.

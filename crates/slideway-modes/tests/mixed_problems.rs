@@ -126,7 +126,7 @@ fn points(report: &RawReport) -> Vec<(Vec<f64>, Vec<f64>)> {
 }
 
 /// `z` and `w`; free unknowns come first and have `w = 0`.
-fn pair(unknowns: &Unknowns) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn pair(unknowns: &Unknowns) -> (Vec<f64>, Vec<f64>) {
     match unknowns {
         Unknowns::Complementary { z, w } => (z.clone(), w.clone()),
         Unknowns::Mixed { u, z, w } => {

@@ -15,7 +15,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{SolveReport, Style};
 use slideway_pictures::NotFinite;
-use slideway_pictures::drawing::svg::{self, Colours, Frame};
+use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{limits_part, solve_parts};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
@@ -79,14 +79,7 @@ impl Asked {
             return Err(PyValueError::new_err(message));
         };
         let sheet = sheet.changed_by(&self.settings);
-        let frame = Frame {
-            bounds: sheet.bounds,
-            title: &sheet.title,
-            description: &sheet.description,
-            width: None,
-            colours: Colours::Theme(*theme),
-        };
-        svg::write(&sheet.scene, &frame).map_err(not_finite)
+        svg::write(&sheet.scene, &sheet.frame(None, Colours::Theme(*theme))).map_err(not_finite)
     }
 }
 

@@ -14,7 +14,7 @@ use slideway::progress::Callback;
 use slideway::report::{Proof, SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use slideway::warning::{ranges_at_middle, warnings};
-use slideway_pictures::drawing::svg::{Colours, Frame, write};
+use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Sheet, pieces, title};
 use slideway_pictures::page::{reasons, solve_parts};
 
@@ -111,14 +111,7 @@ fn all_warnings(model: &Model) -> Faults {
 impl Drawing {
     /// Nothing where a coordinate is too great to be drawn.
     fn of(sheet: &Sheet) -> Option<Self> {
-        let frame = Frame {
-            bounds: sheet.bounds,
-            title: &sheet.title,
-            description: &sheet.description,
-            width: None,
-            colours: Colours::Page,
-        };
-        let svg = write(&sheet.scene, &frame).ok()?;
+        let svg = write(&sheet.scene, &sheet.frame(None, Colours::Page)).ok()?;
         Some(Self { title: sheet.title.clone(), words: sheet.description.clone(), svg })
     }
 }

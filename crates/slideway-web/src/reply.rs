@@ -22,7 +22,7 @@ use slideway::solve::{SolveOptions, solve_with};
 use slideway::standstill::{HoldOptions, hold_with};
 use slideway::{DriveOptions, Model};
 use slideway_pictures::NotFinite;
-use slideway_pictures::drawing::svg::{Colours, Frame, write};
+use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::motion::{AnimationOptions, animation};
 use slideway_pictures::page::{limits_part, reasons, stylesheet};
@@ -221,15 +221,8 @@ fn drawn(of: &Asked, theme: ThemeName, callback: &mut Callback<'_>) -> Answered<
     let why = solved.as_ref().err().map(reasons).unwrap_or_default();
     let sheet = if why.is_empty() { sheet } else { sheet.unsolved(&why) };
     let sheet = sheet.changed_by(&of.settings);
-    let frame = Frame {
-        bounds: sheet.bounds,
-        title: &sheet.title,
-        description: &sheet.description,
-        width: None,
-        colours: Colours::Theme(*theme.colours()),
-    };
     Ok(Some(Told {
-        svg: Some(write(&sheet.scene, &frame)?),
+        svg: Some(write(&sheet.scene, &sheet.frame(None, Colours::Theme(*theme.colours())))?),
         text: sheet.description.clone(),
         ..Told::default()
     }))

@@ -14,7 +14,7 @@ use slideway::model::Model;
 use slideway::report::{SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::NotFinite;
-use slideway_pictures::drawing::svg::{self, Colours, Frame};
+use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
 use slideway_pictures::page::reasons;
 
@@ -73,12 +73,5 @@ fn solutions(
 }
 
 fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {
-    let frame = Frame {
-        bounds: sheet.bounds,
-        title: &sheet.title,
-        description: &sheet.description,
-        width,
-        colours: Colours::Theme(*theme.colours()),
-    };
-    svg::write(&sheet.scene, &frame)
+    svg::write(&sheet.scene, &sheet.frame(width, Colours::Theme(*theme.colours())))
 }

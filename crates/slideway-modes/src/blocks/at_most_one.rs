@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Frame, Piece, Slopes, matrix, matrix_in_frames};
+use super::equations::{Frame, Piece, Slopes, any_slope, matrix, matrix_in_frames};
 use super::problem::BlockProblem;
 use super::sector::Sector;
 use crate::certificate::enclose_solution;
@@ -33,7 +33,6 @@ pub(super) fn has_at_most_one(problem: &BlockProblem, piece: &Piece) -> bool {
 
 /// Whether the matrix of slopes is regular, with the unknowns of each hinge along and across its sector.
 fn is_regular_in_frames(problem: &BlockProblem, piece: &Piece) -> bool {
-    let any = Interval::new(-1.0, 1.0).unwrap_or(Interval::REAL_LINE);
     let frame = |sector: &Sector| {
         let vectors = sector.frame();
         let slopes = vectors.map(|vector| {
@@ -45,7 +44,7 @@ fn is_regular_in_frames(problem: &BlockProblem, piece: &Piece) -> bool {
         Frame { vectors, slopes }
     };
     let frames: Vec<Frame> = piece.sectors.iter().map(frame).collect();
-    let all = matrix_in_frames(problem, &piece.states, vec![any; problem.contacts()], &frames);
+    let all = matrix_in_frames(problem, &piece.states, vec![any_slope(); problem.contacts()], &frames);
     let nothing = IntervalMatrix::exact(DMatrix::zeros(problem.rows(), 0));
     IntervalMatrix::from_intervals(&all).is_some_and(|all| enclose_solution(&all, &nothing).is_some())
 }

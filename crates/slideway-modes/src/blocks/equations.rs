@@ -89,6 +89,11 @@ pub(crate) fn matrix<T: Real>(
     matrix
 }
 
+/// Bounds on the slopes of a length, whatever its unknowns are.
+pub(super) fn any_slope() -> Interval {
+    (-Interval::ONE).hull(Interval::ONE)
+}
+
 /// Two vectors of equal length at right angles, along which the reaction of a hinge is told, and bounds on the products
 /// of slopes with them.
 pub(super) struct Frame {

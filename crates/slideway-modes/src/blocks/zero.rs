@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Frame, Piece, Slopes, load, matrix, matrix_in_frames, residual};
+use super::equations::{Frame, Piece, Slopes, any_slope, load, matrix, matrix_in_frames, residual};
 use super::problem::BlockProblem;
 use super::sector::{Vector, unit};
 use crate::certificate::{Sign, enclose_solution};
@@ -193,7 +193,7 @@ fn contact_slopes(problem: &BlockProblem, isolation: &[Interval]) -> Vec<Interva
     let slope = |value: &Interval| match value.sign() {
         Some(Sign::Positive) => one,
         Some(Sign::Negative) => -one,
-        _ => (-one).hull(one),
+        _ => any_slope(),
     };
     isolation[..problem.contacts()].iter().map(slope).collect()
 }
@@ -203,8 +203,7 @@ fn contact_slopes(problem: &BlockProblem, isolation: &[Interval]) -> Vec<Interva
 fn frame(reaction: Vector, isolation: [Interval; 2]) -> Frame {
     let [x, y] = isolation;
     if x.contains(0.0) && y.contains(0.0) {
-        let any = (-Interval::ONE).hull(Interval::ONE);
-        return Frame { vectors: [[1.0, 0.0], [0.0, 1.0]], slopes: [any; 2] };
+        return Frame { vectors: [[1.0, 0.0], [0.0, 1.0]], slopes: [any_slope(); 2] };
     }
     let [a, b] = unit(reaction);
     let vectors = [[a, b], [-b, a]];

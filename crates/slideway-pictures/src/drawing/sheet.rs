@@ -3,6 +3,7 @@
 use super::forces::forces_on;
 use super::paragraph::{LINE, beside, paragraph};
 use super::scene::{Bounds, Class, Point, Scene, Shape};
+use super::svg::{Colours, Frame};
 use super::units::{in_units_of, known_forces};
 use super::{
     ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, number, quantity, scene, signs,
@@ -114,6 +115,12 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// How [`svg::write`](super::svg::write) shows the whole of it, with this width in pixels (by default one for each
+    /// drawing unit) and these colours.
+    pub fn frame(&self, width: Option<f64>, colours: Colours) -> Frame<'_> {
+        Frame { bounds: self.bounds, title: &self.title, description: &self.description, width, colours }
+    }
+
     /// The same, with what settings changed in its model below the title.
     #[must_use]
     pub fn changed_by(self, settings: &Settings) -> Self {

@@ -2,7 +2,7 @@
 
 use super::summary::summary;
 use super::{Figure, Page, all, text};
-use crate::drawing::svg::{self, Colours, Frame};
+use crate::drawing::svg::{self, Colours};
 use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::limits::{LimitsReport, ModeLimits};
 use slideway::report::{JointMode, LoadSharing, Proof, Solution, SolveReport, followed, precise};
@@ -106,11 +106,7 @@ fn answer_at(parameters: &[String], report: &SolveReport) -> String {
 }
 
 fn drawing(page: &Page<'_>) -> String {
-    let drawing = |sheet: &Sheet| {
-        let (title, description) = (&*sheet.title, &*sheet.description);
-        let frame = Frame { bounds: sheet.bounds, title, description, width: None, colours: Colours::Page };
-        svg::document(&sheet.scene, &frame)
-    };
+    let drawing = |sheet: &Sheet| svg::document(&sheet.scene, &sheet.frame(None, Colours::Page));
     format!(
         "<section id=\"drawing\">\n<h2>Drawing</h2>\n<div class=\"drawing\">\n{}\n</div>\n</section>\n",
         all(page.drawings, drawing)

@@ -329,14 +329,7 @@ fn pictures_say_what_they_show_in_words_and_escape_names() {
     let case = Case::new(&text, &Settings::default());
     let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
     for theme in [LIGHT, DARK] {
-        let frame = Frame {
-            bounds: sheet.bounds,
-            title: &sheet.title,
-            description: &sheet.description,
-            width: Some(800.0),
-            colours: Colours::Theme(theme),
-        };
-        let svg = svg::write(&sheet.scene, &frame).unwrap();
+        let svg = svg::write(&sheet.scene, &sheet.frame(Some(800.0), Colours::Theme(theme))).unwrap();
         assert!(svg.contains("<title>A &lt;b&gt; &amp; &quot;quoted&quot; title</title>"));
         assert!(svg.contains("<desc>q = 0 m, rate 1 m/s 3 solutions"));
         assert!(svg.contains("width=\"800\"") && svg.contains(theme.background));

@@ -4,7 +4,7 @@ use crate::Case;
 use crate::random_mechanisms::{cases, mechanisms};
 use proptest::prelude::*;
 use slideway::model::{Model, Settings};
-use slideway_pictures::drawing::svg::{self, Colours, Frame};
+use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::theme::LIGHT;
 
@@ -30,13 +30,6 @@ proptest! {
         for (index, text) in texts.iter().enumerate() {
             prop_assert!(texts[..index].iter().all(|other| !text.overlaps(other)));
         }
-        let frame = Frame {
-            bounds: sheet.bounds,
-            title: &sheet.title,
-            description: &sheet.description,
-            width: None,
-            colours: Colours::Theme(LIGHT),
-        };
-        prop_assert!(svg::write(&sheet.scene, &frame).is_ok());
+        prop_assert!(svg::write(&sheet.scene, &sheet.frame(None, Colours::Theme(LIGHT))).is_ok());
     }
 }

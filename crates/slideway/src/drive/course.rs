@@ -141,18 +141,10 @@ impl Tabulated<'_> {
     fn rows(&self, steps: usize) -> Vec<CourseRow> {
         let [from, to] = self.range;
         let room = SAME_ROW * (to - from);
-        let even = (0..=steps)
-            .map(|step| if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 });
         let is_free = |value: &f64| self.blow_ups.iter().all(|blow_up| (blow_up.at - value).abs() > room);
-        let mut rows: Vec<CourseRow> = even.filter(is_free).flat_map(|value| self.rows_at(value)).collect();
-        rows.extend(self.blow_ups.iter().map(|blow_up| CourseRow {
-            at: blow_up.at,
-            pattern: Some(blow_up.pattern.clone()),
-            grows: blow_up.efforts.clone(),
-            ..nothing(blow_up.at)
-        }));
-        rows.sort_by(|one, other| one.at.total_cmp(&other.at));
-        rows
+        let even = evenly(self.range, steps).filter(is_free);
+        let rows = even.flat_map(|value| self.rows_at(value)).collect();
+        with_blow_ups(rows, self.blow_ups)
     }
 
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
@@ -206,6 +198,24 @@ impl Tabulated<'_> {
         }
         rows
     }
+}
+
+/// The ends of a range and evenly spaced values between them.
+pub(super) fn evenly([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
+    (0..=steps)
+        .map(move |step| if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 })
+}
+
+/// Rows with those at which efforts grow without bound among them, in order.
+pub(super) fn with_blow_ups(mut rows: Vec<CourseRow>, blow_ups: &[BlowUp]) -> Vec<CourseRow> {
+    rows.extend(blow_ups.iter().map(|blow_up| CourseRow {
+        at: blow_up.at,
+        pattern: Some(blow_up.pattern.clone()),
+        grows: blow_up.efforts.clone(),
+        ..nothing(blow_up.at)
+    }));
+    rows.sort_by(|one, other| one.at.total_cmp(&other.at));
+    rows
 }
 
 /// A row of a value at which nothing is known.

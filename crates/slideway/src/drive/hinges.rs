@@ -1,7 +1,7 @@
 //! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and ranges
 //! without a solution, as about a dead centre, are sought between evenly spaced values.
 
-use super::course::{modes, nothing};
+use super::course::{evenly, modes, nothing, with_blow_ups};
 use super::efforts::GROWTH;
 use super::report::{
     Approach, BlowUp, CourseDirection, CourseRow, DriveDirection, DriveSolution, LockedRange, Sense,
@@ -35,30 +35,19 @@ pub(super) fn direction(
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
     let course = Sampled { varied, range, direction, work };
-    let mut rows: Vec<CourseRow> =
-        (0..=steps).flat_map(|step| course.rows_at(along(range, step, steps))).collect();
+    let rows: Vec<CourseRow> = evenly(range, steps).flat_map(|value| course.rows_at(value)).collect();
     if rows.iter().all(|row| row.frictionless.is_none()) {
         course.at(f64::midpoint(range[0], range[1]))?;
     }
     let locked = course.locked();
     let blow_ups: Vec<BlowUp> = locked.iter().flat_map(|locked| course.blow_ups(locked)).collect();
-    rows.extend(blow_ups.iter().map(|blow_up| CourseRow {
-        at: blow_up.at,
-        pattern: Some(blow_up.pattern.clone()),
-        grows: blow_up.efforts.clone(),
-        ..nothing(blow_up.at)
-    }));
-    rows.sort_by(|one, other| one.at.total_cmp(&other.at));
+    let rows = with_blow_ups(rows, &blow_ups);
     let modes = modes(&rows, &Naming::new(varied.model())?);
     let without_mode_problem = Vec::new();
     Ok((
         GUARANTEE.to_owned(),
         CourseDirection { direction, rows, modes, blow_ups, locked, without_mode_problem },
     ))
-}
-
-fn along([from, to]: [f64; 2], step: usize, steps: usize) -> f64 {
-    if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 }
 }
 
 struct Sampled<'c> {
@@ -122,8 +111,7 @@ impl Sampled<'_> {
         let mut ranges: Vec<LockedRange> = Vec::new();
         let mut open: Option<f64> = None;
         let mut last: Option<(f64, bool)> = None;
-        for step in 0..=STEPS {
-            let value = along(self.range, step, STEPS);
+        for value in evenly(self.range, STEPS) {
             let is_locked = if self.work.is_over() { None } else { self.is_locked(value, &mut before) };
             match (last, is_locked) {
                 (Some((known, was)), Some(is)) if was != is => {

@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation2, Vector2};
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use slideway::Model;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -103,11 +104,15 @@ impl View {
     }
 }
 
+/// What a type takes of the reference.
+pub(crate) fn reference<T: DeserializeOwned>() -> T {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
+    toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
 /// The cases in motion.
 pub(crate) fn moving() -> Vec<Case> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
-    let file: File = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let cases: Vec<Case> = file.case.into_iter().filter(|case| case.count.is_some()).collect();
+    let cases: Vec<Case> = reference::<File>().case.into_iter().filter(|case| case.count.is_some()).collect();
     assert!(cases.len() >= 8, "the reference is gone");
     cases
 }

@@ -1,13 +1,13 @@
 //! Closed forms: pulleys of a textbook, dead centres of a slider-crank.
 
+use crate::cases::reference;
+use crate::dead_centre::{DeadCentre, dead_centres};
 use serde::Deserialize;
 use slideway::{Model, Settings, solve};
-use std::path::Path;
 
 #[derive(Deserialize)]
 struct File {
     pulley: Pulley,
-    dead_centre: Vec<DeadCentre>,
 }
 
 #[derive(Deserialize)]
@@ -23,24 +23,6 @@ struct Forces {
     raise_vertical: f64,
     hold_vertical: f64,
     raise_horizontal: f64,
-}
-
-#[derive(Deserialize)]
-struct DeadCentre {
-    #[serde(rename = "rA")]
-    crank_pin: f64,
-    #[serde(rename = "rB")]
-    piston_pin: f64,
-    #[serde(rename = "rO")]
-    crank_shaft: f64,
-    mu_piston: f64,
-    outer_deg: f64,
-    inner_deg: f64,
-}
-
-fn reference() -> File {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
-    toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
 /// The pull at the right or the top of the pulley that moves the load at its left.
@@ -64,7 +46,7 @@ fn pull(law: &str, at: [f64; 2], direction: &str, rate: f64) -> (f64, f64) {
 /// Beer and Johnston's pulley: raising turns it clockwise. The horizontal pull leaves at the top.
 #[test]
 fn a_pulley_needs_what_the_friction_circle_says() {
-    let Pulley { total_reaction, mu_rho } = reference().pulley;
+    let Pulley { total_reaction, mu_rho } = reference::<File>().pulley;
     for (law, expected) in [("total_reaction", total_reaction), ("mu_rho", mu_rho)] {
         for ((at, direction, rate), force) in [
             (([2.0, 0.0], "-90 deg", -1.0), expected.raise_vertical),
@@ -78,30 +60,16 @@ fn a_pulley_needs_what_the_friction_circle_says() {
     }
 }
 
-/// Massless links a = 50, l = 150 mm, the crank angle counted from the direction of the piston.
+/// The crank angle counted from the direction of the piston.
 fn crank(case: &DeadCentre, angle: f64, inner: bool) -> f64 {
     let drawn = if inner { 180.0 } else { 0.0 };
-    let middle = if inner { 0.1 } else { 0.2 };
-    let crank_pin = if inner { -0.05 } else { 0.05 };
-    let text = format!(
-        "[points]\nO = [0, 0]\nA = [{crank_pin}, 0]\nB = [{middle}, 0]\n\
-         [bodies.crank]\npoints = [\"O\", \"A\"]\nmassless = true\n\
-         [bodies.rod]\npoints = [\"A\", \"B\"]\nmassless = true\n\
-         [bodies.piston]\npoints = [\"B\"]\nmassless = true\n\
-         [joints.O]\ntype = \"hinge\"\nbetween = [\"crank.O\", \"ground.O\"]\nfriction_radius = {}\n\
-         [joints.A]\ntype = \"hinge\"\nbetween = [\"rod.A\", \"crank.A\"]\nfriction_radius = {}\n\
-         [joints.B]\ntype = \"hinge\"\nbetween = [\"rod.B\", \"piston.B\"]\nfriction_radius = {}\n\
-         [joints.cylinder]\ntype = \"guided_slider\"\nblock = \"piston\"\nat = \"B\"\nalong = 0\nlength = 10\nmu = {}\n\
-         [loads.gas]\ntype = \"force\"\nat = \"piston.B\"\ncomponents = [{}, 0]\n\
+    let further = format!(
+        "[loads.gas]\ntype = \"force\"\nat = \"piston.B\"\ncomponents = [{}, 0]\n\
          [coordinates.phi]\nrotation = \"crank\"\ndrawn_at = \"{drawn} deg\"\nrate = 1\n\
          [drives.shaft]\ncoordinate = \"phi\"\ntorque = {{ body = \"crank\" }}\n",
-        case.crank_shaft,
-        case.crank_pin,
-        case.piston_pin,
-        case.mu_piston,
         if inner { 1000.0 } else { -1000.0 },
     );
-    let model = Model::parse(&text).unwrap();
+    let model = case.at_dead_centre(inner, &further);
     let state = Settings::default().position("phi", format!("{} deg", drawn + angle));
     let report = solve(&model.with(&state).unwrap()).unwrap();
     let [solution] = report.solutions.as_slice() else {
@@ -114,7 +82,7 @@ fn crank(case: &DeadCentre, angle: f64, inner: bool) -> f64 {
 /// angles do not depend on the friction of the piston.
 #[test]
 fn a_slider_crank_locks_around_its_dead_centres() {
-    for case in reference().dead_centre {
+    for case in dead_centres() {
         for (inner, angle) in [(false, case.outer_deg), (true, case.inner_deg)] {
             let [within, beyond] = [-1e-7, 1e-7].map(|step| crank(&case, angle + step, inner));
             assert!(within > 0.0 && beyond < 0.0, "{angle} deg: {within} and {beyond} N m");

@@ -1,19 +1,18 @@
 //! Where solutions exist over a quantity, with friction in hinges.
 
-use crate::cases::{Case, View, moving};
+use crate::cases::{Case, View, moving, reference};
+use crate::dead_centre::dead_centres;
 use serde::Deserialize;
 use slideway::fault::FaultKind;
 use slideway::limits::{LimitsMethod, LimitsReport, ModeLimits};
 use slideway::report::{ModeEndCause, Proof};
 use slideway::{LimitsOptions, Model, Settings, SizeOptions, Vary, gallery, limits, size, solve};
-use std::path::Path;
 
 #[derive(Deserialize)]
 struct File {
     pendulum_limits: Pendulum,
     intervals_bar_block_2: Intervals,
     intervals_bar_block_3: Intervals,
-    dead_centre: Vec<DeadCentre>,
 }
 
 #[derive(Deserialize)]
@@ -38,24 +37,6 @@ struct Interval {
     r_to: f64,
 }
 
-#[derive(Deserialize)]
-struct DeadCentre {
-    #[serde(rename = "rA")]
-    crank_pin: f64,
-    #[serde(rename = "rB")]
-    piston_pin: f64,
-    #[serde(rename = "rO")]
-    crank_shaft: f64,
-    mu_piston: f64,
-    outer_deg: f64,
-    inner_deg: f64,
-}
-
-fn reference() -> File {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
-    toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
 fn case(name: &str) -> Case {
     moving().into_iter().find(|case| case.name == name).unwrap()
 }
@@ -77,7 +58,7 @@ fn counts(report: &LimitsReport) -> Vec<usize> {
 /// The second solution comes from infinity at the distance of the centre of percussion, and both merge in the fold.
 #[test]
 fn the_pendulum_jams_at_its_fold() {
-    let Pendulum { r_infinity, r_fold, couple_at_fold } = reference().pendulum_limits;
+    let Pendulum { r_infinity, r_fold, couple_at_fold } = reference::<File>().pendulum_limits;
     let report = over(&case("pendulum_1").over_radius(&STRAIGHT), "r=0..3", 800);
     assert_eq!(report.method, LimitsMethod::ClosedForm);
     let [first, second] = &report.modes[..] else { panic!("{:?}", report.modes) };
@@ -150,7 +131,7 @@ fn branches_over_the_radius_are_those_of_the_reference() {
 /// A parameter on which more depends is sampled: the ends are the same to machine precision.
 #[test]
 fn sampled_branches_end_where_the_closed_form_says() {
-    let Intervals { list } = reference().intervals_bar_block_3;
+    let Intervals { list } = reference::<File>().intervals_bar_block_3;
     let case = case("bar_block_3");
     // The load does not change, but the formulas do not say so.
     let exact = over(&case.over_radius(&STRAIGHT), "r=0..1", 0);
@@ -165,30 +146,20 @@ fn sampled_branches_end_where_the_closed_form_says() {
     assert_eq!(counts(&exact), counts(&sampled));
 }
 
-/// Massless links a = 50, l = 150 mm with a drive at the piston against a torque on the crank: the effort grows without bound
+/// With a drive at the piston against a torque on the crank: the effort grows without bound
 /// towards the angle at which the crank locks.
 #[test]
 fn the_driven_piston_locks_around_its_dead_centres() {
-    for case in reference().dead_centre {
+    for case in dead_centres() {
         for (inner, expected) in [(false, case.outer_deg), (true, case.inner_deg)] {
             let (drawn, direction) = if inner { (180.0, 0.0) } else { (0.0, 180.0) };
-            let (crank_pin, piston) = if inner { (-0.05, 0.1) } else { (0.05, 0.2) };
-            let text = format!(
-                "[points]\nO = [0, 0]\nA = [{crank_pin}, 0]\nB = [{piston}, 0]\n\
-                 [bodies.crank]\npoints = [\"O\", \"A\"]\nmassless = true\n\
-                 [bodies.rod]\npoints = [\"A\", \"B\"]\nmassless = true\n\
-                 [bodies.piston]\npoints = [\"B\"]\nmassless = true\n\
-                 [joints.O]\ntype = \"hinge\"\nbetween = [\"crank.O\", \"ground.O\"]\nfriction_radius = {}\n\
-                 [joints.A]\ntype = \"hinge\"\nbetween = [\"rod.A\", \"crank.A\"]\nfriction_radius = {}\n\
-                 [joints.B]\ntype = \"hinge\"\nbetween = [\"rod.B\", \"piston.B\"]\nfriction_radius = {}\n\
-                 [joints.cylinder]\ntype = \"guided_slider\"\nblock = \"piston\"\nat = \"B\"\nalong = 0\nlength = 10\nmu = {}\n\
-                 [loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = -1\n\
+            let further = format!(
+                "[loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = -1\n\
                  [coordinates.phi]\nrotation = \"crank\"\ndrawn_at = \"{drawn} deg\"\nrate = 1\n\
                  [drives.gas]\ncoordinate = \"phi\"\nforce = {{ at = \"piston.B\", direction = \"{direction} deg\" }}\n",
-                case.crank_shaft, case.crank_pin, case.piston_pin, case.mu_piston,
             );
             let range = format!("phi={} deg..{} deg", drawn + 2.0, drawn + 20.0);
-            let report = over(&Model::parse(&text).unwrap(), &range, 0);
+            let report = over(&case.at_dead_centre(inner, &further), &range, 0);
             let locked = report.counts.iter().find(|count| count.solutions == 0).unwrap();
             assert!(report.counts.iter().filter(|count| count.solutions == 0).count() == 1);
             let angle = locked.to.to_degrees() - drawn;
@@ -250,7 +221,7 @@ fn a_slider_crank_has_one_solution_all_around() {
 /// The friction of the pendulum may grow up to its fold, or up to where it locks.
 #[test]
 fn margins_are_those_of_the_limits() {
-    let Pendulum { r_infinity, r_fold, .. } = reference().pendulum_limits;
+    let Pendulum { r_infinity, r_fold, .. } = reference::<File>().pendulum_limits;
     for (name, end, cause) in [
         ("pendulum_1", r_fold, ModeEndCause::Fold),
         ("pendulum_0_no_fold", r_infinity, ModeEndCause::Locking),

@@ -4,6 +4,7 @@
 
 mod cases;
 mod closed_forms;
+mod dead_centre;
 mod gallery;
 mod limits;
 mod reading;

@@ -1,14 +1,13 @@
 //! Friction in hinges over many points: `sweep`, `map`, and the table of `drive`.
 
+use crate::dead_centre::{DeadCentre, dead_centres};
 use rstest::rstest;
-use serde::Deserialize;
 use slideway::fault::FaultKind;
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
 use slideway::report::Style;
 use slideway::sweep::{PointStatus, RowKind, Rows, Sweep, SweepOptions};
 use slideway::{DriveOptions, Model, Report, Settings, drive, gallery, solve};
 use std::ops::ControlFlow;
-use std::path::Path;
 
 /// A bar with mass and radius of gyration 1, its mass centre at the distance c from a hinge with the friction radius r;
 /// it turns with the rate 1 under a load at its mass centre.
@@ -152,50 +151,23 @@ fn what_scales_all_friction_is_refused_and_the_hinges_named() {
     }
 }
 
-#[derive(Deserialize)]
-struct File {
-    dead_centre: Vec<DeadCentre>,
-}
-
-#[derive(Deserialize)]
-struct DeadCentre {
-    #[serde(rename = "rA")]
-    crank_pin: f64,
-    #[serde(rename = "rB")]
-    piston_pin: f64,
-    #[serde(rename = "rO")]
-    crank_shaft: f64,
-    mu_piston: f64,
-    outer_deg: f64,
-    inner_deg: f64,
-}
-
-/// A piston drives a crank against a torque; massless links, a = 50, l = 150 mm.
+/// A piston drives a crank against a torque.
 fn driven_by_piston(case: &DeadCentre) -> Model {
-    let text = format!(
-        "[points]\nO = [0, 0]\nA = [0, 0.05]\nB = [\"sqrt(0.15^2 - 0.05^2)\", 0]\n\
-         [bodies.crank]\npoints = [\"O\", \"A\"]\nmassless = true\n\
-         [bodies.rod]\npoints = [\"A\", \"B\"]\nmassless = true\n\
-         [bodies.piston]\npoints = [\"B\"]\nmassless = true\n\
-         [joints.O]\ntype = \"hinge\"\nbetween = [\"crank.O\", \"ground.O\"]\nfriction_radius = {}\n\
-         [joints.A]\ntype = \"hinge\"\nbetween = [\"rod.A\", \"crank.A\"]\nfriction_radius = {}\n\
-         [joints.B]\ntype = \"hinge\"\nbetween = [\"rod.B\", \"piston.B\"]\nfriction_radius = {}\n\
-         [joints.cylinder]\ntype = \"block_slider\"\nblock = \"piston\"\nat = \"B\"\nalong = 0\nlength = 0.08\nmu = {}\n\
-         [loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = \"-5 N m\"\n\
+    let places = ["[0, 0.05]", "[\"sqrt(0.15^2 - 0.05^2)\", 0]"];
+    case.model(
+        places,
+        ("block_slider", 0.08),
+        "[loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = \"-5 N m\"\n\
          [coordinates.phi]\nrotation = \"crank\"\ndrawn_at = \"90 deg\"\nrate = 1\n\
-         [drives.gas]\ncoordinate = \"phi\"\nforce = {{ at = \"piston.B\", direction = 0 }}\n",
-        case.crank_shaft, case.crank_pin, case.piston_pin, case.mu_piston
-    );
-    Model::parse(&text).unwrap()
+         [drives.gas]\ncoordinate = \"phi\"\nforce = { at = \"piston.B\", direction = 0 }\n",
+    )
 }
 
 /// About both dead centres no force on the piston turns the crank; the ranges end where the closed form says.
 #[test]
 #[ignore = "takes minutes without optimisation: 501 searches without a solution or near locking, in both directions"]
 fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
-    let file: File = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let case = &file.dead_centre[0];
+    let case = &dead_centres()[0];
     let options = DriveOptions::default().vary("phi=-20 deg..200 deg".parse::<slideway::Vary>().unwrap());
     let report = drive(&driven_by_piston(case), &options.rows(23)).unwrap();
     let turning = &report.course.as_ref().unwrap().directions[0];

@@ -1,11 +1,11 @@
 //! Whether a hinge turns, and what is not answered for hinges with friction.
 
+use crate::cases::reference;
 use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
 use slideway::report::{Proof, Status};
 use slideway::{Faults, Model, Settings, SimulateOptions, gallery, simulate, solve};
-use std::path::Path;
 
 /// A slider-crank, drawn with the crank at a right angle to the piston: the rod only shifts there.
 fn slider_crank() -> Model {
@@ -83,8 +83,7 @@ fn klepp(mu: f64, radius: f64) -> Model {
 /// The lower hinge of Klepp's bar never turns, as the bar only shifts: the answer is a range of its couple.
 #[test]
 fn a_hinge_that_never_turns_leaves_a_range() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
-    let File { klepp_hinge } = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let File { klepp_hinge } = reference();
     for case in klepp_hinge {
         let report = solve(&klepp(case.mu_1, case.r)).unwrap();
         assert_eq!(report.status, Status::Continuum);
