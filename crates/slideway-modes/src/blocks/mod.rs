@@ -51,7 +51,7 @@ use crate::progress::Callback;
 use crate::search::SearchOptions;
 use crate::status::Proof;
 use equations::Piece;
-use tree::{Found, Tree};
+use tree::{Found, Manner, Tree};
 
 /// All solutions of a block problem.
 ///
@@ -71,7 +71,7 @@ use tree::{Found, Tree};
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
 pub fn search(problem: &BlockProblem, options: &SearchOptions, progress: &mut Callback<'_>) -> BlockResult {
-    search_turned(problem, options, progress, 0.0)
+    searched(problem, options, progress, Manner::default())
 }
 
 /// [`search`] with another first division of directions: the quadrants, turned by an angle. The answer must
@@ -81,24 +81,43 @@ pub fn search_turned(
     problem: &BlockProblem,
     options: &SearchOptions,
     progress: &mut Callback<'_>,
-    angle: f64,
+    first_angle: f64,
+) -> BlockResult {
+    searched(problem, options, progress, Manner { first_angle, ..Manner::default() })
+}
+
+/// [`search`], which ends at the first piece that cannot be decided: its answer is complete, or of no use. For problems
+/// with wide bounds, of which nothing may be provable, it takes a fraction of the nodes.
+pub fn search_all_or_nothing(
+    problem: &BlockProblem,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+) -> BlockResult {
+    searched(problem, options, progress, Manner { all_or_nothing: true, ..Manner::default() })
+}
+
+fn searched(
+    problem: &BlockProblem,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+    manner: Manner,
 ) -> BlockResult {
     let unique = uniqueness::unique_for_every_load(problem);
     let unloaded = unloaded::unloaded_blocks(problem);
     let mut nodes = 0;
     if (1..problem.blocks()).contains(&unloaded.len()) {
-        let at_rest = found(&unloaded::part(problem, &unloaded), unique.is_some(), options, progress, angle);
+        let at_rest = found(&unloaded::part(problem, &unloaded), unique.is_some(), options, progress, manner);
         nodes = at_rest.nodes;
         if let Some(rest) = at_rest.only() {
             let loaded: Vec<usize> =
                 (0..problem.blocks()).filter(|block| !unloaded.contains(block)).collect();
-            let part = found(&unloaded::part(problem, &loaded), unique.is_some(), options, progress, angle);
+            let part = found(&unloaded::part(problem, &loaded), unique.is_some(), options, progress, manner);
             let mut all = unloaded::embed(problem, &loaded, part, rest.determinant);
             all.nodes += nodes;
             return answer(problem, all, unique);
         }
     }
-    let mut all = found(problem, unique.is_some(), options, progress, angle);
+    let mut all = found(problem, unique.is_some(), options, progress, manner);
     all.nodes += nodes;
     answer(problem, all, unique)
 }
@@ -109,12 +128,12 @@ fn found(
     unique: bool,
     options: &SearchOptions,
     progress: &mut Callback<'_>,
-    angle: f64,
+    manner: Manner,
 ) -> Found {
     if unique && let Some(zero) = zero::proven_everywhere(problem) {
         return Found { zeros: vec![zero], undecided: Vec::new(), stopped: None, nodes: 1 };
     }
-    let mut found = Tree::new(problem, options, progress, angle).search(Piece::all(problem));
+    let mut found = Tree::new(problem, options, progress, manner).search(Piece::all(problem));
     if problem.has_no_load() {
         found.zeros.insert(0, zero::Zero::at_rest(problem));
     }

@@ -11,6 +11,7 @@ use crate::interval::Interval;
 use crate::problem::ContactState;
 use crate::progress::{Callback, Progress};
 use crate::search::{SearchOptions, StopReason};
+use nalgebra::DVector;
 
 /// Open contacts are decided once all sectors have at most this half angle, in rad.
 const DECIDE_CONTACTS: f64 = 0.25;
@@ -29,7 +30,16 @@ pub(super) struct Found {
     pub(super) nodes: u64,
 }
 
-/// Searches all pieces; `first_angle` turns the first division of directions.
+/// How the tree is searched.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Manner {
+    /// Turns the first division of directions.
+    pub(super) first_angle: f64,
+    /// Whether the search ends at the first piece that cannot be decided.
+    pub(super) all_or_nothing: bool,
+}
+
+/// Searches all pieces.
 pub(super) struct Tree<'a, 'c> {
     problem: &'a BlockProblem,
     options: &'a SearchOptions,
@@ -37,7 +47,7 @@ pub(super) struct Tree<'a, 'c> {
     /// The blocks with friction: contacts, and hinges. The others have no part in the equations.
     contacts: Vec<usize>,
     hinges: Vec<usize>,
-    first_angle: f64,
+    manner: Manner,
     smallest: f64,
     pivots: u64,
     found: Found,
@@ -56,7 +66,7 @@ impl<'a, 'c> Tree<'a, 'c> {
         problem: &'a BlockProblem,
         options: &'a SearchOptions,
         progress: &'a mut Callback<'c>,
-        first_angle: f64,
+        manner: Manner,
     ) -> Self {
         // A relaxation is off by the square of the half angle.
         let smallest = SMALLEST.max(0.1 * problem.relative_radius().sqrt());
@@ -64,13 +74,16 @@ impl<'a, 'c> Tree<'a, 'c> {
         let contacts = (0..problem.contacts()).filter(|&at| problem.has_friction(at) || problem.has_jump(at));
         let hinges = (0..problem.hinges()).filter(|&hinge| problem.has_friction(problem.contacts() + hinge));
         let (contacts, hinges) = (contacts.collect(), hinges.collect());
-        Self { problem, options, progress, contacts, hinges, first_angle, smallest, pivots: 0, found }
+        Self { problem, options, progress, contacts, hinges, manner, smallest, pivots: 0, found }
     }
 
     /// Searches the tree below a piece.
     pub(super) fn search(mut self, root: Piece) -> Found {
         let mut stack = vec![root];
         while let Some(piece) = stack.pop() {
+            if self.manner.all_or_nothing && !self.found.undecided.is_empty() {
+                break;
+            }
             if let Some(reason) = self.visit() {
                 self.found.stopped = Some(reason);
                 break;
@@ -134,17 +147,36 @@ impl<'a, 'c> Tree<'a, 'c> {
             // Zero is in every piece.
             return true;
         }
-        let Some(zero) = start(self.problem, piece)
-            .and_then(|start| newton(self.problem, &piece.states, start))
-            .and_then(|point| prove(self.problem, &piece.states, &point))
-        else {
-            return false;
+        let near = start(self.problem, piece).and_then(|start| newton(self.problem, &piece.states, start));
+        let Some(point) = near else { return false };
+        let Some(zero) = prove(self.problem, &piece.states, &point) else {
+            // The proof does not depend on the sectors: it fails in every part, too.
+            let is_hopeless = self.manner.all_or_nothing && self.is_of(piece, &point);
+            if is_hopeless {
+                let (piece, point) = (piece.clone(), point.as_slice().to_vec());
+                self.found.undecided.push(Undecided { label: OpenLabel::TooSmall, piece, point });
+            }
+            return is_hopeless;
         };
         let wider = with_zero(self.problem, piece, &zero);
         if wider != *piece && !has_at_most_one(self.problem, &wider) {
             return false;
         }
         self.file(zero)
+    }
+
+    /// Whether a point lies in a piece in which all contacts are decided.
+    fn is_of(&self, piece: &Piece, point: &DVector<f64>) -> bool {
+        let is_on_side = |&contact: &usize| match piece.states[contact] {
+            Some(ContactState::Gap) => (0.0..=1.0).contains(&point[contact]),
+            Some(state) => state.sign() * point[contact] > 0.0,
+            None => false,
+        };
+        let is_in_sector = |hinge: usize| {
+            let reaction = self.problem.rows_of_hinge(hinge).map(|row| Interval::point(point[row]));
+            piece.sectors[hinge].with(reaction) == piece.sectors[hinge]
+        };
+        self.contacts.iter().all(is_on_side) && (0..self.problem.hinges()).all(is_in_sector)
     }
 
     /// Keeps a zero if it is a solution; `false` if that is open.
@@ -195,7 +227,7 @@ impl<'a, 'c> Tree<'a, 'c> {
                 part.sectors[hinge] = sector;
                 part
             };
-            return Some(piece.sectors[hinge].parts(self.first_angle).into_iter().map(part).collect());
+            return Some(piece.sectors[hinge].parts(self.manner.first_angle).into_iter().map(part).collect());
         }
         let contact = contact?;
         let states: &[ContactState] =

@@ -125,12 +125,13 @@ pub(super) fn prove(
 ) -> Option<Zero> {
     let residual = residual::<Interval>(problem, states, point);
     let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(point.len(), 1, |row, _| -residual[row]))?;
-    // A box that does not hold the next point of Newton's method proves nothing.
-    let next =
-        matrix(problem, states, &slopes_at(problem, point)).lu().solve(&residual.map(Interval::middle))?;
-    let least = next.amax() / size_of_forces(problem, states, point);
+    // Bounds on the solutions of the linear equations for all values within the bounds: no smaller box proves anything.
+    let inverse = matrix(problem, states, &slopes_at(problem, point)).try_inverse()?;
+    let sizes = sizes(problem, states, point);
+    let least = (inverse.abs() * residual.map(Interval::magnitude)).component_div(&sizes).max();
     RADII.iter().filter(|radius| **radius > least).find_map(|radius| {
-        let isolation = around(problem, states, point, *radius);
+        let isolation: Vec<Interval> =
+            point.iter().zip(&sizes).map(|(&at, size)| Interval::around(at, radius * size)).collect();
         let of_hinge = |hinge: usize| {
             let rows = problem.rows_of_hinge(hinge);
             frame(rows.map(|row| point[row]), rows.map(|row| isolation[row]))
@@ -169,22 +170,12 @@ fn is_share(states: &[Option<ContactState>], row: usize) -> bool {
     states.get(row) == Some(&Some(ContactState::Gap))
 }
 
-/// The largest component of the forces.
-fn size_of_forces(problem: &BlockProblem, states: &[Option<ContactState>], point: &DVector<f64>) -> f64 {
+/// What the radii of boxes are shares of: the largest component of the forces, and of the share of a contact in its gap
+/// one.
+fn sizes(problem: &BlockProblem, states: &[Option<ContactState>], point: &DVector<f64>) -> DVector<f64> {
     let forces = (0..problem.rows()).filter(|&row| !is_share(states, row)).map(|row| point[row].abs());
-    forces.fold(f64::MIN_POSITIVE, f64::max)
-}
-
-/// A box about a point, with the same radius for all forces.
-fn around(
-    problem: &BlockProblem,
-    states: &[Option<ContactState>],
-    point: &DVector<f64>,
-    radius: f64,
-) -> Vec<Interval> {
-    let largest = size_of_forces(problem, states, point);
-    let size = |row: usize| if is_share(states, row) { 1.0 } else { largest };
-    (0..problem.rows()).map(|row| Interval::around(point[row], radius * size(row))).collect()
+    let largest = forces.fold(f64::MIN_POSITIVE, f64::max);
+    DVector::from_fn(problem.rows(), |row, _| if is_share(states, row) { 1.0 } else { largest })
 }
 
 /// Bounds on the slopes of contacts between any two points of a box.
