@@ -82,9 +82,6 @@ for (const name of models) {
     assertSame({ ask: "check", text: text(name) }, "check", file);
     assertSame({ ask: "hold", text: text(name) }, "hold", file);
   });
-  // Over linkages with friction in hinges the program takes minutes as it is built for tests.
-  const isSlow = ["four-bar", "over-centre-clamp", "quick-return", "slider-crank-with-pins", "toggle-press"].includes(name.replace(".toml", ""));
-  if (isSlow) continue;
   test(`${name}: limits of friction`, () => {
     assertSame({ ask: "limits", text: text(name), vary: "friction" }, "limits", `models/${name}`, "--vary", "friction");
   });

@@ -127,17 +127,6 @@ QUESTIONS: dict[str, Question] = {
 }
 
 
-# Limits of linkages with friction in hinges, and dimensions by limits, take minutes without optimisation.
-LINKAGES_WITH_FRICTION = frozenset(
-    ["four-bar", "over-centre-clamp", "quick-return", "slider-crank-with-pins", "toggle-press"]
-)
-
-
-def takes_minutes(name: str, question: str) -> bool:
-    """Whether a question about a model is left out, since it takes minutes."""
-    return name in LINKAGES_WITH_FRICTION and question.startswith(("limits", "size"))
-
-
 @dataclass(frozen=True)
 class Program:
     """The program `slideway`, and a folder in which it works."""

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pyarrow
 import pytest
-from conftest import DIMENSIONS, MODELS, QUESTIONS, WORKSPACE, Program, takes_minutes
+from conftest import DIMENSIONS, MODELS, QUESTIONS, WORKSPACE, Program
 
 import slideway
 
@@ -23,8 +23,6 @@ def test_every_model_has_a_dimension() -> None:
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.parametrize("name", MODELS)
 def test_same_json(program: Program, name: str, question: str) -> None:
-    if takes_minutes(name, question):
-        pytest.skip("takes minutes without optimisation")
     asked = QUESTIONS[question]
     model = slideway.Model.gallery(name)
     said, complaint = program.json(asked.command(name), model.text)
@@ -98,8 +96,6 @@ def test_same_json_of_games(program: Program, problem: dict[str, Any]) -> None:
     ("name", "question"), list(zip(MODELS, itertools.cycle(["solve", "limits", "hold", "drive", "simulate"])))
 )
 def test_same_words(program: Program, name: str, question: str) -> None:
-    if takes_minutes(name, question):
-        pytest.skip("takes minutes without optimisation")
     asked = QUESTIONS[question]
     model = slideway.Model.gallery(name)
     said, complaints = program.run(asked.command(name), model.text)

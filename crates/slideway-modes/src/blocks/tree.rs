@@ -22,6 +22,9 @@ const SMALLEST: f64 = 1e-7;
 /// Reactions below this share of the largest have no direction that is worth dividing.
 const UNLOADED: f64 = 1e-9;
 
+/// Gaps of the relaxation below this are rounding.
+const MET: f64 = 1e-12;
+
 /// What was found in the tree.
 pub(super) struct Found {
     pub(super) zeros: Vec<Zero>,
@@ -221,7 +224,10 @@ impl<'a, 'c> Tree<'a, 'c> {
             let (one, other) = (order(one), order(other));
             one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
         });
-        if let Some(hinge) = hinge {
+        // A point that meets the conditions of all hinges is not cut off by dividing them.
+        let cuts =
+            |hinge: &usize| contact.is_none_or(|contact| gap(contact) <= MET || gap(contacts + hinge) > MET);
+        if let Some(hinge) = hinge.filter(cuts) {
             let part = |sector| {
                 let mut part = piece.clone();
                 part.sectors[hinge] = sector;

@@ -133,16 +133,13 @@ fn rest(model: &Model, callback: &mut Callback<'_>) -> Result<HoldReport, Vec<St
 }
 
 /// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if
-/// the model has any, and hinges have none, with which it takes long; nothing if the work was ended.
+/// the model has any; nothing if the work was ended.
 fn varied(
     model: &Model,
     wanted: Vec<Vary>,
     callback: &mut Callback<'_>,
 ) -> Result<Option<Vec<(LimitsReport, plot::Figure)>>, Faults> {
     if wanted.is_empty() {
-        if !Mechanism::new(model)?.friction_circles.is_empty() {
-            return Ok(Some(Vec::new()));
-        }
         return Ok(match limits(model, Vary::usual(FRICTION), callback) {
             Ok(found) => found.map(|found| vec![found]),
             Err(_) => Some(Vec::new()),

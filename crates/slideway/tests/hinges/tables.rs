@@ -165,7 +165,6 @@ fn driven_by_piston(case: &DeadCentre) -> Model {
 
 /// About both dead centres no force on the piston turns the crank; the ranges end where the closed form says.
 #[test]
-#[ignore = "takes minutes without optimisation: 501 searches without a solution or near locking, in both directions"]
 fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
     let case = &dead_centres()[0];
     let options = DriveOptions::default().vary("phi=-20 deg..200 deg".parse::<slideway::Vary>().unwrap());
