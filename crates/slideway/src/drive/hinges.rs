@@ -4,15 +4,19 @@
 use super::course::{evenly, modes, nothing, with_blow_ups};
 use super::efforts::GROWTH;
 use super::report::{
-    Approach, BlowUp, CourseDirection, CourseRow, DriveDirection, DriveSolution, LockedRange, Sense,
+    Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, Frictionless, LockedRange, Sense,
 };
 use super::state;
+use crate::configuration::Follower;
 use crate::fault::Faults;
 use crate::limits::{Naming, Varied};
 use crate::mechanism::Mechanism;
+use crate::model::Model;
 use crate::progress::{Progress, Work};
-use crate::report::Status;
-use crate::solve::{LastSolution, SolveOptions, Stages, Trail, hinged_states, solve_with};
+use crate::report::{SolveReport, Status};
+use crate::solve::{
+    LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, solve_with_friction,
+};
 
 /// Steps between which changes between locked and not locked are sought.
 const STEPS: usize = 500;
@@ -34,7 +38,7 @@ pub(super) fn direction(
     direction: Sense,
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
-    let course = Sampled { varied, range, direction, work };
+    let course = Sampled { varied, range, work };
     let rows: Vec<CourseRow> = evenly(range, steps).flat_map(|value| course.rows_at(value)).collect();
     if rows.iter().all(|row| row.frictionless.is_none()) {
         course.at(f64::midpoint(range[0], range[1]))?;
@@ -53,25 +57,31 @@ pub(super) fn direction(
 struct Sampled<'c> {
     varied: &'c Varied,
     range: [f64; 2],
-    direction: Sense,
     work: Work<'c>,
 }
 
 impl Sampled<'_> {
-    /// The answer in the state of a value.
+    /// The efforts of all solutions at a value, and those without friction.
     ///
     /// # Errors
     /// Whatever `solve` refuses there.
-    fn at(&self, value: f64) -> Result<DriveDirection, Faults> {
-        let (model, _) = self.varied.model_at(value)?;
-        Ok(state::direction(&model, self.direction, self.work.part(0, 2))?.1)
+    fn at(&self, value: f64) -> Result<(Vec<DriveSolution>, Frictionless), Faults> {
+        let (model, factor) = self.varied.model_at(value)?;
+        let stages = Stages::following(&mut Follower::default(), Mechanism::new(&model)?)?;
+        let report = self.solved(&model, stages.rougher(factor))?;
+        Ok(state::efforts(&report, &stages))
+    }
+
+    fn solved(&self, model: &Model, stages: RougherStages<'_>) -> Result<SolveReport, Faults> {
+        let mut goes_on = |_: &Progress| self.work.flow();
+        solve_with_friction(model, stages, &SolveOptions::default().margins(false), &mut goes_on)
     }
 
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
         let found = if self.work.is_over() { None } else { self.at(value).ok() };
-        let Some(found) = found else { return vec![nothing(value)] };
-        let frictionless = Some(found.frictionless.efforts);
-        if found.solutions.is_empty() {
+        let Some((solutions, frictionless)) = found else { return vec![nothing(value)] };
+        let frictionless = Some(frictionless.efforts);
+        if solutions.is_empty() {
             return vec![CourseRow { frictionless, ..nothing(value) }];
         }
         let row = |solution: DriveSolution| CourseRow {
@@ -84,22 +94,23 @@ impl Sampled<'_> {
             power: Some(solution.power),
             efficiency: Some(solution.efficiency),
         };
-        found.solutions.into_iter().map(row).collect()
+        solutions.into_iter().map(row).collect()
     }
 
     /// Whether there is no solution at a value; none where there is no answer.
     fn is_locked(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<bool> {
-        let mut goes_on = |_: &Progress| self.work.flow();
-        let (model, _) = self.varied.model_at(value).ok()?;
+        let (model, factor) = self.varied.model_at(value).ok()?;
+        let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
         if !model.has_guided_sliders() {
-            let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
-            let found = hinged_states(stages.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
+            let mut goes_on = |_: &Progress| self.work.flow();
+            let rougher = (factor != 1.0).then(|| stages.with_friction(factor));
+            let data = rougher.as_ref().unwrap_or(&stages).hinged();
+            let found = hinged_states(data, stages.accuracy, &mut before.1, &mut goes_on).ok()?;
             if let Some(states) = found {
                 return Some(states.is_empty());
             }
         }
-        let options = SolveOptions { margins: false, ..SolveOptions::default() };
-        match solve_with(&model, &options, &mut goes_on).ok()?.status {
+        match self.solved(&model, stages.rougher(factor)).ok()?.status {
             Status::Unknown => None,
             status => Some(status == Status::None),
         }
@@ -159,7 +170,7 @@ impl Sampled<'_> {
             let [far, close] = NEAR.map(|share| self.at(at + sense * share * (to - from)).ok());
             let (far, close) = (far?, close?);
             let growing = |solution: &DriveSolution| {
-                let before = far.solutions.iter().find(|other| other.pattern == solution.pattern)?;
+                let before = far.0.iter().find(|other| other.pattern == solution.pattern)?;
                 let grows = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far.abs() {
                     true if *close > 0.0 => 1,
                     true => -1,
@@ -175,7 +186,7 @@ impl Sampled<'_> {
                     contacts: Vec::new(),
                 })
             };
-            close.solutions.iter().find_map(growing)
+            close.0.iter().find_map(growing)
         };
         inside.filter_map(one).collect()
     }

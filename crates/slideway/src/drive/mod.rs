@@ -46,7 +46,7 @@ pub use report::{
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{FRICTION, VariedQuantity, Vary, range_around};
+use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{finite, locked};
@@ -145,8 +145,8 @@ fn course(
     rows: usize,
     work: Work<'_>,
 ) -> Result<Course, Faults> {
-    let rough = model.hinge_friction().next().is_some() && vary.name != FRICTION;
-    let varied_in = |model: &Model| if rough { vary.at_rest(model) } else { vary.of_frictionless(model) };
+    let rough = model.hinge_friction().next().is_some();
+    let varied_in = |model: &Model| if rough { vary.at_rest(model) } else { vary.of(model) };
     let direction = if rough { hinges::direction } else { course::direction };
     let varied = varied_in(model)?;
     let range = vary.ends(&varied, || range_around(model, &varied))?;

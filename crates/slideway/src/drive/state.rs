@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::Work;
-use crate::report::{CoordinateState, Solution};
+use crate::report::{CoordinateState, Solution, SolveReport};
 use crate::solve::{SolveOptions, Stages, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
@@ -33,7 +33,21 @@ pub(super) fn direction(
     let mechanism = Mechanism::new(model)?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
-    let velocities = velocities(&stages);
+    let (solutions, frictionless) = efforts(&report, &stages);
+    let found = DriveDirection {
+        direction,
+        status: report.status,
+        solutions,
+        no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
+        blow_ups: blow_ups(&stages, work.part(1, 2))?,
+        frictionless,
+    };
+    Ok((report.state, found))
+}
+
+/// The efforts of all solutions, and those without friction.
+pub(super) fn efforts(report: &SolveReport, stages: &Stages) -> (Vec<DriveSolution>, Frictionless) {
+    let velocities = velocities(stages);
     let layout = stages.influence.layout();
     let frictionless: Vec<f64> = (0..velocities.len())
         .map(|drive| stages.influence.frictionless[layout.effort(DriveId(drive))] + 0.0)
@@ -52,15 +66,8 @@ pub(super) fn direction(
     };
     let pressed = report.solutions.iter().map(|one| solution(one, false));
     let gaps = report.preload_gap_states.iter().map(|one| solution(one, true));
-    let found = DriveDirection {
-        direction,
-        status: report.status,
-        solutions: pressed.chain(gaps).collect(),
-        no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
-        blow_ups: blow_ups(&stages, work.part(1, 2))?,
-        frictionless: Frictionless { power: power(&frictionless, &velocities), efforts: frictionless },
-    };
-    Ok((report.state, found))
+    let solutions = pressed.chain(gaps).collect();
+    (solutions, Frictionless { power: power(&frictionless, &velocities), efforts: frictionless })
 }
 
 /// The factors of friction at which efforts grow without bound; none if there are too many modes, or friction in

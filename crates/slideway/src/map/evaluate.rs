@@ -145,10 +145,11 @@ impl Source {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
             let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
             let stages = Stages::along(&mut before.trail, mechanism)?;
-            if stages.mechanism.rough_hinges().next().is_some() {
+            if stages.mechanism.rough_hinges().next().is_some() && friction > 0.0 {
                 let model = || Ok(model_at(&self.model, axes, values)?.0);
                 let careful = self.with_accelerations || self.model.has_guided_sliders();
-                let found = hinges::states(&stages, &model, careful, &mut before.last, work)?;
+                let found =
+                    hinges::states(stages.rougher(friction), &model, careful, &mut before.last, work)?;
                 return Ok(Answer::States(found));
             }
             let parts = parts(&stages, friction, self.with_accelerations)?;

@@ -5,29 +5,35 @@ use crate::fault::Faults;
 use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{Solution, SolveReport, SpeedChange, Status};
-use crate::solve::{HingedState, LastSolution, SolveOptions, Stages, hinged_states, pattern, solve_with};
+use crate::solve::{
+    HingedState, LastSolution, RougherStages, SolveOptions, Stages, hinged_states, pattern,
+    solve_with_friction,
+};
 
 /// An acceleration below this part of the greatest one is zero within rounding.
 const NO_ACCELERATION: f64 = 1e-9;
 
-/// All states of a point. `model` makes its model for a careful answer, which is given if `careful` says so: what becomes
+/// All states of a point with so many times the friction. `model` makes its model for a careful answer, which is given if `careful` says so: what becomes
 /// of the speeds and whether guided sliders tip needs one.
 ///
 /// # Errors
 /// Whatever `solve` refuses.
 pub(super) fn states(
-    stages: &Stages,
+    RougherStages { stages, factor }: RougherStages<'_>,
     model: &dyn Fn() -> Result<Model, Faults>,
     careful: bool,
     last: &mut LastSolution,
     work: Work<'_>,
 ) -> Result<States, Faults> {
     let mut goes_on = |_: &Progress| work.flow();
-    if !careful && let Some(found) = hinged_states(stages.hinged(), stages.accuracy, last, &mut goes_on)? {
+    let rougher = (factor != 1.0).then(|| stages.with_friction(factor));
+    let data = rougher.as_ref().unwrap_or(stages).hinged();
+    if !careful && let Some(found) = hinged_states(data, stages.accuracy, last, &mut goes_on)? {
         return Ok(of_found(&found));
     }
     let options = SolveOptions { margins: false, ..SolveOptions::default() };
-    Ok(of_report(&solve_with(&model()?, &options, &mut goes_on)?, stages))
+    let report = solve_with_friction(&model()?, stages.rougher(factor), &options, &mut goes_on)?;
+    Ok(of_report(&report, stages))
 }
 
 fn of_found(found: &[HingedState]) -> States {

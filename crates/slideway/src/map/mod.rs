@@ -158,7 +158,7 @@ struct Axis {
 impl Axis {
     fn new(model: &Model, vary: &Vary, colour_by: ColourBy) -> Result<Self, Faults> {
         let mut varied = vary.at_rest(model)?;
-        if colour_by == ColourBy::Margin || colour_by != ColourBy::Hold && varied.is_friction_factor() {
+        if colour_by == ColourBy::Margin {
             varied = vary.of_frictionless(model)?;
         }
         let range = vary.ends(&varied, || Err(varied.range_needed()))?;

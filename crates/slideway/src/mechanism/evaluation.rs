@@ -1,14 +1,14 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, CircleLaw, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
+    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
     FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
 use crate::model::{
-    self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, HingeFriction, Inertia,
-    LoadKind as ModelLoadKind, Model, Moment, PreloadLine, SliderKind, Stop,
+    self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
+    Moment, PreloadLine, SliderKind, Stop,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -155,15 +155,7 @@ impl<T: Real> Evaluation<'_, T> {
         let circle = |(index, joint): (usize, &model::Joint)| match &joint.kind {
             model::JointKind::Hinge(hinge) => {
                 let friction = hinge.friction?;
-                let [radius, static_radius] = friction.radii(|id| self.value(id));
-                let law = match friction {
-                    HingeFriction::Circle(_) => CircleLaw::Radius,
-                    HingeFriction::Pin { mu, radius, law } => {
-                        let mu = mu.map(|mu| self.value(mu));
-                        CircleLaw::Pin { mu, radius: self.value(radius), law }
-                    }
-                };
-                Some(FrictionCircle { joint: JointId(index), radius, static_radius, law })
+                Some(FrictionCircle::new(JointId(index), &friction, |id| self.value(id)))
             }
             model::JointKind::Slider(_) => None,
         };

@@ -14,7 +14,8 @@ use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{
-    CarriedBy, CrossingDirection, Face, Formula, Model, OutlineCorner, PinLaw, PreloadLine, SliderKind, Stop,
+    CarriedBy, CrossingDirection, Face, Formula, HingeFriction, Model, OutlineCorner, PinLaw, PreloadLine,
+    SliderKind, Stop,
 };
 use crate::units::Units;
 use evaluation::Evaluation;
@@ -271,6 +272,18 @@ impl FrictionCircle {
 }
 
 impl<T: Real> FrictionCircle<T> {
+    /// That of a hinge with this friction; `value` is that of each formula.
+    pub(crate) fn new(joint: JointId, friction: &HingeFriction, value: impl Fn(FormulaId) -> T) -> Self {
+        let [kinetic, at_rest] = friction.radii(&value);
+        let law = match *friction {
+            HingeFriction::Circle(_) => CircleLaw::Radius,
+            HingeFriction::Pin { mu, radius, law } => {
+                CircleLaw::Pin { mu: mu.map(&value), radius: value(radius), law }
+            }
+        };
+        Self { joint, radius: kinetic, static_radius: at_rest, law }
+    }
+
     /// The same with its kinetic coefficient, or the radius that is given, multiplied by a factor.
     pub(crate) fn rougher(self, factor: T) -> Self {
         match self.law {

@@ -53,7 +53,7 @@ pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::load_sharing;
 pub use stages::exact_mode_problem;
-pub(crate) use stages::{ProblemData, Stages, rougher};
+pub(crate) use stages::{ProblemData, RougherStages, Stages, rougher};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;

@@ -10,10 +10,11 @@ use super::together::{PointsFound, Together};
 use super::told;
 use super::writer::{Writer, head};
 use crate::attainability::ElasticGuides;
+use crate::configuration::Follower;
 use crate::fault::{FaultKind, Faults};
 use crate::influence::HingeState;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::{Model, Settings};
 use crate::modes::ContactState;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
@@ -145,6 +146,8 @@ pub(super) struct Evaluator<'p> {
     plan: &'p Plan,
     mechanism: Mechanism,
     friction: Vec<Friction>,
+    /// The friction circles before the common factor.
+    circles: Vec<FrictionCircle>,
     parameters: Vec<f64>,
     trail: Trail,
     stages: Option<Cow<'p, Stages>>,
@@ -161,6 +164,7 @@ impl<'p> Evaluator<'p> {
             plan,
             mechanism: plan.mechanism.clone(),
             friction: Friction::of(&plan.mechanism),
+            circles: plan.mechanism.friction_circles.clone(),
             parameters: plan.friction.as_ref().map_or_else(Vec::new, |formulas| formulas.parameters.clone()),
             trail: Trail::default(),
             stages: plan.stages.as_ref().map(Cow::Borrowed),
@@ -275,6 +279,7 @@ impl<'p> Evaluator<'p> {
             if plan.friction.is_none() {
                 stages.configuration.put_friction(&mut self.mechanism)?;
                 self.friction = Friction::of(&self.mechanism);
+                self.circles.clone_from(&self.mechanism.friction_circles);
                 self.put_friction(values)?;
             }
             self.stages = Some(Cow::Owned(stages));
@@ -287,7 +292,7 @@ impl<'p> Evaluator<'p> {
         let plan = self.plan;
         if let Some(formulas) = &plan.friction {
             formulas.apply(&plan.model, values, &mut self.parameters, &mut self.friction)?;
-            formulas.put_circles(&plan.model, &self.parameters, &mut self.mechanism)?;
+            formulas.put_circles(&plan.model, &self.parameters, &self.mechanism, &mut self.circles)?;
         }
         let kinds = plan.varied.iter().zip(values);
         let factor = kinds.filter(|(kind, _)| **kind == Kind::Friction).map(|(_, value)| *value).next();
@@ -295,6 +300,9 @@ impl<'p> Evaluator<'p> {
         for (contact, friction) in self.mechanism.contacts.iter_mut().zip(&self.friction) {
             contact.mu = friction.mu.map(|mu| mu * factor);
             contact.preload = friction.preload;
+        }
+        for (circle, friction) in self.mechanism.friction_circles.iter_mut().zip(&self.circles) {
+            *circle = if factor == 1.0 { *friction } else { friction.rougher(factor) };
         }
         Ok(())
     }
@@ -326,7 +334,7 @@ impl<'p> Evaluator<'p> {
         let model = self.plan.model.varied_with(&settings)?;
         let options = SolveOptions { margins: false, ..SolveOptions::default() };
         let report = if self.plan.varied.contains(&Kind::Friction) {
-            let stages = solve::Stages::new(&model)?;
+            let stages = solve::Stages::following(&mut Follower::default(), Mechanism::new(&model)?)?;
             solve_with_friction(&model, stages.rougher(friction), &options, look)?
         } else {
             solve_with(&model, &options, look)?

@@ -4,7 +4,7 @@
 use super::quantity::Kind;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::FormulaId;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::{HingeFriction, Model};
 use std::sync::Arc;
 
@@ -110,7 +110,8 @@ impl FrictionFormulas {
         &self,
         model: &Model,
         parameters: &[f64],
-        mechanism: &mut Mechanism,
+        mechanism: &Mechanism,
+        circles: &mut [FrictionCircle],
     ) -> Result<(), Faults> {
         for (index, friction) in &self.circles {
             let mut values = Vec::new();
@@ -119,12 +120,12 @@ impl FrictionFormulas {
             }
             let value =
                 |id: FormulaId| values.iter().find(|(other, _)| *other == id).map(|(_, value)| *value);
-            let circle = &mut mechanism.friction_circles[*index];
+            let circle = &mut circles[*index];
             let name = &mechanism.joints[circle.joint.index()].name;
             if let Some(fault) = model.static_below_kinetic(name, friction.kinetic_and_static(), &value) {
                 return Err(fault.into());
             }
-            [circle.radius, circle.static_radius] = friction.radii(|id| value(id).unwrap_or(f64::NAN));
+            *circle = FrictionCircle::new(circle.joint, friction, |id| value(id).unwrap_or(f64::NAN));
         }
         Ok(())
     }

@@ -85,7 +85,6 @@ use columns::Columns;
 use evaluator::{Evaluator, Plan, Points};
 use friction::FrictionFormulas;
 use options::fault;
-use quantity::Kind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::{ControlFlow, Range};
@@ -175,9 +174,6 @@ impl Sweep {
         mechanism.check_size()?;
         let axes = axes(model, &options.points)?;
         let varied: Vec<_> = axes.iter().map(|axis| axis.quantity.kind).collect();
-        if varied.contains(&Kind::Friction) {
-            mechanism.check_frictionless_hinges()?;
-        }
         let friction = FrictionFormulas::new(model, &varied)?;
         let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
         let attainability = options.attainability;

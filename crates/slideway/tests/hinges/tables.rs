@@ -3,7 +3,7 @@
 use crate::dead_centre::{DeadCentre, dead_centres};
 use rstest::rstest;
 use slideway::fault::FaultKind;
-use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
+use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map};
 use slideway::report::Style;
 use slideway::sweep::{PointStatus, RowKind, Rows, Sweep, SweepOptions};
 use slideway::{DriveOptions, Model, Report, Settings, drive, gallery, solve};
@@ -138,16 +138,53 @@ fn maps_answer(#[case] colour_by: ColourBy) {
 }
 
 #[test]
-fn what_scales_all_friction_is_refused_and_the_hinges_named() {
+fn a_map_by_margin_is_refused_and_the_hinges_named() {
     let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
-    let options = SweepOptions::grid(["friction=0..2:5".parse().unwrap()]);
     let margins = MapOptions::new("phi=0..1".parse().unwrap(), "mu=0..1".parse().unwrap());
-    for faults in [
-        Sweep::new(&model, &options).map(drop).unwrap_err(),
-        map(&model, &margins.colour_by(ColourBy::Margin)).map(drop).unwrap_err(),
-    ] {
-        let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };
-        assert_eq!(*hinges, ["O", "A", "B"]);
+    let faults = map(&model, &margins.colour_by(ColourBy::Margin)).unwrap_err();
+    let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };
+    assert_eq!(*hinges, ["O", "A", "B"]);
+}
+
+/// The factor of all friction multiplies the radius of a friction circle that is given; with none there is one solution.
+#[test]
+fn over_the_factor_of_friction_a_bar_has_the_solutions_of_the_multiplied_radius() {
+    let load = [1.5, -4.0];
+    let options = SweepOptions::grid(["friction=0..59:121".parse().unwrap()]).breakpoints(false);
+    let sweep = Sweep::new(&bar(0.1, load), &options).unwrap();
+    let mut met = [0; 3];
+    for rows in rows(&sweep) {
+        for row in 0..rows.len() {
+            let expected = magnitudes(0.1 * rows.numbers(row)[0], load).len();
+            assert_eq!(rows.heads[row].solutions as usize, expected, "{:?}", rows.numbers(row));
+            met[expected] += 1;
+        }
+    }
+    assert!(met.iter().all(|rows| *rows > 5), "{met:?}");
+    let options =
+        MapOptions::new("friction=0.5..60".parse().unwrap(), "F=-8..8".parse().unwrap()).size(20, 15);
+    let of_radius = MapOptions::new("r=0.05..6".parse().unwrap(), "F=-8..8".parse().unwrap()).size(20, 15);
+    let [of_factor, of_radius] = [options, of_radius].map(|options| map(&bar(0.1, load), &options).unwrap());
+    for (row, pixel) in (0..15).flat_map(|row| (0..20).map(move |pixel| (row, pixel))) {
+        let meaning = |map: &MapReport| map.classes[map.class_at(pixel, row)].meaning.clone();
+        assert_eq!(meaning(&of_factor), meaning(&of_radius), "{pixel}, {row}");
+    }
+}
+
+/// A table of drive over the factor of friction has the efforts of a model with all coefficients multiplied.
+#[test]
+fn over_the_factor_of_friction_a_press_needs_the_efforts_of_multiplied_coefficients() {
+    let model = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
+    let options = DriveOptions::default().vary("friction=0..3".parse::<slideway::Vary>().unwrap());
+    let report = drive(&model, &options.rows(4)).unwrap();
+    let rows = &report.course.as_ref().unwrap().directions[0].rows;
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        // The coefficients of the model are 0.1 and 0.12.
+        let settings = Settings::default().parameter("mu", 0.1 * row.at).parameter("mu_pin", 0.12 * row.at);
+        let expected = solve(&model.with(&settings).unwrap()).unwrap().solutions[0].drives[0].effort;
+        let effort = row.efforts.as_ref().unwrap()[0];
+        assert!((effort / expected - 1.0).abs() < 1e-12, "{effort} instead of {expected}");
     }
 }
 
