@@ -1,8 +1,10 @@
 //! Random problems.
 
 use nalgebra::{DMatrix, DVector};
-use slideway_modes::blocks::only_solution;
-use slideway_modes::certificate::Sign;
+use slideway_modes::blocks::{BlockProblem, only_solution, search, search_all_or_nothing};
+use slideway_modes::certificate::{IntervalMatrix, Sign};
+use slideway_modes::{BySide, Proof, SearchOptions};
+use std::ops::ControlFlow;
 
 use crate::support::{Numbers, Plain, assert_proven, assert_same, degree, unknowns};
 
@@ -121,4 +123,45 @@ fn as_many_solutions_as_the_bound_allows() {
     assert_proven(&result);
     assert_eq!(result.solutions.len(), 1 << (contacts + hinges));
     assert_eq!(degree(&result), 0);
+}
+
+/// What ends at the first piece that cannot be decided finds what the search does, or nothing, in fewer nodes: for exact
+/// numbers all that the search proves, for wide ones what it proves for each of them.
+#[test]
+fn all_or_nothing_is_what_the_search_proves() {
+    let mut numbers = Numbers(23);
+    let (mut shown, mut left, mut saved) = (0, 0, 0);
+    for step in 0..16 {
+        let (contacts, hinges) = [(0, 2), (1, 1), (2, 2), (1, 3)][step % 4];
+        let plain = Plain::opposed(&mut numbers, contacts, hinges);
+        for width in [0.0, 1e-6, 1e-3, 3e-2] {
+            let problem = widened(&plain, width);
+            let options = SearchOptions { nodes: 1500, ..SearchOptions::default() };
+            let mut goes_on = |_: &_| ControlFlow::Continue(());
+            let all = search(&problem, &options, &mut goes_on);
+            let or_nothing = search_all_or_nothing(&problem, &options, &mut goes_on);
+            assert!(or_nothing.nodes <= all.nodes);
+            if or_nothing.complete == Proof::Proven {
+                assert_eq!(all.complete, Proof::Proven);
+                assert_same(&all, &or_nothing);
+                shown += 1;
+            } else {
+                assert!(width > 0.0 || all.complete == Proof::NotProven);
+                left += 1;
+                saved += all.nodes - or_nothing.nodes;
+            }
+        }
+    }
+    assert!(shown > 16 && left > 5 && saved > 1000, "{shown}, {left}, {saved}");
+}
+
+/// The problem with this relative width of all numbers.
+fn widened(plain: &Plain, width: f64) -> BlockProblem {
+    let around =
+        |matrix: &DMatrix<f64>| IntervalMatrix::around(matrix.clone(), matrix.abs() * width).unwrap();
+    let response = BySide { positive: around(&plain.positive), negative: around(&plain.negative) };
+    let rows = plain.load.len();
+    let jumps = BySide::same(IntervalMatrix::exact(DMatrix::zeros(rows, plain.contacts)));
+    let load = DMatrix::from_column_slice(rows, 1, plain.load.as_slice());
+    BlockProblem::within_bounds(response, jumps, around(&load)).unwrap()
 }

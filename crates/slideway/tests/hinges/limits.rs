@@ -198,6 +198,49 @@ fn the_counts_are_those_of_solve() {
     }
 }
 
+/// A bar about a rough pin under a force `F`, in units of mass and length of these sizes.
+fn bar(mass: f64, length: f64) -> Model {
+    let (inertia, force) = (mass * length * length, mass * length);
+    let text = format!(
+        "[parameters]\nr = {:?}\nF = {:?}\n\
+         [points]\nO = [0, 0]\nC = [{:?}, 0]\n\
+         [bodies.bar]\npoints = [\"O\", \"C\"]\nmass = {mass:?}\nmoment_of_inertia = {inertia:?}\n\
+         centre_of_mass = \"C\"\n\
+         [joints.pin]\ntype = \"hinge\"\nbetween = [\"bar.O\", \"ground.O\"]\nfriction_radius = \"r\"\n\
+         [loads.pull]\ntype = \"force\"\nat = \"bar.C\"\ncomponents = [{:?}, \"F\"]\n\
+         [coordinates.phi]\nrotation = \"bar\"\nrate = 1\n",
+        4.0 * length,
+        force,
+        0.5 * length,
+        -4.0 * force
+    );
+    Model::parse(&text).unwrap()
+}
+
+/// In other units of mass and length the same numbers of solutions, and ends that are multiplied; proven in parts.
+/// Beside each end `solve` finds the numbers of both sides.
+#[test]
+fn limits_do_not_depend_on_units() {
+    let plain = bar(1.0, 1.0);
+    let force = 1e6 * 1e-3;
+    let [one, other] = [
+        over(&plain, "F=-20..20", 800),
+        over(&bar(1e6, 1e-3), &format!("F={}..{}", -20.0 * force, 20.0 * force), 800),
+    ];
+    assert_eq!(counts(&one), counts(&other));
+    assert!(counts(&one).len() >= 2, "{:?}", counts(&one));
+    for (one, other) in one.counts.iter().zip(&other.counts) {
+        assert!(near(Some(other.from / force), one.from) && near(Some(other.to / force), one.to));
+        assert_eq!(one.proven.is_empty(), other.proven.is_empty());
+    }
+    for (below, above) in one.counts.iter().zip(&one.counts[1..]) {
+        for (side, count) in [(-1e-7, below), (1e-7, above)] {
+            let beside = plain.with(&Settings::default().parameter("F", below.to + side)).unwrap();
+            assert_eq!(solve(&beside).unwrap().solutions.len(), count.solutions, "{} {side}", below.to);
+        }
+    }
+}
+
 /// For pins of ordinary friction every position has one solution; the pin of the piston turns back where
 /// the crank is at a right angle to it.
 #[test]
