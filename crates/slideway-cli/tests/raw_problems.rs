@@ -270,9 +270,10 @@ fn a_batch_answers_every_line_in_order() {
     assert_eq!((&answers[4]["line"], &answers[5]["line"]), (&5.into(), &6.into()));
     assert!(answers[4]["faults"][0].as_str().unwrap().contains("`M` is a 1 x 2 matrix"), "{}", answers[4]);
     assert!(answers[5]["faults"][0].as_str().unwrap().contains("the problem is empty"), "{}", answers[5]);
-    // Without faults, and without a line end behind the last one.
-    let run = slideway_reading(&["modes", "-", "--json-lines"], br#"{"M": [[0]], "q": [-1]}"#);
+    // Without faults, and without a line end behind the last one; standard input need not be named.
+    let run = slideway_reading(&["modes", "--json-lines"], br#"{"M": [[0]], "q": [-1]}"#);
     assert_eq!((run.code, run.stdout.lines().count()), (0, 1));
+    assert_eq!(slideway_reading(&["modes"], b"").code, 2);
     assert!(slideway_reading(&["modes", "-", "--json-lines"], b"").stdout.is_empty());
 }
 

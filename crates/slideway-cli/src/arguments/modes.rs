@@ -1,6 +1,7 @@
 //! `slideway modes`
 
 use super::{Destination, SearchArguments};
+use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
 use slideway::modes::SearchOptions;
 use std::path::PathBuf;
@@ -38,7 +39,7 @@ Examples:
   slideway modes problem.json --proof proof.txt
   slideway modes problem.json --stream | head -n 1
   slideway modes - < problem.json
-  slideway modes - --json-lines < problems.jsonl > answers.jsonl
+  slideway modes --json-lines < problems.jsonl > answers.jsonl
 
 Exit codes:
   0    solutions were found: one, several, infinitely many, or a state in a preload gap
@@ -51,8 +52,13 @@ Exit codes:
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of the command line")]
 pub(crate) struct ModesArguments {
-    /// The problem (JSON or .npz), or `-` for standard input.
-    #[arg(value_name = "PROBLEM")]
+    /// The problem (JSON or .npz), or `-` for standard input; with --json-lines, standard input if omitted.
+    #[arg(
+        value_name = "PROBLEM",
+        required = false,
+        required_unless_present = "json_lines",
+        default_value_if("json_lines", ArgPredicate::IsPresent, "-")
+    )]
     pub(crate) file: PathBuf,
 
     /// Form of the answer; by default that of the output file's extension (.json, .npz), else text.
