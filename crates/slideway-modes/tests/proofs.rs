@@ -8,6 +8,7 @@ use std::process::{Command, Stdio};
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::{CombinedState, ModeProblem, NoProof, SearchOptions, Side, prove};
 
+use super::instances;
 use super::instances::structured::{game_with_two_costs, ones, pile};
 use super::search_support::{Random, low_rank, run};
 
@@ -107,7 +108,26 @@ fn the_checker_accepts_proofs_of_random_problems_and_of_their_parts() {
             assert!(text.contains("\np "), "{text}");
         }
     }
-    proven(&low_rank(&mut Random::new(4), 14, 2, 1.0), "low_rank");
+}
+
+/// The parts of the space of the coupling's quantities: near, far, and where no contact has its share.
+#[test]
+fn coupling_of_low_rank_takes_few_nodes() {
+    let small = |seed, contacts, rank| low_rank(&mut Random::new(seed), contacts, rank, 1.0);
+    let problems = [(small(4, 14, 2), 2), (small(5, 13, 1), 1), (instances::low_rank(20, 2), 2)];
+    for (problem, rank) in problems {
+        let contacts = problem.contacts();
+        let text = proven(&problem, &format!("low_rank_{contacts}"));
+        let declares = |line: &&str| line.starts_with("cell") || line.starts_with('g');
+        let steps = text.lines().filter(|line| !declares(line)).count();
+        // Nothing like the 2^contacts patterns: a contact's share takes five steps, a cell of the arrangement a few.
+        let cells: usize = (0..=rank).map(|chosen| binomial(contacts, chosen)).sum();
+        assert!(steps < 6 * contacts + 10 * cells, "{contacts}: {steps} steps, {cells} cells");
+    }
+}
+
+fn binomial(of: usize, chosen: usize) -> usize {
+    (0..chosen).fold(1, |product, at| product * (of - at) / (at + 1))
 }
 
 #[test]

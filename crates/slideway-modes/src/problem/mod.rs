@@ -19,6 +19,6 @@ pub use bounds::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use mode_problem::{InfluenceCoefficients, ModeProblem, ModeProblemError};
 pub use pattern::{ContactState, SetPart, SolutionSet};
 pub(crate) use radii::Radii;
-pub(crate) use scaling::{ScaledProblem, patterns_of, power_of_two_above};
+pub(crate) use scaling::{ScaledProblem, exponent_of, patterns_of, power_of_two_above};
 pub use shared_load::{OpenContacts, SharedLoad};
 pub use side::{BySide, ProblemPart, Side};

@@ -337,6 +337,34 @@ impl ModeProblem {
         Self { remainder, ..Self::unchecked(by_side(&self.columns), by_side(&self.jumps), right_hand_side) }
     }
 
+    /// The problem with another contact for each half-space `sum_j a_j y_j <= gamma`: its positive side is the slack
+    /// `s` of `sum_j a_j y_j + s = gamma`. The entries `a_j` of all positive sides come first, then those of the
+    /// negative ones.
+    pub(crate) fn within_half_spaces(&self, half_spaces: &[(DVector<f64>, f64)]) -> Self {
+        let (contacts, size) = (self.contacts(), self.contacts() + half_spaces.len());
+        let widened = |matrix: &DMatrix<f64>| matrix.clone().resize(size, size, 0.0);
+        let columns = |side: usize, slack: f64, own: &DMatrix<f64>| {
+            let mut columns = widened(own);
+            for (at, (form, _)) in (contacts..).zip(half_spaces) {
+                columns.view_mut((at, 0), (1, contacts)).tr_copy_from(&form.rows(side * contacts, contacts));
+                columns[(at, at)] = slack;
+            }
+            columns
+        };
+        let limits = half_spaces.iter().map(|(_, limit)| *limit);
+        let right: Vec<f64> = self.right_hand_side.iter().copied().chain(limits).collect();
+        let by_side = |part: &BySide<DMatrix<f64>>| BySide {
+            positive: widened(&part.positive),
+            negative: widened(&part.negative),
+        };
+        let both = BySide {
+            positive: columns(0, 1.0, &self.columns.positive),
+            negative: columns(1, -1.0, &self.columns.negative),
+        };
+        let remainder = self.remainder.as_ref().and_then(|lost| Remainder::new(by_side(&lost.columns)));
+        Self { remainder, ..Self::unchecked(both, by_side(&self.jumps), right.into()) }
+    }
+
     /// The problem from finite numbers in matching matrices.
     fn unchecked(
         columns: BySide<DMatrix<f64>>,

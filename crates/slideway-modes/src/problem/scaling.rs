@@ -202,7 +202,7 @@ impl ScaledProblem {
 }
 
 /// The exponent of a power of two.
-fn exponent_of(power: f64) -> i32 {
+pub(crate) fn exponent_of(power: f64) -> i32 {
     // The exponent field of a normal number.
     i32::try_from(power.to_bits() >> 52).map_or(0, |biased| biased - 1023)
 }

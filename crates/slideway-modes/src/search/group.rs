@@ -20,7 +20,7 @@ use crate::solutions::Solutions;
 /// about 0.4 ms, several times as long as branch and bound, which does not give the outcome of each pattern.
 const EVERY_PATTERN_UP_TO: u64 = 256;
 /// The minimum number of contacts for which cells of an arrangement are worth trying.
-const CELLS_FROM: usize = 13;
+pub(super) const CELLS_FROM: usize = 13;
 
 /// The solutions of a group's own problem, and how they were found.
 #[derive(Debug, Clone)]

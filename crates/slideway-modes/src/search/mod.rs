@@ -49,7 +49,8 @@
 //! subtrees, which threads share; nodes and results are the same for any number of threads.
 //!
 //! # Proof files
-//! [`prove`] searches an exact problem and writes every step for a checker that needs nothing of this crate.
+//! [`prove`] searches an exact problem and writes every step for a checker that needs nothing of this crate: by trees and
+//! the rule for monotone problems, and, if the coupling has low rank, by trees within half-spaces that bound all unknowns.
 //!
 //! Except in groups for which every pattern is tried, singular patterns that admit nothing (locking of the
 //! mode) are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
@@ -74,6 +75,7 @@ mod product;
 mod proof;
 mod proof_cells;
 mod proof_log;
+mod proof_low_rank;
 mod propagation;
 mod relaxation;
 mod report;

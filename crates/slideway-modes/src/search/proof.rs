@@ -8,6 +8,7 @@ use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
 use super::monotone::pattern_of_all_solutions;
 use super::proof_log::ProofLog;
+use super::proof_low_rank::{HalfSpaces, Parts};
 use super::report::{Arguments, SearchOptions, StopReason};
 use super::states::all_states;
 use super::tree::Tree;
@@ -38,8 +39,8 @@ pub enum NoProof {
     Open,
 }
 
-/// Searches all solutions of an exact problem by the rule for monotone problems and by trees, and writes down
-/// every step.
+/// Searches all solutions of an exact problem by the rule for monotone problems and by trees, within half-spaces if
+/// the coupling has low rank, and writes down every step.
 ///
 /// `options` limit the search; `progress` is called at every node and during long steps, and ends the search
 /// by breaking. Parts that do not depend on each other are proven one by one.
@@ -104,18 +105,27 @@ fn prove_part(
 ) -> Result<(), NoProof> {
     let scaled = ScaledProblem::within(loaded.view());
     let radius = scaled.scaled_load_radius(&loaded.right_hand_side_radius());
-    let rows = exponents.add(&scaled, contacts);
+    let half_spaces = HalfSpaces::of(&scaled, &radius);
+    let rows = exponents.add(&scaled, contacts, half_spaces.as_ref().map_or(0, |spaces| spaces.exponent));
     let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), true);
-    let system = LiftedSystem::new(loaded.view());
-    let mut log = ProofLog::new(&system, rows);
+    let mut log = ProofLog::new(LiftedSystem::new(loaded.view()), rows);
     let all_solutions = pattern_of_all_solutions(loaded.view(), &scaled, &mut || monitor.goes_on());
     let left = all_solutions.and_then(|pattern| {
         let decision = leaves.decide(&pattern, monitor).ok()?;
-        log.monotone(&system, &pattern, &decision)
+        log.monotone(&pattern, &decision)
     });
-    let root = left.unwrap_or_else(|| all_states(&scaled));
-    let tree = Tree::new((loaded, &scaled), None, &radius, options).logged(log);
-    let (report, log) = tree.run_from(root, (&mut leaves, monitor));
+    let (report, log) = match (left, half_spaces) {
+        (None, Some(spaces)) => {
+            let mut parts = Parts::new((loaded.view().centre, options), &mut leaves, monitor);
+            let log = parts.prove(&spaces, log);
+            (parts.report, log)
+        }
+        (left, _) => {
+            let root = left.unwrap_or_else(|| all_states(&scaled));
+            let tree = Tree::new((loaded, &scaled), None, &radius, options).logged(log);
+            tree.run_from(root, (&mut leaves, monitor))
+        }
+    };
     if let Some(reason) = monitor.stopped() {
         return Err(NoProof::Stopped(reason));
     }
@@ -139,9 +149,9 @@ impl Exponents {
         Self { of_contact: vec![0; view.contacts()], of_jump: jumping.map(|contact| (contact, 0)).collect() }
     }
 
-    /// Takes those of a part, and returns them in its own order.
-    fn add(&mut self, scaled: &ScaledProblem, contacts: &[usize]) -> Vec<i32> {
-        let mut rows = scaled.row_exponents();
+    /// Takes those of a part, all of them greater by `more`, and returns them in its own order.
+    fn add(&mut self, scaled: &ScaledProblem, contacts: &[usize], more: i32) -> Vec<i32> {
+        let mut rows: Vec<i32> = scaled.row_exponents().iter().map(|exponent| exponent + more).collect();
         for (&contact, &exponent) in contacts.iter().zip(&rows) {
             self.of_contact[contact] = exponent;
         }

@@ -2,12 +2,13 @@
 
 use std::collections::VecDeque;
 use std::fmt::{Display, Write as _};
+use std::sync::Arc;
 
 use dashu_int::IBig;
 
 use super::proof_cells::{Cell, ProofCells, corners};
 use super::share_entries::ShareEntries;
-use super::short_vector::small_integers;
+use super::short_vector::{integer, small_integers};
 use super::states::StateSet;
 use crate::certificate::{Decision, LiftedSystem};
 use crate::problem::ContactState;
@@ -17,11 +18,18 @@ use crate::solutions::ContactSet;
 const TRIED_AGAIN: usize = 256;
 
 /// The proof of one group, as far as it is written.
+///
+/// Within half-spaces, the systems that are passed to it have another contact for each half-space, whose positive side
+/// is the slack: [`ModeProblem::within_half_spaces`](crate::ModeProblem::within_half_spaces).
 #[derive(Clone)]
 pub(super) struct ProofLog {
     text: String,
+    /// The equations without half-spaces.
+    own: Arc<LiftedSystem>,
     /// The exponents of the powers of two by which the file multiplies the rows.
     rows: Vec<i32>,
+    /// Which of the half-spaces of the node are those of the systems.
+    half_spaces: Vec<usize>,
     cells: ProofCells,
     vectors: u64,
     /// The numbers of vectors that exclude nodes, with the columns that they do not exclude.
@@ -34,10 +42,34 @@ pub(super) struct ProofLog {
 
 impl ProofLog {
     /// An empty proof for equations whose rows are multiplied by powers of two with these exponents.
-    pub(super) fn new(system: &LiftedSystem, rows: Vec<i32>) -> Self {
-        let shares = ShareEntries::new(system, &rows);
+    pub(super) fn new(system: LiftedSystem, rows: Vec<i32>) -> Self {
+        let shares = ShareEntries::new(&system, &rows);
         let (text, cells, recent) = (String::new(), ProofCells::default(), VecDeque::new());
-        Self { text, rows, cells, vectors: 0, recent, shares, has_gap: false }
+        let (own, half_spaces) = (Arc::new(system), Vec::new());
+        Self { text, own, rows, half_spaces, cells, vectors: 0, recent, shares, has_gap: false }
+    }
+
+    /// `g`: a linear form of the unknowns, in integers.
+    pub(super) fn form(&mut self, entries: &[IBig]) {
+        self.write_line("g", entries);
+    }
+
+    /// `s`: a node is divided by whether a combination of forms is at most a limit, or at least.
+    pub(super) fn split(&mut self, limit: &IBig, weights: &[IBig]) {
+        self.write_line(&format!("s {limit}"), weights);
+    }
+
+    /// `f`: a node is excluded by a vector of integers with entries for all of its half-spaces.
+    pub(super) fn exclude_within(&mut self, vector: &[IBig]) {
+        self.write_line("f", vector);
+    }
+
+    /// From now on, the systems are those within some of the half-spaces of a node.
+    pub(super) fn enter(&mut self, half_spaces: Vec<usize>) {
+        self.rows.truncate(self.own.rows());
+        self.rows.resize(self.own.rows() + half_spaces.len(), 0);
+        self.half_spaces = half_spaces;
+        self.recent.clear();
     }
 
     /// The lines, and the number of cells; `None` if some step could not be written.
@@ -65,11 +97,10 @@ impl ProofLog {
         allowed: &ContactSet,
     ) -> bool {
         if system.rows() == vector.len() {
-            self.write_vector('f', vector);
+            self.write_integers(vector);
         } else if let Some(shares) = &self.shares
             && let Some(vector) = shares.completed(vector, allowed, &mut left)
         {
-            let vector = self.for_rows(system, &vector);
             self.write_vector('f', &vector);
         } else {
             return false;
@@ -86,7 +117,7 @@ impl ProofLog {
         vector: &[f64],
         allowed: &ContactSet,
     ) -> bool {
-        if system.rows() != vector.len() {
+        if system.rows() != vector.len() || !self.half_spaces.is_empty() {
             return false;
         }
         let Some(whole) = small_integers(vector) else { return false };
@@ -101,7 +132,7 @@ impl ProofLog {
         if excess <= IBig::ZERO || !left.is_disjoint(allowed) {
             return false;
         }
-        self.write_vector('f', &whole);
+        self.write_integers(&whole);
         self.try_again(left);
         true
     }
@@ -114,7 +145,11 @@ impl ProofLog {
         self.try_again(left);
     }
 
+    /// Keeps the vector that was written last, unless it has entries for half-spaces.
     fn try_again(&mut self, left: ContactSet) {
+        if !self.half_spaces.is_empty() {
+            return;
+        }
         self.recent.push_back((self.vectors - 1, left));
         if self.recent.len() > TRIED_AGAIN {
             self.recent.pop_front();
@@ -163,7 +198,11 @@ impl ProofLog {
     ) {
         let Some(number) = self.cells.number_of(pattern) else { return };
         let support = self.cells.support(number).clone();
-        if !allowed.is_within(&support) {
+        if !self.half_spaces.is_empty() {
+            if !self.without_slacks(allowed).is_within(&support) {
+                self.cells.keep_pattern(number);
+            }
+        } else if !allowed.is_within(&support) {
             match reducing(&support) {
                 Some(vector) if !self.remove(system, &vector) => return,
                 Some(_) => {}
@@ -180,7 +219,7 @@ impl ProofLog {
         system: &LiftedSystem,
         pattern: &[ContactState],
         decision: &Decision,
-        excluding: &mut dyn FnMut(&[StateSet]) -> Option<Vec<IBig>>,
+        excluding: &mut dyn FnMut() -> Option<Vec<IBig>>,
     ) -> bool {
         if let Decision::NoSolution { .. } = decision {
             self.text.push_str("x\n");
@@ -190,12 +229,11 @@ impl ProofLog {
             self.has_gap = true;
             return false;
         };
-        if let Some(cell) = Cell::of(system, pattern, &corners) {
+        if let Some(cell) = Cell::of(&self.own, pattern, &corners) {
             self.cells.add(pattern, cell);
             return true;
         }
-        let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-        match excluding(&states) {
+        match excluding() {
             Some(vector) => self.exclude_exactly(system, &vector),
             None => self.has_gap = true,
         }
@@ -206,13 +244,13 @@ impl ProofLog {
     /// `None`, with nothing written, if the solutions have too many corners.
     pub(super) fn monotone(
         &mut self,
-        system: &LiftedSystem,
         pattern: &[ContactState],
         decision: &Decision,
     ) -> Option<Vec<StateSet>> {
-        let cell = Cell::of(system, pattern, &corners(pattern, decision)?)?;
+        let own = &self.own;
+        let cell = Cell::of(own, pattern, &corners(pattern, decision)?)?;
         let is_positive = |contact: usize, state: ContactState| {
-            system.columns_of(contact, state).next().is_some_and(|column| cell.support.contains(column))
+            own.columns_of(contact, state).next().is_some_and(|column| cell.support.contains(column))
         };
         let left = pattern.iter().enumerate().map(|(contact, &state)| {
             if is_positive(contact, state) { StateSet::only(state) } else { StateSet::undecided(false) }
@@ -237,15 +275,45 @@ impl ProofLog {
         moved
     }
 
-    /// A vector of integers.
-    fn write_vector<T: Display + Default + PartialEq>(&mut self, step: char, vector: &[T]) {
-        self.text.push(step);
-        let end = vector.iter().rposition(|entry| *entry != T::default()).map_or(0, |last| last + 1);
-        for entry in &vector[..end] {
-            let _ = write!(self.text, " {entry}");
+    /// `f` with a vector of integers of at most 63 bits.
+    fn write_integers(&mut self, vector: &[f64]) {
+        let integers: Vec<i64> = vector.iter().map(|&entry| integer(entry)).collect();
+        self.write_vector('f', &integers);
+    }
+
+    /// A vector for the rows of the file and for those of its half-spaces that the systems have.
+    fn write_vector<T: Display + Default + PartialEq + Clone>(&mut self, step: char, vector: &[T]) {
+        let (own, within) = vector.split_at(vector.len() - self.half_spaces.len());
+        let mut entries = own.to_vec();
+        for (&at, entry) in self.half_spaces.iter().zip(within) {
+            entries.resize(own.len() + at, T::default());
+            entries.push(entry.clone());
+        }
+        let is_numbered = entries[own.len()..].iter().all(|entry| *entry == T::default());
+        self.vectors += u64::from(is_numbered);
+        self.write_line(&step.to_string(), &entries);
+    }
+
+    /// A step with numbers, of which zeros at the end are omitted.
+    fn write_line<T: Display + Default + PartialEq>(&mut self, step: &str, numbers: &[T]) {
+        self.text.push_str(step);
+        let end = numbers.iter().rposition(|number| *number != T::default()).map_or(0, |last| last + 1);
+        for number in &numbers[..end] {
+            let _ = write!(self.text, " {number}");
         }
         self.text.push('\n');
-        self.vectors += 1;
+    }
+
+    /// The columns of the problem among those of a system within half-spaces; without jumps.
+    fn without_slacks(&self, columns: &ContactSet) -> ContactSet {
+        let contacts = self.own.contacts();
+        let size = contacts + self.half_spaces.len();
+        let mut real = ContactSet::none_of(self.own.width());
+        columns
+            .iter()
+            .filter(|column| column % size < contacts)
+            .for_each(|column| real.insert(column / size * contacts + column % size));
+        real
     }
 }
 

@@ -9,13 +9,15 @@
 //! positive side, and so on; in its gap, both `y` are zero. The condition that one of `y_k^+` and `y_k^-` is
 //! zero is dropped. If this has no solution, the node has none.
 
+mod half_spaces;
+
 use nalgebra::DVector;
 
 use super::UNDERFLOW;
 use super::faces::Positive;
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
-use crate::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
+use crate::simplex::{Basis, Bounds, LinearOutcome, LinearProgram, dot};
 use crate::solutions::ContactSet;
 
 /// A Farkas vector must exclude by this fraction of the size of its terms, which is the tolerance for
@@ -34,6 +36,10 @@ pub(super) struct Relaxation {
     /// The variable `y_k^+` of each contact; `y_k^-` follows, and `lambda_k` where there is a jump.
     first: Vec<usize>,
     has_jump: Vec<bool>,
+    /// `b`: that of the program but for a factor.
+    load: Vec<f64>,
+    /// The same program without loads, for unknowns that are known to be large.
+    far: Option<LinearProgram>,
     /// The power of two that multiplies each column of the program.
     column_scale: Vec<f64>,
     /// Size of the terms of the right-hand side, and how much of them rounding may have changed.
@@ -45,6 +51,8 @@ pub(super) struct Relaxation {
     column_sums: Vec<[f64; 2]>,
     /// Bounds on `y_k` that hold for every solution.
     largest: Vec<f64>,
+    /// How many of the last contacts are slacks of half-spaces, of which the first bounds the unknowns.
+    slacks: usize,
 }
 
 /// The relaxed solution for one contact.
@@ -108,13 +116,26 @@ impl Relaxation {
             program: LinearProgram::new(&columns, problem.base().as_slice().to_vec(), cost),
             first,
             has_jump: problem.has_jump.clone(),
+            load: problem.base().as_slice().to_vec(),
+            far: None,
             column_scale,
             load_size,
             load_error,
             spread,
             column_sums,
             largest,
+            slacks: 0,
         }
+    }
+
+    /// `v . b`.
+    pub(super) fn load_product(&self, vector: &[f64]) -> f64 {
+        dot(vector, &self.load)
+    }
+
+    /// `b`.
+    pub(super) fn load(&self) -> &[f64] {
+        &self.load
     }
 
     pub(super) fn first_basis(&self) -> Basis {
@@ -135,7 +156,11 @@ impl Relaxation {
         let relaxed = match self.program.solve(&mut basis, &bounds, iterations, proceed) {
             LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values, &basis)),
             LinearOutcome::Infeasible(farkas) => {
-                self.verified(farkas, &bounds, Some(&basis)).map_or(Relaxed::Undecided, Relaxed::Excluded)
+                match (self.verified(self.deepened(farkas), &bounds, Some(&basis)), &self.far) {
+                    (Some(farkas), _) => Relaxed::Excluded(farkas),
+                    (None, Some(far)) => self.without_loads(far, &bounds, &mut basis, iterations, proceed),
+                    (None, None) => Relaxed::Undecided,
+                }
             }
             LinearOutcome::Undecided => return (Relaxed::Undecided, self.first_basis()),
         };
@@ -225,7 +250,10 @@ impl Relaxation {
         let mut left = ContactSet::none_of(2 * (contacts + jumps));
         for (contact, &first) in self.first.iter().enumerate() {
             for side in [0, 1] {
-                let high = combined[first + side] + largest * self.largest_error(first + side);
+                // The product with the column of a slack is one entry times a power of two.
+                let is_exact = self.is_slack(first);
+                let error = if is_exact { 0.0 } else { largest * self.largest_error(first + side) };
+                let high = combined[first + side] + error;
                 if high > 0.0 || high.is_nan() {
                     left.insert(side * contacts + contact);
                 }
@@ -310,7 +338,7 @@ impl Relaxation {
 
     /// `v . b` exceeds what the left side can reach.
     fn excludes(&self, farkas: &[f64], sizes: &[f64], most: f64, size: f64) -> bool {
-        let load = crate::simplex::dot(farkas, self.program.right_hand_side());
+        let load = self.load_product(farkas);
         let terms = size_of_terms(&self.load_size, sizes);
         let error = size_of_terms(&self.load_error, sizes);
         let slack = 2.0 * error + (self.rounding() + MARGIN) * (terms + size + most.abs());

@@ -2,6 +2,7 @@
 
 use dashu_int::IBig;
 
+use super::short_vector::integer;
 use crate::certificate::LiftedSystem;
 use crate::solutions::ContactSet;
 
@@ -10,14 +11,16 @@ use crate::solutions::ContactSet;
 const COLUMN_BITS: u32 = 72;
 const VECTOR_BITS: u32 = 42;
 const MOST_ROWS: usize = 1 << 6;
+/// The rows of the file differ from those of the columns by at most 2 to this power.
+const MOST_BITS_APART: u32 = 80;
 
 /// The columns of shares and the right-hand side, without the equations of shares.
 #[derive(Clone)]
 pub(super) struct ShareEntries {
     columns: Vec<Vec<i128>>,
     right: Vec<i128>,
-    /// The rows of a vector are multiplied by 2 to these powers.
-    shifts: Vec<usize>,
+    /// In vectors for the rows of the file, the other entries or those of shares are multiplied by 2 to these powers.
+    factors: [u32; 2],
     /// The number of the first column.
     first: usize,
 }
@@ -44,10 +47,14 @@ impl ShareEntries {
             (first..system.width()).map(|column| short(system.column(column))).collect();
         let right = short(system.right())?;
         let fits = system.rows() > contacts && contacts <= MOST_ROWS;
-        fits.then_some(Self { columns: columns?, right, shifts, first })
+        // The rows of the file are these times 2^least, and times 2^rows for shares.
+        let apart = rows.get(contacts)? - least;
+        let factors = [apart, -apart].map(|power| u32::try_from(power).unwrap_or(0));
+        let fits = fits && factors.iter().all(|&power| power <= MOST_BITS_APART);
+        fits.then_some(Self { columns: columns?, right, factors, first })
     }
 
-    /// The vector for the lifted equations, with the largest entries for the equations of shares that make no product
+    /// The vector for the rows of the file, with the largest entries for the equations of shares that make no product
     /// with an allowed column positive; rounded down as far as `v . b > 0` permits. Columns of shares that it does
     /// not exclude are added to those left. `None` if `v . b` is not positive.
     pub(super) fn completed(
@@ -55,9 +62,8 @@ impl ShareEntries {
         vector: &[f64],
         allowed: &ContactSet,
         left: &mut ContactSet,
-    ) -> Option<Vec<IBig>> {
-        let entry = |&entry: &f64| i128::try_from(IBig::try_from(entry).ok()?).ok();
-        let vector: Vec<i128> = vector.iter().map(entry).collect::<Option<_>>()?;
+    ) -> Option<Vec<i128>> {
+        let vector: Vec<i128> = vector.iter().map(|&entry| i128::from(integer(entry))).collect();
         if vector.iter().any(|entry| entry.unsigned_abs() >> VECTOR_BITS != 0) {
             return None;
         }
@@ -80,7 +86,15 @@ impl ShareEntries {
                 left.insert(self.first + at);
             }
         }
-        let rows = vector.iter().zip(&self.shifts).map(|(&entry, &shift)| IBig::from(entry) << shift);
-        Some(rows.chain(entries.iter().map(|&entry| IBig::from(entry))).collect())
+        let [own, shares] = self.factors;
+        if entries.iter().any(|entry| entry.unsigned_abs().leading_zeros() <= shares + 1) {
+            return None;
+        }
+        let scaled =
+            vector.iter().map(|entry| entry << own).chain(entries.iter().map(|entry| entry << shares));
+        let mut scaled: Vec<i128> = scaled.collect();
+        let common = scaled.iter().fold(0, |bits, entry| bits | entry).trailing_zeros();
+        scaled.iter_mut().for_each(|entry| *entry >>= common.min(127));
+        Some(scaled)
     }
 }

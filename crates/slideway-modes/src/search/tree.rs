@@ -87,6 +87,20 @@ impl<'a> Tree<'a> {
         }
     }
 
+    /// A tree for a problem whose last contacts are slacks of half-spaces (see
+    /// [`Relaxation::within_half_spaces`]). Patterns are examined, and cells written, without them.
+    pub(super) fn within_half_spaces(
+        (loaded, problem): (&LoadedProblem<'_>, &'a ScaledProblem),
+        slacks: usize,
+        load_radius: &DVector<f64>,
+        options: &SearchOptions,
+    ) -> Self {
+        let unbounded = vec![f64::INFINITY; problem.contacts()];
+        let relaxation = Relaxation::new(problem, load_radius, unbounded).within_half_spaces(slacks);
+        let tree = Self::new((loaded, problem), None, load_radius, options);
+        Self { relaxation: Arc::new(relaxation), ..tree }
+    }
+
     /// The same tree, which also writes its steps.
     pub(super) fn logged(self, log: ProofLog) -> Self {
         Self { log: Some(log), faces: self.faces.map(Faces::with_supports), ..self }
@@ -221,7 +235,11 @@ impl<'a> Tree<'a> {
         }
         let inside = match &relaxed {
             None if self.excludes_exactly(&node.states, monitor) => return Ok(()),
-            Some(relaxed) if self.faces.is_some() && is_complementary(&node.states, relaxed) => {
+            Some(relaxed)
+                if self.faces.is_some()
+                    && !self.relaxation.is_far()
+                    && is_complementary(&node.states, relaxed) =>
+            {
                 self.relaxation.inside(&node.states, &basis, &mut || monitor.goes_on())
             }
             _ => None,
@@ -315,10 +333,14 @@ impl<'a> Tree<'a> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
         let (Some(log), Some(faces)) = (&mut self.log, &self.faces) else { return Ok(()) };
+        let (pattern, slacks) = pattern.split_at(pattern.len() - self.relaxation.slacks());
         let mut examined = Ok(());
         if !log.has_cell(pattern) {
             let decision = leaves.decide(pattern, monitor)?;
-            let excluding = &mut |states: &[StateSet]| faces.excluding(states, &mut || monitor.goes_on());
+            let excluding = &mut || {
+                let own = pattern.iter().chain(slacks).map(|&state| StateSet::only(state));
+                faces.excluding(&own.collect::<Vec<_>>(), &mut || monitor.goes_on())
+            };
             let has_cell = log.decided(faces.system(), pattern, &decision, excluding);
             examined = leaves.examine_decided(pattern, decision, monitor);
             if !has_cell {

@@ -33,7 +33,7 @@ const RESIDUAL: f64 = 1e-7;
 const UPDATES: usize = 120;
 
 /// The data that all nodes of a search share.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct LinearProgram {
     rows: usize,
     columns: usize,
@@ -103,16 +103,26 @@ impl LinearProgram {
         Self { rows, columns: columns.len(), by_row, by_column, right_hand_side, cost }
     }
 
+    /// The same with a column multiplied by a factor.
+    pub(crate) fn with_multiple_of_column(mut self, column: usize, factor: f64) -> Self {
+        for row in 0..self.rows {
+            self.by_column[column * self.rows + row] *= factor;
+            self.by_row[row * self.columns + column] *= factor;
+        }
+        self
+    }
+
+    /// The same with another right-hand side.
+    pub(crate) fn with_right_hand_side(self, right_hand_side: Vec<f64>) -> Self {
+        Self { right_hand_side, ..self }
+    }
+
     pub(crate) fn column(&self, column: usize) -> &[f64] {
         &self.by_column[column * self.rows..][..self.rows]
     }
 
     pub(crate) fn columns(&self) -> usize {
         self.columns
-    }
-
-    pub(crate) fn right_hand_side(&self) -> &[f64] {
-        &self.right_hand_side
     }
 
     /// `v^T A`.
