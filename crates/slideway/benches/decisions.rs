@@ -41,6 +41,7 @@ fn margin_of_sticking(bencher: Bencher<'_, '_>, name: &str) {
     let phase = Phase {
         joints: vec![JointPhase::Sticking; sliders(&mechanism)],
         contacts: vec![ContactPhase::Pressed(Side::Positive); mechanism.contacts.len()],
+        hinges: Vec::new(),
     };
     bencher.bench(|| sticking_margin(&mechanism, &configuration, &phase));
 }

@@ -1,6 +1,6 @@
 //! Motion in time, with the contact mode as part of the state (theory, section 8).
 //!
-//! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is
+//! Between events every sliding joint, contact and hinge with friction keeps what it does, its [`Phase`], and the motion is
 //! smooth: an explicit Runge-Kutta method of order 5 follows positions and velocities of all bodies, and
 //! every step is projected back on the joints. An event ends the phase; a [decision](Decisions) says how the
 //! motion goes on. Energy is accounted for: work and dissipation are integrated beside the motion, and the
@@ -8,8 +8,8 @@
 //!
 //! # What is watched
 //! Within a phase: normal forces, shares in preload gaps, sliding velocities, the determinant of the mode,
-//! couples of guided sliders, how much friction is left to joints that stick, overlaps, travel limits,
-//! functions of the user. They are evaluated at both ends of each step and at its thirds, and where the cubic
+//! couples of guided sliders, angular velocities of hinges with friction, how much friction is left to what sticks,
+//! overlaps, travel limits, functions of the user. They are evaluated at both ends of each step and at its thirds, and where the cubic
 //! through these values has a minimum near zero; where one has fallen below zero its zero is found on the
 //! solution within the step. A function that swings faster than that, so that no cubic shows it, can be
 //! missed: [`SimulateOptions::longest_step`] bounds that.
@@ -41,7 +41,7 @@ mod told;
 #[cfg(test)]
 mod tests;
 
-pub use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
+pub use crate::pattern::phase::{ContactPhase, HingePhase, JointPhase, Phase};
 pub use decision::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
@@ -51,7 +51,9 @@ pub use moving::cause::{Cause, CauseKind};
 pub use moving::equations::Drift;
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use record::event::{Event, modes_in_words, phase_in_words};
-pub use record::history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
+pub use record::history::{
+    ContactSample, End, Energy, HingeSample, History, PhaseInterval, Reader, Sample, Statistics,
+};
 pub use told::report::{
     BranchReport, CauseReport, EndKind, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
     SampledReport, SimulateReport, StatisticsReport, report,

@@ -72,6 +72,12 @@ impl Pin {
         at_rest.into_iter().chain(edges.into_iter().map(|edge| self.slack(-1.0, edge, -sign))).collect()
     }
 
+    /// `-s M = r t.R` of a hinge that turns.
+    pub(super) fn along(&self, direction: [f64; 2]) -> [Affine; 2] {
+        let sign = self.turning.unwrap_or_default();
+        [self.slack(1.0, direction, sign), self.slack(-1.0, direction, -sign)]
+    }
+
     /// `side r c.R + sign M`.
     fn slack(&self, side: f64, direction: [f64; 2], sign: f64) -> Affine {
         let [x, y] = &self.reaction;
@@ -275,10 +281,7 @@ impl Pinned<'_> {
     fn tangent(&self, mut end: End) -> Result<Option<(Directions, Region)>, Unsolved> {
         let mut directions = self.directions(&end);
         for _ in 0..MOST_STEPS {
-            let both = |(pin, t): (&Pin, &[f64; 2])| {
-                let sign = pin.turning.unwrap_or_default();
-                [pin.slack(1.0, *t, sign), pin.slack(-1.0, *t, -sign)]
-            };
+            let both = |(pin, t): (&Pin, &[f64; 2])| pin.along(*t);
             let region = self.convex.within(self.pins.iter().zip(&directions).flat_map(both));
             let (slack, at) = region.highest()?;
             if slack < -UNLOADED {

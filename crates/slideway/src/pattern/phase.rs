@@ -1,21 +1,24 @@
-//! What every sliding joint and contact does while the motion is smooth.
+//! What every sliding joint, contact and hinge with friction does while the motion is smooth.
 
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
 
-/// What every sliding joint and contact does between two events.
+/// What every sliding joint, contact and hinge with friction does between two events.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
     /// One for each sliding joint, in the order of the mechanism's joints.
     pub joints: Vec<JointPhase>,
     /// One for each contact, in the order of the mechanism's contacts.
     pub contacts: Vec<ContactPhase>,
+    /// One for each hinge with friction, in the order of the mechanism's friction circles.
+    pub hinges: Vec<HingePhase>,
 }
 
 impl Phase {
     /// One character for each contact: `+` or `-` for the sign of its normal force, `0` in its preload gap,
-    /// `=` where its joint sticks.
+    /// `=` where its joint sticks; then one for each hinge with friction: `+` or `-` for the sign of the angular
+    /// velocity of its first body against the second, `=` where it sticks.
     pub fn pattern(&self, mechanism: &Mechanism) -> String {
         let sliders = sliding_joints(mechanism);
         let contacts = mechanism.contacts.iter().zip(&self.contacts);
@@ -27,17 +30,71 @@ impl Phase {
                 phase.symbol()
             }
         };
-        contacts.map(sign).collect()
+        contacts.map(sign).chain(self.hinges.iter().map(|hinge| hinge.state.symbol())).collect()
+    }
+
+    /// Whether every joint, contact and hinge does what it does in another phase.
+    pub(crate) fn has_states_of(&self, other: &Self) -> bool {
+        self.contacts == other.contacts && self.joints_and_hinges().eq(other.joints_and_hinges())
+    }
+
+    /// Whether nothing slides or turns.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        let mut joints = self.joints_and_hinges();
+        self.joints.len() + self.hinges.len() > 0 && joints.all(|joint| joint == JointPhase::Sticking)
+    }
+
+    /// Whether something sticks.
+    pub(crate) fn sticks(&self) -> bool {
+        self.joints_and_hinges().any(|joint| joint == JointPhase::Sticking)
+    }
+
+    /// What the sliding joints do, then the hinges with friction.
+    pub(crate) fn joints_and_hinges(&self) -> impl Iterator<Item = JointPhase> {
+        self.joints.iter().copied().chain(self.hinges.iter().map(|hinge| hinge.state))
     }
 }
 
-/// What a sliding joint does.
+/// What a hinge with friction does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HingePhase {
+    /// Whether it turns, with the sign of the angular velocity of its first body against the second, or sticks.
+    pub state: JointPhase,
+    /// Its force on the first body where the phase begins (N): of several solutions in which everything else is the same
+    /// it says which one is meant.
+    pub force: [f64; 2],
+}
+
+/// What a sliding joint does, or a hinge with friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointPhase {
-    /// It slides: kinetic friction acts against the velocity, whose sign is given (1 or -1).
+    /// It slides or turns: kinetic friction acts against the velocity, whose sign is given (1 or -1).
     Sliding(f64),
-    /// It sticks: no relative velocity along the guide, friction is a reaction.
+    /// It sticks: no relative velocity, friction is a reaction.
     Sticking,
+}
+
+impl JointPhase {
+    /// What a joint does whose velocity has this sign, or none.
+    pub(crate) fn of_sign(sign: f64) -> Self {
+        if sign == 0.0 { Self::Sticking } else { Self::Sliding(sign) }
+    }
+
+    /// The sign of the velocity: 1, -1, or 0 where it sticks.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Sliding(sign) => sign,
+            Self::Sticking => 0.0,
+        }
+    }
+
+    fn symbol(self) -> char {
+        match self {
+            Self::Sliding(sign) if sign < 0.0 => '-',
+            Self::Sliding(_) => '+',
+            Self::Sticking => '=',
+        }
+    }
 }
 
 /// What a contact does.

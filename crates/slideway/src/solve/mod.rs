@@ -43,11 +43,11 @@ mod words;
 pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub use hinges::exact_block_problem;
-pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states};
+pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states, never_turning};
 pub(crate) use hinges::{block_instance, directions, locking_factor, turning_hinges, unknowns_of};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
+    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;

@@ -144,7 +144,7 @@ pub(crate) fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMat
 }
 
 /// The same of any rows: a column for each contact.
-pub(super) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) -> BySide<DMatrix<f64>> {
+pub(crate) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) -> BySide<DMatrix<f64>> {
     let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
     let [positive, mut negative] = eta.map(|eta| eta.map(without_rounding));
     for (k, contact) in mechanism.contacts.iter().enumerate() {

@@ -8,13 +8,15 @@ use super::setup::Setup;
 use super::state::Pattern;
 use crate::configuration::null_space;
 use crate::pattern::{Affine, JointPhase, Region};
-use nalgebra::{DMatrix, RowDVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
-/// The motions that go on from some joints' signs.
+/// The motions that go on from some joints' signs: `start` and any combination of the columns of `motions`.
 #[derive(Clone)]
 struct Branch {
     signs: Vec<f64>,
-    /// The motions in which every joint with the sign 0 is at rest, one in each column.
+    /// A motion in which every joint with the sign 0 is at rest; zero unless velocities decide of accelerations.
+    start: DVector<f64>,
+    /// What may be added to it, one in each column.
     motions: DMatrix<f64>,
 }
 
@@ -30,10 +32,12 @@ pub(super) fn most_directions(motions: usize, joints: usize) -> u64 {
     sum
 }
 
-/// What joints and hinges do in some motion, their contacts left out; the motions are one in each column.
+/// What joints and hinges do in some motion, their contacts left out; the motions are one in each column. Those whose
+/// velocities are known do what these say, and the accelerations of the others decide.
 pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>) -> Vec<Pattern> {
     let rows = rows(setup);
-    let mut branches = vec![Branch { signs: Vec::new(), motions: motions.clone() }];
+    let start = acceleration_of_velocities(setup);
+    let mut branches = vec![Branch { signs: Vec::new(), start, motions: motions.clone() }];
     for joint in 0..rows.len() {
         let mut next = Vec::new();
         for branch in branches {
@@ -41,7 +45,7 @@ pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>) -> Vec<Pattern> 
         }
         branches = next;
     }
-    let phase = |sign: &f64| if *sign == 0.0 { JointPhase::Sticking } else { JointPhase::Sliding(*sign) };
+    let phase = |sign: &f64| JointPhase::of_sign(*sign);
     let pattern = |branch: Branch| {
         let (joints, hinges) = branch.signs.split_at(setup.sliders.len());
         Pattern {
@@ -53,50 +57,80 @@ pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>) -> Vec<Pattern> 
     branches.into_iter().map(pattern).collect()
 }
 
-/// How sliders slide and hinges with friction turn with the motions of the bodies, in units in which motions are of order
-/// one.
-fn rows(setup: &Setup) -> Vec<RowDVector<f64>> {
-    let equations = setup.equations_of_motion();
-    let sliding = setup.sliders.iter().map(|slider| {
-        let Some(&k) = slider.contacts.first() else { return RowDVector::zeros(equations) };
-        let [positive, negative] = &setup.assembled.friction[k];
-        RowDVector::from_fn(equations, |_, column| {
-            -f64::midpoint(positive[column], negative[column]) / setup.units.length
-        })
-    });
-    let turning = setup.mechanism.friction_circles.iter().map(|circle| {
-        let mut row = RowDVector::zeros(equations);
-        for (column, sign) in setup.couple(circle) {
-            row[column] += sign;
-        }
-        row
-    });
-    sliding.chain(turning).collect()
+/// How a sliding joint or a hinge with friction moves with the bodies, in units in which motions are of order one.
+struct Row {
+    of_motion: RowDVector<f64>,
+    /// What velocities add where motions are accelerations.
+    of_velocities: f64,
+    /// The sign of the velocity, 0 where it has to stick; nothing where the acceleration decides.
+    sign: Option<f64>,
 }
 
-/// The branches that the next joint's signs leave.
-fn extended(rows: &[RowDVector<f64>], joint: usize, branch: &Branch) -> Vec<Branch> {
-    let moves = &rows[joint] * &branch.motions;
-    let with = |sign: f64, motions: DMatrix<f64>| {
-        let signs = branch.signs.iter().copied().chain([sign]).collect();
-        Branch { signs, motions }
-    };
-    let size = rows[joint].amax() * branch.motions.amax();
-    if moves.iter().all(|value| value.abs() <= TOLERANCE * size) {
-        return vec![with(0.0, branch.motions.clone())];
+impl Row {
+    fn at(&self, motion: &DVector<f64>) -> f64 {
+        (&self.of_motion * motion)[0] + self.of_velocities
     }
-    let still = &branch.motions * null_space(&DMatrix::from_rows(&[moves]));
-    let options = [(0.0, still), (1.0, branch.motions.clone()), (-1.0, branch.motions.clone())];
-    let next = options.into_iter().map(|(sign, motions)| with(sign, motions));
+}
+
+fn rows(setup: &Setup) -> Vec<Row> {
+    let row = |joint: usize| {
+        let length = if joint < setup.sliders.len() { setup.units.length } else { 1.0 };
+        let unit = setup.units.acceleration * length / setup.units.length;
+        let known = setup.known[joint];
+        Row { of_motion: setup.row(joint) / length, of_velocities: known.acceleration / unit, sign: known.sign }
+    };
+    (0..setup.known.len()).map(row).collect()
+}
+
+/// Accelerations that joints and drives ask for at the velocities of the bodies, in units of those in a size of the
+/// mechanism.
+fn acceleration_of_velocities(setup: &Setup) -> DVector<f64> {
+    let (equations, rows) = (setup.equations_of_motion(), setup.assembled.layout.len());
+    let wanted = setup.assembled.load.rows(equations, rows - equations).into_owned();
+    if wanted.iter().all(|value| *value == 0.0) {
+        return DVector::zeros(equations);
+    }
+    let joints = setup.assembled.matrix.view((equations, 0), (rows - equations, equations)).into_owned();
+    let found = joints.svd(true, true).solve(&wanted, TOLERANCE).expect("both sets of vectors are computed");
+    found * (setup.units.length / setup.units.acceleration)
+}
+
+/// The branches that the next joint's signs leave: the one that is known, or all.
+fn extended(rows: &[Row], joint: usize, branch: &Branch) -> Vec<Branch> {
+    let known = rows[joint].sign;
+    let with = |sign: f64, start: DVector<f64>, motions: DMatrix<f64>| {
+        let signs = branch.signs.iter().copied().chain([sign]).collect();
+        Branch { signs, start, motions }
+    };
+    let as_before = |sign: f64| with(sign, branch.start.clone(), branch.motions.clone());
+    if let Some(sign) = known.filter(|sign| *sign != 0.0) {
+        return vec![as_before(sign)];
+    }
+    let (moves, begins) = (&rows[joint].of_motion * &branch.motions, rows[joint].at(&branch.start));
+    let size = rows[joint].of_motion.amax() * branch.motions.amax();
+    if moves.iter().all(|value| value.abs() <= TOLERANCE * size) {
+        let sign = if known.is_some() || begins.abs() <= TOLERANCE * branch.start.amax().max(1.0) {
+            0.0
+        } else {
+            begins.signum()
+        };
+        return vec![as_before(sign)];
+    }
+    let start = &branch.start - &branch.motions * moves.transpose() * (begins / moves.norm_squared());
+    let still = with(0.0, start, &branch.motions * null_space(&DMatrix::from_rows(&[moves])));
+    if known.is_some() {
+        return vec![still];
+    }
+    let next = [still, as_before(1.0), as_before(-1.0)].into_iter();
     next.filter(|next| is_possible(rows, next)).collect()
 }
 
 /// Whether some motion has all the signs; where the linear program is not solved, it may.
-fn is_possible(rows: &[RowDVector<f64>], branch: &Branch) -> bool {
-    let moving = rows.iter().zip(&branch.signs).filter(|(_, sign)| **sign != 0.0);
-    let slack = |(row, sign): (&RowDVector<f64>, &f64)| Affine {
-        coefficients: (row * &branch.motions).iter().map(|value| sign * value).collect(),
-        constant: 0.0,
+fn is_possible(rows: &[Row], branch: &Branch) -> bool {
+    let moving = rows.iter().zip(&branch.signs).filter(|(row, sign)| row.sign.is_none() && **sign != 0.0);
+    let slack = |(row, sign): (&Row, &f64)| Affine {
+        coefficients: (&row.of_motion * &branch.motions).iter().map(|value| sign * value).collect(),
+        constant: sign * row.at(&branch.start),
     };
     let highest = Region::new(branch.motions.ncols(), moving.map(slack).collect()).highest();
     highest.map_or(true, |(slack, _)| slack > TOLERANCE)

@@ -42,9 +42,10 @@
 //! `standstill` stands beside `solve` and takes `kinetics::Assembled`, the equations without factorization:
 //! at rest they need no inertia. `setup.rs` is the mechanism at rest with its varied load, `state.rs` the
 //! equations of one state of joints and contacts, `directions.rs` which way joints may move together; `rest.rs`, `threshold.rs` and `release.rs` are the
-//! questions.
+//! questions, `instant.rs` that of a mechanism in motion with friction in hinges, `turning.rs` its states in which some turn.
 
 mod directions;
+mod instant;
 mod reactions;
 mod release;
 mod report;
@@ -53,6 +54,7 @@ mod setup;
 mod state;
 mod text;
 mod threshold;
+mod turning;
 mod words;
 
 pub use report::{
@@ -68,10 +70,12 @@ use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::sharing::load_sharing;
 use directions::{directions, most_directions};
+pub(crate) use instant::{MotionState, motion_states, sticking_slack};
 use nalgebra::DMatrix;
 use rest::Over;
-use setup::Setup;
-use state::{Pattern, side_options};
+pub(crate) use setup::Setup;
+pub(crate) use state::Pattern;
+use state::side_options;
 
 /// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations
 /// below this as none.

@@ -59,7 +59,7 @@ fn release(
     region: Region,
 ) -> Result<Option<Release>, Unsolved> {
     let Some(region) = possible(region)? else { return Ok(None) };
-    let Some(region) = really_slipping(setup, pattern, state, region)? else { return Ok(None) };
+    let Some(region) = really_slipping(setup, state, region)? else { return Ok(None) };
     let of_joint = |(index, slider): (usize, &SlidingJoint)| {
         let expression = state.sliding_acceleration(index);
         let (slip, acceleration) = match pattern.joints[index] {
@@ -88,28 +88,23 @@ fn release(
 
 /// The region, unless a joint that should slip does not accelerate anywhere in it. Where no joint slips some
 /// coordinate must accelerate.
-fn really_slipping(
-    setup: &Setup,
-    pattern: &Pattern,
-    state: &State<'_>,
-    region: Region,
-) -> Result<Option<Region>, Unsolved> {
-    let mut some = false;
-    let sliding =
-        pattern.joints.iter().enumerate().map(|(index, joint)| (joint, state.sliding_acceleration(index)));
-    let turning =
-        pattern.hinges.iter().enumerate().map(|(index, hinge)| (hinge, state.turning_acceleration(index)));
-    for (joint, acceleration) in sliding.chain(turning) {
-        let JointPhase::Sliding(sign) = joint else { continue };
-        some = true;
-        let acceleration = acceleration.times(*sign);
-        let [_, greatest] = region.extent(&state.function(&acceleration))?;
+fn really_slipping(setup: &Setup, state: &State<'_>, region: Region) -> Result<Option<Region>, Unsolved> {
+    let Some(region) = really_beginning(state, region)? else { return Ok(None) };
+    let slips = !state.beginning().is_empty();
+    let rests = |region| {
+        let coordinates = coordinates(setup, state, region)?;
+        Ok(coordinates.iter().all(|coordinate| is_zero(coordinate, setup)))
+    };
+    Ok(if slips || !rests(&region)? { Some(region) } else { None })
+}
+
+/// The region, unless a joint that should begin to move does not accelerate anywhere in it.
+pub(super) fn really_beginning(state: &State<'_>, region: Region) -> Result<Option<Region>, Unsolved> {
+    for acceleration in &state.beginning() {
+        let [_, greatest] = region.extent(&state.function(acceleration))?;
         if greatest.is_some_and(|greatest| greatest <= TOLERANCE) {
             return Ok(None);
         }
-    }
-    if !some && coordinates(setup, state, &region)?.iter().all(|coordinate| is_zero(coordinate, setup)) {
-        return Ok(None);
     }
     Ok(Some(region))
 }

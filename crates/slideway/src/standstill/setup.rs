@@ -5,29 +5,29 @@ use super::HoldOptions;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
-use crate::kinetics::{Assembled, Reaction};
-use crate::mechanism::{Attachment, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
+use crate::kinetics::{Assembled, ConstraintRow, Reaction};
+use crate::mechanism::{Attachment, CoordinateKind, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
 use crate::report::Elasticity;
 use crate::sharing::{NO_STRESS, elasticity, shared_load};
-use nalgebra::{DVector, DVectorView, Vector2};
+use nalgebra::{DVector, DVectorView, RowDVector, Vector2};
 
 /// Units of the linear programs.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Units {
+pub(crate) struct Units {
     /// N
-    pub(super) force: f64,
+    pub(crate) force: f64,
     /// m
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// m/s^2
-    pub(super) acceleration: f64,
+    pub(crate) acceleration: f64,
 }
 
 /// A sliding joint.
 #[derive(Debug, Clone)]
-pub(super) struct SlidingJoint {
+pub(crate) struct SlidingJoint {
     /// Which joint it is.
     pub(super) joint: JointId,
     /// Its contacts.
@@ -38,7 +38,7 @@ pub(super) struct SlidingJoint {
 
 /// The load that is varied.
 #[derive(Debug, Clone)]
-pub(super) struct VariedLoad {
+pub(crate) struct VariedLoad {
     /// Its name.
     pub(super) name: String,
     /// What it puts into the equations of motion at a factor of one.
@@ -51,9 +51,9 @@ pub(super) struct VariedLoad {
 
 /// A mechanism at rest.
 #[derive(Debug, Clone)]
-pub(super) struct Setup {
+pub(crate) struct Setup {
     /// The mechanism, its rates zero, with the drives that hold.
-    pub(super) mechanism: Mechanism,
+    pub(crate) mechanism: Mechanism,
     /// Its positions.
     pub(super) configuration: Configuration,
     /// Its equations.
@@ -63,11 +63,22 @@ pub(super) struct Setup {
     /// The load that is varied.
     pub(super) load: Option<VariedLoad>,
     /// The sliding joints.
-    pub(super) sliders: Vec<SlidingJoint>,
+    pub(crate) sliders: Vec<SlidingJoint>,
     /// Units.
-    pub(super) units: Units,
+    pub(crate) units: Units,
     /// How redundant guides share their load; none if nothing is in excess.
     pub(super) shared: Option<SharedLoad>,
+    /// Of the sliding joints, then of the hinges with friction, what is known.
+    pub(super) known: Vec<KnownMotion>,
+}
+
+/// What is known of the motion of a sliding joint or hinge.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct KnownMotion {
+    /// The sign of its velocity, 0 where it has to stick; nothing where it is at rest and its acceleration decides.
+    pub(crate) sign: Option<f64>,
+    /// What velocities add to its acceleration (m/s^2 or rad/s^2).
+    pub(crate) acceleration: f64,
 }
 
 impl Setup {
@@ -99,7 +110,62 @@ impl Setup {
         let shared = shared(&mechanism, &assembled)?;
         let mut units = units(&mechanism, &given, load.as_ref());
         units.force = shared.as_ref().map_or(units.force, |shared| units.force.max(misfit(shared)));
-        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared })
+        let known = vec![KnownMotion::default(); sliders.len() + mechanism.friction_circles.len()];
+        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared, known })
+    }
+
+    /// A mechanism that moves, with the signs of the velocities of its sliding joints and hinges with friction, 0 where
+    /// they have to stick, nothing where accelerations decide; forces are counted in this unit (N).
+    ///
+    /// # Errors
+    /// Loads without a value, and whatever makes no sense in the position.
+    pub(crate) fn in_motion(
+        mechanism: Mechanism,
+        configuration: &Configuration,
+        (signs, force): (&[Option<f64>], f64),
+    ) -> Result<Self, Faults> {
+        let assembled = Assembled::new(&mechanism, configuration)?;
+        let given = forces(&mechanism, &assembled);
+        let sliders = sliders(&mechanism, &assembled);
+        let mut units = units(&mechanism, &given, None);
+        if force > 0.0 {
+            units.acceleration *= force / units.force;
+            units.force = force;
+        }
+        let mut row = ConstraintRow::empty();
+        let of_velocities = sliders.iter().map(|slider| {
+            row.set_coordinate(&mechanism, configuration, CoordinateKind::Slide(slider.joint));
+            -row.right_hand_side
+        });
+        let accelerations = of_velocities.chain(mechanism.friction_circles.iter().map(|_| 0.0));
+        let known = accelerations.zip(signs);
+        let known = known.map(|(acceleration, sign)| KnownMotion { sign: *sign, acceleration }).collect();
+        let configuration = configuration.clone();
+        Ok(Self {
+            mechanism,
+            configuration,
+            assembled,
+            given,
+            load: None,
+            sliders,
+            units,
+            shared: None,
+            known,
+        })
+    }
+
+    /// The same for impulses, without loads and preloads, by which one joint or hinge that moves comes to rest; jumps of
+    /// velocities stand in place of accelerations.
+    pub(crate) fn impulsive(&self, stops: usize, velocity: f64) -> Self {
+        let mut impulsive = self.alone(DVector::zeros(self.given.len()));
+        impulsive.assembled.load.fill(0.0);
+        impulsive.known.iter_mut().for_each(|known| known.acceleration = 0.0);
+        impulsive.known[stops] = KnownMotion { sign: Some(0.0), acceleration: velocity };
+        let is_hinge = stops >= self.sliders.len();
+        let speed = velocity.abs() * if is_hinge { self.units.length } else { 1.0 };
+        impulsive.units.force = self.units.force / self.units.acceleration * speed;
+        impulsive.units.acceleration = speed;
+        impulsive
     }
 
     /// A mechanism with these forces in the equations of motion alone, and without any other load, preload, play and
@@ -143,6 +209,28 @@ impl Setup {
         let on_body =
             |(end, sign): (&Attachment, f64)| end.frame.body().map(|body| (3 * body.index() + 2, sign));
         ends.into_iter().flatten().filter_map(on_body)
+    }
+
+    /// The acceleration of a sliding joint or hinge with friction, by its number among these, as a row of those of the
+    /// bodies.
+    pub(super) fn row(&self, joint: usize) -> RowDVector<f64> {
+        let mut row = RowDVector::zeros(self.equations_of_motion());
+        match joint.checked_sub(self.sliders.len()) {
+            None => {
+                if let Some(&k) = self.sliders[joint].contacts.first() {
+                    let [positive, negative] = &self.assembled.friction[k];
+                    for (column, value) in row.iter_mut().enumerate() {
+                        *value = -f64::midpoint(positive[column], negative[column]);
+                    }
+                }
+            }
+            Some(hinge) => {
+                for (column, sign) in self.couple(&self.mechanism.friction_circles[hinge]) {
+                    row[column] += sign;
+                }
+            }
+        }
+        row
     }
 
     /// The same with all coefficients of friction multiplied by a factor.

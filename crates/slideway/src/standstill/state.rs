@@ -14,13 +14,13 @@ use nalgebra::{DMatrix, DVector};
 
 /// What every joint and contact does.
 #[derive(Debug, Clone)]
-pub(super) struct Pattern {
+pub(crate) struct Pattern {
     /// The sliding joints.
-    pub(super) joints: Vec<JointPhase>,
+    pub(crate) joints: Vec<JointPhase>,
     /// The hinges with friction: turning, with the sign of the first body's angle against the second's, or sticking.
-    pub(super) hinges: Vec<JointPhase>,
+    pub(crate) hinges: Vec<JointPhase>,
     /// The contacts.
-    pub(super) contacts: Vec<ContactPhase>,
+    pub(crate) contacts: Vec<ContactPhase>,
 }
 
 /// Static friction of contacts and hinges.
@@ -145,7 +145,7 @@ impl<'s> State<'s> {
         }
         let mut further: Vec<(DVector<f64>, f64)> = Vec::new();
         if self.question.moving {
-            further.extend(self.kinematics().into_iter().map(|row| (row, 0.0)));
+            further.extend(self.kinematics());
         }
         let contacts = self.pattern.contacts.iter().enumerate();
         let in_gap = contacts.filter(|(_, contact)| **contact == ContactPhase::PreloadGap);
@@ -256,25 +256,27 @@ impl<'s> State<'s> {
         (matrix, right_hand_side)
     }
 
-    /// G a = 0, C a = 0 and, for joints and hinges that stick, S_j a = 0.
-    fn kinematics(&self) -> Vec<DVector<f64>> {
+    /// G a = gamma, C a = prescribed and, for joints and hinges that stick, S_j a + sigma_j = 0; what does not depend on
+    /// accelerations is zero at rest.
+    fn kinematics(&self) -> Vec<(DVector<f64>, f64)> {
         let setup = self.setup;
         let rows = setup.equations_of_motion();
         let mut found = Vec::new();
-        for row in rows..setup.assembled.layout.len() {
-            let entries = (0..rows).map(|column| (column, setup.assembled.matrix[(row, column)]));
+        for row_place in rows..setup.assembled.layout.len() {
+            let entries = (0..rows).map(|column| (column, setup.assembled.matrix[(row_place, column)]));
             let row = self.dense(&self.of_accelerations(entries, 1.0));
-            let size = row.amax();
-            found.push(if size > 0.0 { row / size } else { row });
+            let (size, value) = (row.amax(), setup.assembled.load[row_place]);
+            found.push(if size > 0.0 { (row / size, value / size) } else { (row, value) });
         }
+        let sticks = |acceleration: AffineExpression| (self.dense(&acceleration), -acceleration.constant);
         for (index, joint) in self.pattern.joints.iter().enumerate() {
             if *joint == JointPhase::Sticking {
-                found.push(self.dense(&self.sliding_acceleration(index)));
+                found.push(sticks(self.sliding_acceleration(index)));
             }
         }
         for (index, hinge) in self.pattern.hinges.iter().enumerate() {
             if *hinge == JointPhase::Sticking {
-                found.push(self.dense(&self.turning_acceleration(index)));
+                found.push(sticks(self.turning_acceleration(index)));
             }
         }
         found
@@ -370,19 +372,51 @@ impl State<'_> {
         let [positive, negative] = &self.setup.assembled.friction[k];
         let along = (0..self.setup.equations_of_motion())
             .map(|column| (column, -f64::midpoint(positive[column], negative[column])));
-        self.of_accelerations(along, self.setup.units.acceleration)
+        let unit = self.setup.units.acceleration;
+        self.of_accelerations(along, unit).shifted(self.of_velocities(slider) / unit)
     }
 
     /// Angular acceleration of the first body of a hinge with friction against the second.
     pub(super) fn turning_acceleration(&self, hinge: usize) -> AffineExpression {
         let circle = &self.setup.mechanism.friction_circles[hinge];
-        let units = &self.setup.units;
-        self.of_accelerations(self.setup.couple(circle), units.acceleration / units.length)
+        let unit = self.setup.units.acceleration / self.setup.units.length;
+        let of_velocities = self.of_velocities(self.setup.sliders.len() + hinge);
+        self.of_accelerations(self.setup.couple(circle), unit).shifted(of_velocities / unit)
+    }
+
+    /// What velocities add to the acceleration of a sliding joint or hinge with friction, by its number among these.
+    fn of_velocities(&self, joint: usize) -> f64 {
+        if self.question.moving { self.setup.known[joint].acceleration } else { 0.0 }
     }
 
     /// The couple of a hinge with friction, on its first body.
     pub(super) fn friction_couple(&self, hinge: usize) -> AffineExpression {
         AffineExpression::unknown(self.couples[hinge], 1.0)
+    }
+
+    /// The force of each hinge with friction on its first body (N).
+    pub(super) fn hinge_forces(&self) -> Vec<[AffineExpression; 2]> {
+        let force = |axis, circle: &FrictionCircle| {
+            self.reaction(self.hinge_place(circle, axis)).times(self.setup.units.force)
+        };
+        self.setup
+            .mechanism
+            .friction_circles
+            .iter()
+            .map(|circle| [force(0, circle), force(1, circle)])
+            .collect()
+    }
+
+    fn hinge_place(&self, circle: &FrictionCircle, axis: usize) -> usize {
+        let place = self.setup.assembled.layout.reaction(Reaction::Hinge(circle.joint, axis));
+        place.expect("every hinge has its reactions")
+    }
+
+    /// The accelerations of the bodies, or the jumps of their velocities: (x, y, angle) of each (m, rad, s).
+    pub(super) fn accelerations(&self) -> Vec<AffineExpression> {
+        (0..self.setup.equations_of_motion())
+            .map(|column| self.of_accelerations([(column, 1.0)], 1.0))
+            .collect()
     }
 
     /// A linear form of the accelerations, in this unit.
@@ -429,18 +463,21 @@ impl State<'_> {
                 ));
             }
         }
-        for (index, joint) in self.pattern.joints.iter().enumerate() {
-            if let JointPhase::Sliding(sign) = joint {
-                slacks.push(self.sliding_acceleration(index).times(*sign));
-            }
-        }
-        for (index, hinge) in self.pattern.hinges.iter().enumerate() {
-            if let JointPhase::Sliding(sign) = hinge {
-                slacks.push(self.turning_acceleration(index).times(*sign));
-            }
-        }
+        slacks.extend(self.beginning());
         let functions = slacks.iter().map(|slack| self.function(slack)).collect();
         Region::new(self.solutions.dimension(), functions).with_pins(self.pins(&static_friction.radii))
+    }
+
+    /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do.
+    pub(super) fn beginning(&self) -> Vec<AffineExpression> {
+        let sliders = self.pattern.joints.iter().enumerate();
+        let sliders = sliders.map(|(index, joint)| (index, *joint, self.sliding_acceleration(index)));
+        let hinges = self.pattern.hinges.iter().enumerate().map(|(index, hinge)| {
+            (self.setup.sliders.len() + index, *hinge, self.turning_acceleration(index))
+        });
+        let begins = sliders.chain(hinges).filter(|(index, ..)| self.setup.known[*index].sign.is_none());
+        let moving = begins.filter(|(_, joint, _)| *joint != JointPhase::Sticking);
+        moving.map(|(_, joint, acceleration)| acceleration.times(joint.sign())).collect()
     }
 
     /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones.
@@ -451,10 +488,7 @@ impl State<'_> {
                 JointPhase::Sticking => (None, *static_radius),
                 JointPhase::Sliding(sign) => (Some(sign), circle.radius),
             };
-            let reaction = [0, 1].map(|axis| {
-                let place = self.setup.assembled.layout.reaction(Reaction::Hinge(circle.joint, axis));
-                self.function(&self.reaction(place.expect("every hinge has its reactions")))
-            });
+            let reaction = [0, 1].map(|axis| self.function(&self.reaction(self.hinge_place(circle, axis))));
             Pin {
                 reaction,
                 couple: self.function(&self.friction_couple(index)),

@@ -42,7 +42,7 @@ fn sliding_phases(state: &State) -> Vec<Phase> {
             number /= 3;
             option
         };
-        Phase { joints: joints.clone(), contacts: (0..count).map(digit).collect() }
+        Phase { joints: joints.clone(), contacts: (0..count).map(digit).collect(), hinges: Vec::new() }
     };
     (0..3_usize.pow(u32::try_from(count).unwrap())).map(one).collect()
 }

@@ -48,7 +48,7 @@ impl State {
 
 /// A phase.
 pub(crate) fn phase(joints: &[JointPhase], contacts: &[ContactPhase]) -> Phase {
-    Phase { joints: joints.to_vec(), contacts: contacts.to_vec() }
+    Phase { joints: joints.to_vec(), contacts: contacts.to_vec(), hinges: Vec::new() }
 }
 
 /// The joints of each phase that can follow: 'o' sticks, '+' and '-' slide.

@@ -7,6 +7,7 @@ mod closed_forms;
 mod dead_centre;
 mod gallery;
 mod limits;
+mod motion;
 mod reading;
 mod reference;
 mod standstill;

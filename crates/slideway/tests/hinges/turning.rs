@@ -5,7 +5,7 @@ use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
 use slideway::report::{Proof, Status};
-use slideway::{Faults, Model, Settings, SimulateOptions, gallery, simulate, solve};
+use slideway::{Faults, Model, Settings, SweepOptions, gallery, solve, sweep};
 
 /// A slider-crank, drawn with the crank at a right angle to the piston: the rod only shifts there.
 fn slider_crank() -> Model {
@@ -159,7 +159,7 @@ fn at_rest_friction_has_no_sense() {
 
 /// Whatever does not take friction in hinges into account says so and names them.
 #[rstest]
-#[case(|model: &Model| simulate(model, &SimulateOptions::new(1.0)).map(drop))]
+#[case(|model: &Model| sweep(model, &SweepOptions::new("friction=1..2".parse().unwrap())).map(drop))]
 fn other_questions_are_refused(#[case] question: fn(&Model) -> Result<(), Faults>) {
     let faults = question(&slider_crank()).unwrap_err();
     let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };

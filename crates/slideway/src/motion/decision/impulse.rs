@@ -131,7 +131,7 @@ impl<'s> Impulses<'s> {
             };
             let sides: Vec<Vec<ContactPhase>> = (0..self.outputs.columns[0].ncols()).map(sides).collect();
             let phases = combinations(&sides).into_iter();
-            all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts }));
+            all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts, hinges: Vec::new() }));
         }
         Ok(all)
     }

@@ -51,13 +51,16 @@
 //! `impulse.rs`. `vanishing.rs` sets to zero what an event has found to be zero, `scale.rs` provides the
 //! units where forces vanish, `sieve.rs` quickly excludes patterns of sliding, and `holding.rs` looks ahead
 //! in time for bodies that stand still while loads change, with forces that are affine in the loads
-//! (`plan.rs`).
+//! (`plan.rs`). Mechanisms with friction in hinges are decided in `hinged.rs`, by the programs of
+//! [`standstill`](crate::standstill), and stopped by the impulses of `halting.rs`.
 
 mod assessment;
 mod bounds;
 mod determined;
 mod elastic;
 mod growth;
+mod halting;
+mod hinged;
 pub(super) mod holding;
 mod impact;
 mod impulse;

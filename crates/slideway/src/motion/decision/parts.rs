@@ -96,6 +96,7 @@ impl PhaseSearch<'_> {
         };
         Phase {
             joints: (0..self.event.signs.len()).map(joint).collect(),
+            hinges: Vec::new(),
             contacts: self.question.sides.iter().map(|sides| sides[0]).collect(),
         }
     }

@@ -16,6 +16,8 @@ pub struct EventInstant<'a> {
     pub configuration: &'a Configuration,
     /// For each sliding joint, the sign of its sliding velocity from now on: 1, -1, or 0 if it has stopped.
     pub signs: &'a [f64],
+    /// The same of the angular velocity of each hinge with friction.
+    pub spins: &'a [f64],
     /// Contacts whose normal force has just reached zero or whose preload gap ends; it is exactly zero.
     pub zero: &'a [ContactId],
     /// What rounding leaves of the greatest forces so far where they vanish (N).

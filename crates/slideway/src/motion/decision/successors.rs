@@ -119,8 +119,15 @@ pub fn successors(
         velocity => velocity.signum(),
     };
     let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
-    let event =
-        rules::EventInstant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous };
+    let event = rules::EventInstant {
+        mechanism,
+        configuration,
+        signs: &signs,
+        spins: &[],
+        zero: &[],
+        rounding: 0.0,
+        previous,
+    };
     at(instant, &event, Detail::Everything)
 }
 

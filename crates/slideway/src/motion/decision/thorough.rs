@@ -4,6 +4,7 @@ use super::holding::Holding;
 use super::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
+use super::{halting, hinged};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -20,12 +21,20 @@ impl Hold for Holding<'_> {
     }
 }
 
+/// Whether hinges have friction.
+fn has_rough_hinges(mechanism: &Mechanism) -> bool {
+    !mechanism.friction_circles.is_empty()
+}
+
 /// The decisions of this module: every state of joints and contacts is tried.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
+        if has_rough_hinges(instant.mechanism) {
+            return hinged::continuations(instant);
+        }
         let found = super::continuations(instant)?;
         let one = |successor: super::Successor| Continuation {
             phase: successor.phase,
@@ -36,11 +45,17 @@ impl Decisions for Thorough {
     }
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
+        if has_rough_hinges(instant.mechanism) {
+            return Ok(Vec::new());
+        }
         let found = super::continuations(instant)?;
         Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+        if has_rough_hinges(instant.mechanism) {
+            return halting::halting_impulse(instant);
+        }
         let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
             return Ok(None);
         };
@@ -57,6 +72,9 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults> {
+        if has_rough_hinges(mechanism) {
+            return hinged::sticking_margin(mechanism, configuration, phase);
+        }
         super::sticking_margin(mechanism, configuration, phase)
     }
 
@@ -66,6 +84,9 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
+        if has_rough_hinges(mechanism) {
+            return Ok(vec![None; mechanism.contacts.len()]);
+        }
         super::determined_normal_forces(mechanism, configuration, phase)
     }
 
@@ -75,6 +96,9 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
+        if has_rough_hinges(mechanism) {
+            return Ok(hinged::hold(mechanism, configuration, resting));
+        }
         Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)))
     }
 }

@@ -11,10 +11,13 @@ use super::options::SimulateOptions;
 use super::record::history::History;
 use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::mechanism::Mechanism;
+use crate::ids::JointId;
+use crate::mechanism::{FrictionCircle, Mechanism, Slider};
 use crate::model::Model;
 use crate::progress::Callback;
+use crate::solve::never_turning;
 use run::Run;
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 /// The motion of a model from its state on, with the events of the model.
@@ -46,9 +49,32 @@ pub fn simulate_with(
     check(options)?;
     mechanism.check_no_press_fit("a motion in time")?;
     mechanism.check_determinate("a motion in time")?;
-    mechanism.check_frictionless_hinges()?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
+    let mechanism = &with_rough_hinges_alone(mechanism);
+    check_hinges(mechanism, configuration)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
+}
+
+/// The mechanism without friction circles of no size: these hinges have no friction.
+fn with_rough_hinges_alone(mechanism: &Mechanism) -> Cow<'_, Mechanism> {
+    let is_rough = |circle: &FrictionCircle| circle.radius.max(circle.static_radius) > 0.0;
+    let mut mechanism = Cow::Borrowed(mechanism);
+    if !mechanism.friction_circles.iter().all(is_rough) {
+        mechanism.to_mut().friction_circles.retain(is_rough);
+    }
+    mechanism
+}
+
+/// Refuses hinges with friction that never turn, and those beside end stops that are hit.
+///
+/// # Errors
+/// A fault that names the hinges.
+fn check_hinges(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
+    never_turning(mechanism, configuration)?;
+    let hits = |slider: &Slider| slider.stops.iter().flatten().any(|stop| stop.restitution().is_some());
+    let joints = (0..mechanism.joints.len()).map(JointId);
+    let hit = joints.into_iter().any(|joint| mechanism.slider(joint).is_some_and(hits));
+    if hit { mechanism.check_frictionless_hinges() } else { Ok(()) }
 }
 
 /// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more

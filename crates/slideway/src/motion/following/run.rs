@@ -28,6 +28,9 @@ const CROWD: usize = 40;
 /// ... and this part of the time in which the mechanism moves through its own size is a short time.
 const SHORT: f64 = 5e-5;
 
+/// Solutions whose hinge forces have directions with cosines this close to 1 are those that meet at a fold.
+const NEAR_FOLD: f64 = 1e-4;
+
 /// A simulation under way.
 pub(in crate::motion) struct Run<'a, 'm> {
     options: &'a SimulateOptions,
@@ -60,6 +63,7 @@ impl<'a, 'm> Run<'a, 'm> {
             steps: Vec::new(),
             dense: Vec::new(),
             size: state.len(),
+            directions: Vec::new(),
             impulses: Vec::new(),
             undetermined: Vec::new(),
             initial: configuration.clone(),
@@ -127,7 +131,7 @@ impl<'a, 'm> Run<'a, 'm> {
         let exceeded = match begun.and_then(|()| self.smooth.exceeded_reactions(phase, self.decisions)) {
             Ok(exceeded) => exceeded,
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
-            Err(Failure::Singular) => return Ended::End(End::Jammed),
+            Err(Failure::Singular | Failure::Fold) => return Ended::End(End::Jammed),
         };
         if !exceeded.is_empty() {
             return Ended::Event(exceeded);
@@ -145,6 +149,7 @@ impl<'a, 'm> Run<'a, 'm> {
             if to > from {
                 let phase = self.history.phases.len() - 1;
                 self.history.steps.push(Step { time: from, length: to - from, phase });
+                self.history.directions.extend(self.smooth.equations.directions());
                 self.history.statistics.steps += 1;
                 if self.smooth.rests_unproven() {
                     let statistics = &mut self.history.statistics;
@@ -201,7 +206,7 @@ impl<'a, 'm> Run<'a, 'm> {
 
     /// Decides how the motion goes on, after impulses if it must; returns why it ends, if it does.
     fn decide(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
-        let mut previous = self.phase.clone();
+        let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
         if self.hit(&mut causes)? {
             previous = None;
         }
@@ -211,6 +216,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.smooth.settle(previous, &stopped);
             }
             let signs = self.signs(&stopped);
+            let (signs, spins) = signs.split_at(self.smooth.equations.sliders.len());
             let zero: Vec<ContactId> = causes.iter().filter_map(Cause::vanishing_contact).collect();
             let (time, state) = (self.smooth.time, &self.smooth.state);
             self.smooth.equations.place(time, state);
@@ -219,13 +225,14 @@ impl<'a, 'm> Run<'a, 'm> {
             let instant = EventInstant {
                 mechanism,
                 configuration: &configuration,
-                signs: &signs,
+                signs,
+                spins,
                 zero: &zero,
                 rounding: self.smooth.rounding(),
                 previous: previous.as_ref(),
             };
             let mut successors = self.decisions.successors(&instant)?;
-            without_ended(mechanism, &mut successors.list, &causes, previous.as_ref());
+            without_ended(&self.smooth.equations, &mut successors.list, &causes, previous.as_ref());
             if !successors.list.is_empty() {
                 let taken = self.choose(&successors.list)?;
                 self.tell(causes, successors, taken);
@@ -246,7 +253,7 @@ impl<'a, 'm> Run<'a, 'm> {
             let Some(jam) = self.decisions.jam(&instant)? else { break };
             self.smooth.set_velocities(&jam.velocities);
             self.note_impulse(jam.energy_lost);
-            causes.retain(|cause| !matches!(cause, Cause::Stops(_)));
+            causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
             causes.push(Cause::Jams { energy_lost: jam.energy_lost });
             previous = None;
         }
@@ -318,7 +325,7 @@ impl<'a, 'm> Run<'a, 'm> {
         Ok((wanted < successors.len()).then_some(wanted))
     }
 
-    /// Which sliding joints have no sliding velocity.
+    /// Which sliding joints, then which hinges with friction, have no velocity.
     fn stopped(&self, causes: &[Cause], previous: Option<&Phase>) -> Vec<bool> {
         let equations = &self.smooth.equations;
         let greatest = self.smooth.greatest_velocity();
@@ -328,23 +335,33 @@ impl<'a, 'm> Run<'a, 'm> {
             let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
             sticks || causes.contains(&Cause::Stops(*joint)) || velocity.abs() <= AT_REST * greatest
         };
-        equations.sliders.iter().enumerate().map(one).collect()
+        let hinge = |(index, joint): (usize, crate::ids::JointId)| {
+            let sticks = previous.is_some_and(|phase| phase.hinges[index].state == JointPhase::Sticking);
+            let velocity = equations.spin(index).abs() * equations.mechanism.size;
+            sticks || causes.contains(&Cause::StopsTurning(joint)) || velocity <= AT_REST * greatest
+        };
+        let sliders = equations.sliders.iter().enumerate().map(one);
+        sliders.chain(equations.hinge_joints().enumerate().map(hinge)).collect()
     }
 
-    /// The signs of all sliding velocities.
+    /// The signs of the velocities of all sliding joints, then of the hinges with friction.
     fn signs(&self, stopped: &[bool]) -> Vec<f64> {
         let equations = &self.smooth.equations;
-        let one = |(joint, stopped): (&crate::ids::JointId, &bool)| {
+        let sliders = equations.sliders.iter().map(|joint| {
             let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
-            let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
-            if *stopped { 0.0 } else { velocity.signum() }
-        };
-        equations.sliders.iter().zip(stopped).map(one).collect()
+            equations.contacts[slider.contacts[0].index()].sliding_velocity
+        });
+        let spins = (0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge));
+        let one = |(velocity, stopped): (f64, &bool)| if *stopped { 0.0 } else { velocity.signum() };
+        sliders.chain(spins).zip(stopped).map(one).collect()
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.
     fn tell(&mut self, causes: Vec<Cause>, successors: Continuations, taken: Option<usize>) {
         let phase = taken.map(|taken| successors.list[taken].phase.clone());
+        if let Some(phase) = &phase {
+            self.smooth.equations.follow(phase.hinges.iter().map(|hinge| hinge.force));
+        }
         self.note(causes, phase, successors, taken);
     }
 
@@ -363,10 +380,15 @@ impl<'a, 'm> Run<'a, 'm> {
             sliders: &equations.sliders,
         };
         let words = words.event(&causes, self.phase.as_ref(), phase.as_ref());
+        let folds = causes.contains(&Cause::Folds);
         let Continuations { list: successors, left_out } = successors;
         let event = Event { time, causes, phase: phase.clone(), successors, left_out, taken, words };
         self.history.events.push(event);
-        if phase != self.phase {
+        let goes_on = match (&phase, &self.phase) {
+            (Some(one), Some(other)) => !folds && one.has_states_of(other),
+            (one, other) => one.is_none() && other.is_none(),
+        };
+        if !goes_on {
             if let Some(interval) = self.history.phases.last_mut() {
                 interval.to = time;
             }
@@ -391,27 +413,40 @@ impl<'a, 'm> Run<'a, 'm> {
 /// Without the phases that have just come to their end: in which all joints stick that cannot any longer, or
 /// whose determinant vanishes.
 fn without_ended(
-    mechanism: &Mechanism,
+    equations: &Equations<'_>,
     successors: &mut Vec<Continuation>,
     causes: &[Cause],
     previous: Option<&Phase>,
 ) {
     let Some(previous) = previous else { return };
+    let stuck = |phase: &Phase| phase.joints_and_hinges().eq(previous.joints_and_hinges());
     if causes.contains(&Cause::Slips) {
-        successors.retain(|successor| successor.phase.joints != previous.joints);
+        successors.retain(|successor| !stuck(&successor.phase));
     }
+    let pattern = previous.pattern(equations.mechanism);
+    let same = |phase: &Phase| stuck(phase) && phase.pattern(equations.mechanism) == pattern;
     if causes.contains(&Cause::Locks) {
-        let pattern = previous.pattern(mechanism);
-        successors.retain(|Continuation { phase, .. }| {
-            phase.joints != previous.joints || phase.pattern(mechanism) != pattern
-        });
+        successors.retain(|successor| !same(&successor.phase));
     }
+    if causes.contains(&Cause::Folds) {
+        successors.retain(|successor| !(same(&successor.phase) && is_near(&successor.phase, equations)));
+    }
+}
+
+/// Whether the forces of the hinges that turn have nearly the directions in which they acted last.
+fn is_near(phase: &Phase, equations: &Equations<'_>) -> bool {
+    let hinges = phase.hinges.iter().zip(equations.directions());
+    let mut turning = hinges.filter(|(hinge, _)| hinge.state != JointPhase::Sticking);
+    turning.all(|(hinge, [x, y])| {
+        let [along, length] = [hinge.force[0] * x + hinge.force[1] * y, hinge.force[0].hypot(hinge.force[1])];
+        along >= (1.0 - NEAR_FOLD) * length
+    })
 }
 
 /// The first of the phases in which the fewest joints stick.
 fn fewest_sticking(successors: &[Continuation]) -> usize {
     let sticking = |successor: &Continuation| {
-        successor.phase.joints.iter().filter(|joint| **joint == JointPhase::Sticking).count()
+        successor.phase.joints_and_hinges().filter(|joint| *joint == JointPhase::Sticking).count()
     };
     (0..successors.len()).min_by_key(|index| sticking(&successors[*index])).unwrap_or(0)
 }

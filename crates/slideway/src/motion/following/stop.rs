@@ -81,6 +81,7 @@ fn flies(
         mechanism,
         configuration: after,
         signs: &signs,
+        spins: &[],
         zero: &[],
         rounding: 0.0,
         previous: None,

@@ -19,8 +19,13 @@ pub enum Cause {
     Stops(JointId),
     /// The joints that stick cannot do so any longer.
     Slips,
+    /// The angular velocity of a hinge with friction has reached zero.
+    StopsTurning(JointId),
     /// The determinant of the mode has reached zero.
     Locks,
+    /// With friction in hinges: the solution of the mode has met another one, and both have come to their end, while all
+    /// forces are finite.
+    Folds,
     /// The normal force of a contact has reached the limit.
     ReactionLimit(ContactId),
     /// The couple of a guided slider has reached what its pressure can give.
@@ -83,8 +88,12 @@ pub enum CauseKind {
     Stops,
     /// Sticking joints begin to slip.
     Slips,
+    /// A hinge with friction stops turning.
+    StopsTurning,
     /// The mode locks.
     Locks,
+    /// The solution of the mode ends at a fold.
+    Folds,
     /// A normal force reaches its limit.
     ReactionLimit,
     /// A guided slider tips.
@@ -112,7 +121,7 @@ impl Cause {
     /// takes a decision to name it.
     pub(in crate::motion) fn of(
         watched: Watched,
-        sliders: &[JointId],
+        [sliders, hinges]: [&[JointId]; 2],
         names: impl Fn(usize) -> String,
     ) -> Option<Self> {
         Some(match watched {
@@ -122,10 +131,11 @@ impl Cause {
             Watched::Share(contact, Side::Negative) => Self::PreloadGapEnds(contact, Side::Positive),
             Watched::Between(contact, side) => Self::PreloadGapEnds(contact, side),
             Watched::Velocity(index, _) => Self::Stops(sliders[index]),
+            Watched::Spin(hinge, _) => Self::StopsTurning(hinges[hinge]),
             Watched::Determinant => Self::Locks,
             Watched::ReactionLimit(contact) => Self::ReactionLimit(contact),
             Watched::Couple(joint) => Self::Tips(joint),
-            Watched::Sticking => Self::Slips,
+            Watched::Sticking | Watched::Circles => Self::Slips,
             Watched::Overlap(joint) => Self::OverlapVanishes(joint),
             Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
             Watched::User(index, _) => Self::User(index, names(index)),
@@ -141,7 +151,9 @@ impl Cause {
             Self::PreloadGapEnds(..) => CauseKind::PreloadGapEnds,
             Self::Stops(_) => CauseKind::Stops,
             Self::Slips => CauseKind::Slips,
+            Self::StopsTurning(_) => CauseKind::StopsTurning,
             Self::Locks => CauseKind::Locks,
+            Self::Folds => CauseKind::Folds,
             Self::ReactionLimit(_) => CauseKind::ReactionLimit,
             Self::Tips(_) => CauseKind::Tips,
             Self::OverlapVanishes(_) => CauseKind::OverlapVanishes,
@@ -162,6 +174,7 @@ impl Cause {
             | Self::PreloadGapEnds(contact, _)
             | Self::ReactionLimit(contact) => Some(&mechanism.contacts[contact.index()].name),
             Self::Stops(joint)
+            | Self::StopsTurning(joint)
             | Self::Tips(joint)
             | Self::OverlapVanishes(joint)
             | Self::TravelLimit { joint, .. }
@@ -169,7 +182,7 @@ impl Cause {
             | Self::MeetsPad { joint, .. }
             | Self::LeavesPad { joint, .. } => Some(&mechanism.joints[joint.index()].name),
             Self::User(_, name) | Self::LoadJumps(name) => Some(name),
-            Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
+            Self::Start | Self::Slips | Self::Locks | Self::Folds | Self::Jams { .. } => None,
         }
     }
 

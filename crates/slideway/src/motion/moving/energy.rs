@@ -61,10 +61,15 @@ pub(in crate::motion) fn is_conservative(load: &Load) -> bool {
     }
 }
 
-/// Power of the friction of every contact (W, what it dissipates is positive), then of every load and drive.
+/// Power of the friction of every contact (W, what it dissipates is positive), then of every load and drive, then of the
+/// friction of every hinge.
 pub(in crate::motion) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
     let (contacts, others) = powers.split_at_mut(equations.contacts.len());
-    let (loads, drives) = others.split_at_mut(equations.mechanism.loads.len());
+    let (loads, others) = others.split_at_mut(equations.mechanism.loads.len());
+    let (drives, hinges) = others.split_at_mut(equations.mechanism.drives.len());
+    for (hinge, power) in hinges.iter_mut().enumerate() {
+        *power = equations.power_of_hinge(hinge);
+    }
     for (k, power) in contacts.iter_mut().enumerate() {
         let friction = equations.friction_force(k).unwrap_or(0.0);
         *power = friction * equations.contacts[k].sliding_velocity;

@@ -55,6 +55,11 @@ impl Determinant {
         self
     }
 
+    /// 1, -1, or 0.
+    pub(in crate::motion) fn sign(self) -> f64 {
+        if self.mantissa == 0.0 { 0.0 } else { self.mantissa.signum() }
+    }
+
     /// This number divided by another one; zero or infinite where the quotient is beyond the range.
     pub(in crate::motion) fn relative_to(self, other: Self) -> f64 {
         let quotient = self.mantissa / other.mantissa;

@@ -38,6 +38,8 @@ pub(in crate::motion) enum Watched {
     Between(ContactId, Side),
     /// The sliding velocity of a joint, counted in its direction; the joint's number among the sliding ones.
     Velocity(usize, f64),
+    /// The angular velocity of a hinge with friction, counted in its direction; the hinge's number among these.
+    Spin(usize, f64),
     /// The determinant of the mode, relative to the start of the phase, without what overlaps alone change.
     Determinant,
     /// How much the normal force of a contact may still grow.
@@ -48,6 +50,9 @@ pub(in crate::motion) enum Watched {
     Couple(JointId),
     /// By how much the sticking joints can still stick.
     Sticking,
+    /// By how much the couples of the hinges that stick stay within their friction circles, where statics determines
+    /// them.
+    Circles,
     /// The supported length of a block slider.
     Overlap(JointId),
     /// Distance to the least (-1) or greatest (1) displacement of a sliding joint.
@@ -77,11 +82,15 @@ impl Watched {
             | Self::Between(..)
             | Self::Determinant
             | Self::ReactionLimit(_)
-            | Self::Couple(_) => Needs::Forces,
+            | Self::Couple(_)
+            | Self::Circles => Needs::Forces,
             Self::Sticking | Self::HeldReactions => Needs::Standstill,
-            Self::Velocity(..) | Self::Overlap(_) | Self::Travel(..) | Self::User(..) | Self::Relation(_) => {
-                Needs::Motion
-            }
+            Self::Velocity(..)
+            | Self::Spin(..)
+            | Self::Overlap(_)
+            | Self::Travel(..)
+            | Self::User(..)
+            | Self::Relation(_) => Needs::Motion,
         }
     }
 }
@@ -151,14 +160,22 @@ impl<'o> Watch<'o> {
                 self.list.extend(limited.map(|(end, _)| Watched::Travel(*joint, end)));
             }
         }
-        if phase.joints.contains(&JointPhase::Sticking) {
-            self.list.push(Watched::Sticking);
-            if self.reaction_limit.is_some() {
+        for (index, hinge) in phase.hinges.iter().enumerate() {
+            if let JointPhase::Sliding(sign) = hinge.state {
+                self.list.push(Watched::Spin(index, sign));
+            }
+        }
+        if phase.sticks() {
+            let determined = equations.room_of_hinges(phase).is_some();
+            self.list.push(if determined { Watched::Circles } else { Watched::Sticking });
+            if self.reaction_limit.is_some() && !determined {
                 self.list.retain(|watched| !matches!(watched, Watched::ReactionLimit(_)));
                 self.list.push(Watched::HeldReactions);
             }
         }
-        if phase.contacts.iter().any(|_| phase.joints.iter().any(|joint| *joint != JointPhase::Sticking)) {
+        let slides =
+            phase.contacts.iter().any(|_| phase.joints.iter().any(|joint| *joint != JointPhase::Sticking));
+        if slides || phase.hinges.iter().any(|hinge| hinge.state != JointPhase::Sticking) {
             self.list.push(Watched::Determinant);
         }
         for (index, event) in self.user.iter().enumerate() {
@@ -226,6 +243,7 @@ impl<'o> Watch<'o> {
                 let contact = slider(equations.sliders[index]).contacts[0];
                 sign * equations.contacts[contact.index()].sliding_velocity
             }
+            Watched::Spin(hinge, sign) => sign * equations.spin(hinge),
             Watched::Determinant => {
                 // Normal forces of both ends of a block become parallel as its overlap vanishes: the
                 // determinant falls with the square, as a row and a column of each pair do.
@@ -241,6 +259,7 @@ impl<'o> Watch<'o> {
                 let normal_force = equations.normal_force(slider.contacts[0].index());
                 slider.greatest_couple(normal_force) - equations.reaction(Reaction::Couple(joint)).abs()
             }
+            Watched::Circles => equations.room_of_hinges(phase).unwrap_or(0.0),
             Watched::Sticking | Watched::HeldReactions | Watched::Relation(_) => 0.0,
             Watched::Overlap(joint) => {
                 let slider = slider(joint);
@@ -272,8 +291,10 @@ impl<'o> Watch<'o> {
             Watched::Couple(joint) => {
                 force * equations.mechanism.slider(joint).map_or(0.0, |slider| slider.length)
             }
+            Watched::Circles => force * equations.mechanism.size,
             Watched::Share(..) => FORCE_TOLERANCE,
             Watched::Velocity(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity,
+            Watched::Spin(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity / equations.mechanism.size,
             Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * equations.mechanism.size,
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,

@@ -1,7 +1,7 @@
 //! What happens between the phases of a motion, and in words.
 
 use crate::configuration::Configuration;
-use crate::ids::{ContactId, JointId};
+use crate::ids::{ContactId, Frame, JointId};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
@@ -32,8 +32,8 @@ pub struct Event {
     pub words: String,
 }
 
-/// Where every sliding joint touches its guide in a phase, or that it sticks: "floor flat on the lower guide;
-/// sole sticks". Sides are those of the configuration.
+/// Where every sliding joint touches its guide in a phase, or that it sticks, and which hinges with friction stick: "floor
+/// flat on the lower guide; sole sticks". Sides are those of the configuration.
 pub fn modes_in_words(mechanism: &Mechanism, configuration: &Configuration, phase: &Phase) -> String {
     let sliders = sliding_joints(mechanism);
     let words = Words { mechanism, configuration, sliders: &sliders };
@@ -41,7 +41,9 @@ pub fn modes_in_words(mechanism: &Mechanism, configuration: &Configuration, phas
         JointPhase::Sticking => format!("{} sticks", words.name(*joint)),
         JointPhase::Sliding(_) => words.mode(words.name(*joint), *joint, phase),
     };
-    sliders.iter().enumerate().map(one).collect::<Vec<String>>().join("; ")
+    let hinges = words.hinges(phase).filter(|(_, state)| *state == JointPhase::Sticking);
+    let hinges = hinges.map(|(joint, _)| format!("{} sticks", words.name(joint)));
+    sliders.iter().enumerate().map(one).chain(hinges).collect::<Vec<String>>().join("; ")
 }
 
 /// The same with the direction in which each joint slides: "floor is flat on the lower guide, sliding to the
@@ -70,10 +72,21 @@ impl Words<'_> {
         let mut parts: Vec<String> = causes.iter().filter_map(|cause| self.cause(cause, after)).collect();
         if let Some(after) = after {
             match before {
-                Some(before) => parts.extend(self.changes(causes, before, after)),
-                None => parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
-                    format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
-                })),
+                Some(before) => {
+                    parts.extend(self.changes(causes, before, after));
+                    parts.extend(self.turns(causes, before, after));
+                }
+                None => {
+                    parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
+                        format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
+                    }));
+                    parts.extend(self.hinges(after).map(|(joint, state)| match state {
+                        JointPhase::Sticking => format!("{} sticks", self.name(joint)),
+                        JointPhase::Sliding(sign) => {
+                            format!("{}: {}", self.name(joint), self.turning("turns", joint, sign))
+                        }
+                    }));
+                }
             }
         }
         if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
@@ -99,7 +112,12 @@ impl Words<'_> {
                 Some(_) => return None,
                 None => "the sticking joints can no longer stick".to_owned(),
             },
+            Cause::StopsTurning(joint) => match after {
+                Some(_) => return None,
+                None => format!("{} stops turning", self.name(*joint)),
+            },
             Cause::Locks => "the contact mode locks: its determinant vanishes".to_owned(),
+            Cause::Folds => "the contact mode ends at a fold, where it meets another one".to_owned(),
             Cause::ReactionLimit(contact) => {
                 format!("the normal force of {} reaches its limit", self.contact(*contact))
             }
@@ -169,6 +187,48 @@ impl Words<'_> {
             Some(told)
         };
         self.sliders.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// The hinges with friction and what they do.
+    fn hinges<'p>(&self, phase: &'p Phase) -> impl Iterator<Item = (JointId, JointPhase)> + use<'_, 'p> {
+        self.mechanism
+            .friction_circles
+            .iter()
+            .zip(&phase.hinges)
+            .map(|(circle, hinge)| (circle.joint, hinge.state))
+    }
+
+    /// What differs between two phases, hinge by hinge.
+    fn turns(&self, causes: &[Cause], before: &Phase, after: &Phase) -> Vec<String> {
+        let one = |((joint, before), (_, after)): ((JointId, JointPhase), (JointId, JointPhase))| {
+            let name = self.name(joint);
+            Some(match (before, after) {
+                (JointPhase::Sliding(_), JointPhase::Sticking) => format!("{name} stops turning and sticks"),
+                (JointPhase::Sticking, JointPhase::Sliding(sign)) => {
+                    format!("{name} starts to turn: {}", self.turning("now turns", joint, sign))
+                }
+                (JointPhase::Sliding(old), JointPhase::Sliding(new)) if old != new => {
+                    format!("{name} turns back: {}", self.turning("now turns", joint, new))
+                }
+                (JointPhase::Sliding(_), JointPhase::Sliding(_))
+                    if causes.contains(&Cause::StopsTurning(joint)) =>
+                {
+                    format!("{name} stops for an instant and turns on")
+                }
+                _ => return None,
+            })
+        };
+        self.hinges(before).zip(self.hinges(after)).filter_map(one).collect()
+    }
+
+    /// "rod turns clockwise against crank"
+    fn turning(&self, verb: &str, joint: JointId, sign: f64) -> String {
+        let Some([first, second]) = self.mechanism.hinge(joint) else { return String::new() };
+        let name = |frame: Frame| {
+            frame.body().map_or("the ground", |body| &self.mechanism.bodies[body.index()].name)
+        };
+        let sense = if sign < 0.0 { "clockwise" } else { "counter-clockwise" };
+        format!("{} {verb} {sense} against {}", name(first.frame), name(second.frame))
     }
 
     /// What a sliding joint does: "is now on the upper side of the slot, sliding to the right".

@@ -34,6 +34,8 @@ pub struct History {
     pub(in crate::motion) dense: Vec<f64>,
     /// Components of the state.
     pub(in crate::motion) size: usize,
+    /// The directions of the forces of the hinges with friction at the end of each step, one after the other.
+    pub(in crate::motion) directions: Vec<[f64; 2]>,
     pub(in crate::motion) impulses: Vec<ImpulseLoss>,
     /// Contacts whose normal forces were asked for while joints stuck, and are not determined then.
     pub(in crate::motion) undetermined: Vec<ContactId>,
@@ -141,6 +143,8 @@ pub struct Sample {
     pub accelerations: Vec<[f64; 3]>,
     /// The contacts.
     pub contacts: Vec<ContactSample>,
+    /// The hinges with friction.
+    pub hinges: Vec<HingeSample>,
     /// Effort of every drive (N or N m).
     pub efforts: Vec<f64>,
     /// Energies.
@@ -160,6 +164,19 @@ pub struct ContactSample {
     pub share: Option<f64>,
 }
 
+/// A hinge with friction at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HingeSample {
+    /// On its first body (N).
+    pub force: [f64; 2],
+    /// Whether statics determines the force: what sticks may leave it open.
+    pub is_determined: bool,
+    /// The friction couple on its first body (N m); nothing where it sticks and statics does not determine it.
+    pub couple: Option<f64>,
+    /// Angular velocity of its first body against the second (rad/s).
+    pub spin: f64,
+}
+
 /// Energies up to one time (J).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Energy {
@@ -169,6 +186,8 @@ pub struct Energy {
     pub potential: f64,
     /// Dissipated by the friction of each contact.
     pub friction: Vec<f64>,
+    /// Dissipated by the friction of each hinge that has some.
+    pub hinges: Vec<f64>,
     /// Work of each load; zero for springs whose energy is potential, negative for dampers.
     pub loads: Vec<f64>,
     /// Work of each drive.
@@ -180,7 +199,7 @@ pub struct Energy {
 impl Energy {
     /// What stays constant: energy and dissipation less work.
     pub fn total(&self) -> f64 {
-        let dissipated: f64 = self.friction.iter().sum::<f64>() + self.impulses;
+        let dissipated: f64 = self.friction.iter().chain(&self.hinges).sum::<f64>() + self.impulses;
         let work: f64 = self.loads.iter().chain(&self.drives).sum();
         self.kinetic + self.potential + dissipated - work
     }
@@ -194,11 +213,13 @@ impl Energy {
     ) -> Self {
         let works = &state[6 * mechanism.bodies.len()..];
         let (friction, others) = works.split_at(mechanism.contacts.len());
-        let (loads, drives) = others.split_at(mechanism.loads.len());
+        let (loads, others) = others.split_at(mechanism.loads.len());
+        let (drives, hinges) = others.split_at(mechanism.drives.len());
         Self {
             kinetic: kinetic(mechanism, configuration),
             potential: potential(mechanism, configuration),
             friction: friction.to_vec(),
+            hinges: hinges.to_vec(),
             loads: loads.to_vec(),
             drives: drives.to_vec(),
             impulses,
@@ -220,6 +241,13 @@ impl History {
     /// The times of the solver's steps, the end included (s).
     pub fn times(&self) -> impl Iterator<Item = f64> + '_ {
         self.steps.iter().map(|step| step.time).chain([self.last.time])
+    }
+
+    /// The directions of the forces of the hinges with friction near a time: those at the end of its step.
+    fn directions_at(&self, time: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let hinges = self.mechanism.friction_circles.len();
+        let step = self.steps.partition_point(|step| step.time <= time).saturating_sub(1);
+        self.directions.iter().skip(step * hinges).take(hinges).copied()
     }
 
     /// A reader of the motion at any time; it is quickest when asked in order.
@@ -253,9 +281,11 @@ impl Reader<'_> {
         let phase = self.locate(time)?;
         if self.entered != Some(phase) {
             let entry = &self.history.phases[phase];
+            self.equations.follow(entry.phase.hinges.iter().map(|hinge| hinge.force));
             self.equations.enter(&entry.phase, time, &self.state).ok()?;
             self.entered = Some(phase);
         }
+        self.equations.follow(self.history.directions_at(time));
         self.equations.evaluate(time, &self.state).ok()?;
         let equations = &self.equations;
         let contact = |k: usize| ContactSample {
@@ -264,6 +294,13 @@ impl Reader<'_> {
             sliding_velocity: equations.contacts[k].sliding_velocity,
             share: equations.share(k),
         };
+        let is_determined = equations.room_of_hinges(&self.history.phases[phase].phase).is_some();
+        let hinge = |hinge: usize| HingeSample {
+            is_determined,
+            force: equations.hinge_force(hinge).unwrap_or_default(),
+            couple: equations.hinge_couple(hinge),
+            spin: equations.spin(hinge),
+        };
         let impulses = self.history.impulses.iter().rfind(|loss| loss.time <= time);
         let impulses = impulses.map_or(0.0, |loss| loss.energy);
         let accelerations = equations.accelerations().chunks_exact(3);
@@ -271,6 +308,7 @@ impl Reader<'_> {
             phase,
             accelerations: accelerations.map(|body| [body[0], body[1], body[2]]).collect(),
             contacts: (0..equations.contacts.len()).map(contact).collect(),
+            hinges: (0..equations.mechanism.friction_circles.len()).map(hinge).collect(),
             efforts: (0..equations.mechanism.drives.len()).map(|d| equations.effort(DriveId(d))).collect(),
             energy: Energy::of(&self.history.mechanism, &equations.configuration, &self.state, impulses),
             configuration: equations.configuration.clone(),

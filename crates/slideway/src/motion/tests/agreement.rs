@@ -35,6 +35,7 @@ fn phase_of(equations: &Equations<'_>, solution: &Solution) -> Phase {
     Phase {
         joints: equations.sliders.iter().map(joint).collect(),
         contacts: solution.signs.iter().map(contact).collect(),
+        hinges: Vec::new(),
     }
 }
 

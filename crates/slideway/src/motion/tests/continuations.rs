@@ -78,6 +78,7 @@ fn fast(
         mechanism,
         configuration,
         signs: &signs,
+        spins: &[],
         zero: &[],
         rounding: 0.0,
         previous,
@@ -234,6 +235,7 @@ fn a_margin_at_a_later_time_is_that_of_a_new_start() {
         let phase = Phase {
             joints: vec![JointPhase::Sticking; 2],
             contacts: vec![ContactPhase::Pressed(Side::Positive); 3],
+            hinges: Vec::new(),
         };
         let mut holding = Holding::new(
             &mechanism,
@@ -296,6 +298,7 @@ fn margins_near_the_boundary() {
         let phase = Phase {
             joints: vec![JointPhase::Sticking; 2],
             contacts: vec![ContactPhase::Pressed(Side::Positive); 3],
+            hinges: Vec::new(),
         };
         let release = release(&mechanism, &mut configuration, &phase);
         configuration.time = 0.0;

@@ -353,6 +353,7 @@ slide = \"j{index}\"
             mechanism: &mechanism,
             configuration: &configuration,
             signs: &[0.0; 10],
+            spins: &[],
             zero: &[],
             rounding: 0.0,
             previous: None,

@@ -182,7 +182,7 @@ struct Wrong;
 impl Decisions for Wrong {
     fn successors(&mut self, _: &EventInstant<'_>) -> Result<Continuations, Faults> {
         let contacts = vec![ContactPhase::Pressed(Side::Positive); 2];
-        let phase = Phase { joints: vec![JointPhase::Sliding(1.0)], contacts };
+        let phase = Phase { joints: vec![JointPhase::Sliding(1.0)], contacts, hinges: Vec::new() };
         let list = vec![Continuation { phase, verdict: Verdict::NotComputed, continues: false }];
         Ok(Continuations { list, left_out: false })
     }

@@ -107,7 +107,7 @@ impl Decisions for TryAll {
             for contacts in product(&contacts) {
                 let redundant = (0..contacts.len())
                     .any(|k| sticks(k) && contacts[k] == ContactPhase::Pressed(Side::Negative));
-                let phase = Phase { joints: joints.clone(), contacts };
+                let phase = Phase { joints: joints.clone(), contacts, hinges: Vec::new() };
                 if !redundant && Self::admits(&mut equations, instant, &phase) {
                     let continues = Some(&phase) == instant.previous;
                     list.push(Continuation { phase, verdict: Verdict::NotComputed, continues });

@@ -3,6 +3,7 @@
 use super::series::Series;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
+use crate::mechanism::Mechanism;
 use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
@@ -25,6 +26,9 @@ pub struct SimulateReport {
     pub model: ModelSummary,
     /// The names of the contacts, in the order of their signs in modes.
     pub contacts: Vec<String>,
+    /// The names of the hinges with friction, whose signs follow those of the contacts in modes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hinges: Vec<String>,
     /// Relative error permitted for each step.
     pub tolerance: f64,
     /// When it begins (s).
@@ -119,10 +123,14 @@ pub struct PhaseReport {
     pub from: f64,
     /// Its end (s).
     pub to: f64,
-    /// The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks.
+    /// The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks; then for each hinge with
+    /// friction `+` or `-` for the sense in which its first body turns against the second, `=` where it sticks.
     pub mode: String,
     /// For each sliding joint the sign of its velocity, 0 where it sticks.
     pub sliding: Vec<i8>,
+    /// For each hinge with friction the sign of its angular velocity, 0 where it sticks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub turning: Vec<i8>,
 }
 
 /// Why a motion ends.
@@ -184,6 +192,9 @@ pub struct EnergyReport {
     pub potential: [f64; 2],
     /// Dissipated by the friction of each contact.
     pub friction: Vec<Named>,
+    /// Dissipated by the friction of each hinge that has some.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hinges: Vec<Named>,
     /// Work of each load other than constant springs.
     pub loads: Vec<Named>,
     /// Work of each drive.
@@ -248,6 +259,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             units: mechanism.units.clone(),
         },
         contacts: mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),
+        hinges: names_of_hinges(mechanism),
         tolerance: options.tolerance,
         start: history.start(),
         until: history.start() + options.duration,
@@ -279,6 +291,12 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         },
         samples: None,
     }
+}
+
+/// The names of the hinges with friction.
+fn names_of_hinges(mechanism: &Mechanism) -> Vec<String> {
+    let joints = mechanism.friction_circles.iter().map(|circle| &mechanism.joints[circle.joint.index()]);
+    joints.map(|joint| joint.name.to_string()).collect()
 }
 
 /// A load that jumps with a rate is friction without a state of rest; a limit on normal forces does not
@@ -368,18 +386,19 @@ fn phases(history: &History) -> Vec<PhaseReport> {
         from: interval.from,
         to: interval.to,
         mode: interval.phase.pattern(&history.mechanism),
-        sliding: interval
-            .phase
-            .joints
-            .iter()
-            .map(|joint| match joint {
-                JointPhase::Sliding(sign) if *sign < 0.0 => -1,
-                JointPhase::Sliding(_) => 1,
-                JointPhase::Sticking => 0,
-            })
-            .collect(),
+        sliding: interval.phase.joints.iter().map(|joint| sign(*joint)).collect(),
+        turning: interval.phase.hinges.iter().map(|hinge| sign(hinge.state)).collect(),
     };
     history.phases.iter().map(one).collect()
+}
+
+/// The sign of a velocity, 0 where a joint sticks.
+fn sign(joint: JointPhase) -> i8 {
+    match joint {
+        JointPhase::Sliding(sign) if sign < 0.0 => -1,
+        JointPhase::Sliding(_) => 1,
+        JointPhase::Sticking => 0,
+    }
 }
 
 fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
@@ -462,10 +481,6 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, Strin
 
 /// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
-    let at_rest = |interval: &PhaseInterval| {
-        let joints = &interval.phase.joints;
-        !joints.is_empty() && joints.iter().all(|joint| *joint == JointPhase::Sticking)
-    };
     let jams = history.events.iter().flat_map(|event| &event.causes);
     let jams = match jams.filter(|cause| matches!(cause, Cause::Jams { .. })).count() {
         0 => String::new(),
@@ -473,9 +488,14 @@ fn finished(history: &History, time: &str) -> String {
         count => format!(" It has jammed {count} times."),
     };
     match history.phases.last() {
-        Some(interval) if at_rest(interval) => {
+        Some(interval) if interval.phase.is_at_rest() => {
             let from = history.mechanism.units.of("s").show(interval.from);
-            format!("At {time} the end is reached; all sliding joints have been sticking since {from}.{jams}")
+            let joints = match (interval.phase.joints.is_empty(), interval.phase.hinges.is_empty()) {
+                (_, true) => "all sliding joints",
+                (true, false) => "all hinges with friction",
+                (false, false) => "all sliding joints and hinges with friction",
+            };
+            format!("At {time} the end is reached; {joints} have been sticking since {from}.{jams}")
         }
         _ => {
             let bodies = 3 * history.mechanism.bodies.len();
@@ -514,6 +534,7 @@ fn energy(history: &History) -> EnergyReport {
         kinetic: from(kinetic(mechanism, initial), |energy| energy.kinetic),
         potential: from(potential(mechanism, initial), |energy| energy.potential),
         friction: named(contacts, |energy| &energy.friction),
+        hinges: named(names_of_hinges(mechanism), |energy| &energy.hinges),
         loads: named(loads, |energy| &energy.loads),
         drives: named(drives, |energy| &energy.drives),
         impulses: last(|energy| energy.impulses),

@@ -5,7 +5,6 @@ use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::determined_normal_forces;
 use crate::motion::record::history::{History, Sample};
-use crate::pattern::phase::JointPhase;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -78,8 +77,9 @@ impl History {
     ///
     /// Columns are `t`, then for each coordinate its value (`coordinate.NAME` where the name alone is taken:
     /// `mode`, `units`, `model`, `command`, `program`), rate and acceleration, for each contact its normal
-    /// force, friction force and sliding velocity, for each drive its effort, and the energies: kinetic,
-    /// potential, dissipated by the friction of all contacts, work of loads and of drives, lost in impulses.
+    /// force, friction force and sliding velocity, for each hinge with friction the magnitude of its force, its friction
+    /// couple and its angular velocity, for each drive its effort, and the energies: kinetic,
+    /// potential, dissipated by the friction of all contacts and hinges, work of loads and of drives, lost in impulses.
     ///
     /// ```
     /// use slideway::model::Model;
@@ -115,9 +115,11 @@ impl History {
     fn normal_forces(&self, sample: &Sample) -> Vec<Option<f64>> {
         let all = || sample.contacts.iter().map(|contact| Some(contact.normal_force)).collect();
         let phase = self.phases.get(sample.phase).map(|interval| &interval.phase);
-        let Some(phase) = phase.filter(|phase| phase.joints.contains(&JointPhase::Sticking)) else {
-            return all();
-        };
+        let Some(phase) = phase.filter(|phase| phase.sticks()) else { return all() };
+        if !phase.hinges.is_empty() {
+            let determined = sample.hinges.iter().all(|hinge| hinge.is_determined);
+            return if determined { all() } else { vec![None; sample.contacts.len()] };
+        }
         let found = determined_normal_forces(&self.mechanism, &sample.configuration, phase);
         found.unwrap_or_else(|_| vec![None; sample.contacts.len()])
     }
@@ -142,6 +144,12 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
         add(format!("{}.normal_force", contact.name), "N");
         add(format!("{}.friction_force", contact.name), "N");
         add(format!("{}.sliding_velocity", contact.name), "m/s");
+    }
+    for circle in &mechanism.friction_circles {
+        let name = &mechanism.joints[circle.joint.index()].name;
+        add(format!("{name}.force"), "N");
+        add(format!("{name}.couple"), "N m");
+        add(format!("{name}.angular_velocity"), "rad/s");
     }
     for drive in &mechanism.drives {
         let is_force = matches!(drive.effort, crate::mechanism::Effort::Force { .. });
@@ -169,9 +177,14 @@ fn values(mechanism: &Mechanism, sample: &Sample, normal_forces: &[Option<f64>],
     for (contact, normal_force) in sample.contacts.iter().zip(normal_forces) {
         row.extend([*normal_force, contact.friction_force, Some(contact.sliding_velocity)]);
     }
+    for hinge in &sample.hinges {
+        let [x, y] = hinge.force;
+        row.extend([Some(x.hypot(y)).filter(|_| hinge.is_determined), hinge.couple, Some(hinge.spin)]);
+    }
     row.extend(sample.efforts.iter().map(|effort| Some(*effort)));
     let energy = &sample.energy;
     let sum = |list: &[f64]| Some(list.iter().sum());
-    row.extend([Some(energy.kinetic), Some(energy.potential), sum(&energy.friction)]);
+    let friction = energy.friction.iter().chain(&energy.hinges).sum();
+    row.extend([Some(energy.kinetic), Some(energy.potential), Some(friction)]);
     row.extend([sum(&energy.loads), sum(&energy.drives), Some(energy.impulses)]);
 }

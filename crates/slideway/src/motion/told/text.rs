@@ -128,7 +128,9 @@ impl Page<'_, SimulateReport> {
     fn events(&mut self, all: bool) {
         let events = &self.report.events;
         self.line("");
-        self.headline(&format!("Events (modes of {})", self.report.contacts.join(", ")));
+        let names: Vec<&str> =
+            self.report.contacts.iter().chain(&self.report.hinges).map(String::as_str).collect();
+        self.headline(&format!("Events (modes of {})", names.join(", ")));
         let all = all || events.len() <= FIRST + LAST;
         let (first, last) = if all { (events.len(), events.len()) } else { (FIRST, events.len() - LAST) };
         let shown = || events[..first].iter().chain(&events[last..]);
@@ -186,6 +188,7 @@ impl Page<'_, SimulateReport> {
             }
         };
         add("dissipated by friction at", &energy.friction);
+        add("dissipated by friction in", &energy.hinges);
         add("work of", &energy.loads);
         add("work of", &energy.drives);
         if energy.impulses != 0.0 {

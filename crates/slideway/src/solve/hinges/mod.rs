@@ -33,6 +33,7 @@ use found::{BlocksFound, HingedAnswer};
 use margins::Growth;
 pub(crate) use margins::locking_factor;
 use nalgebra::{DMatrix, DVector};
+pub(crate) use spin::never_turning;
 use spin::{Spins, never_turn, spins};
 
 /// All solutions of a mechanism with friction in hinges, proven for these values of the model; `has_ranges` says whether

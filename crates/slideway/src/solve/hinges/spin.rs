@@ -62,6 +62,25 @@ pub(super) fn never_turn(mechanism: &Mechanism, standing: &[TurningHinge]) -> Re
     faults.or(())
 }
 
+/// Refuses hinges with friction that never turn, whose friction couples are only known within bounds.
+///
+/// # Errors
+/// A fault for each of them.
+pub(crate) fn never_turning(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
+    let mut faults = Faults::default();
+    let mut moving = configuration.clone();
+    moving.rates.fill(1.0);
+    for circle in &mechanism.friction_circles {
+        let joint = circle.joint;
+        let turning = |mechanism: &Mechanism, state: &Configuration| turns(mechanism, state, joint) != 0.0;
+        let stands = !turning(mechanism, configuration) && !is_free(mechanism, configuration, joint);
+        if stands && why(mechanism, &moving, &turning) == NoSliding::Never {
+            faults.push(does_not_turn(mechanism, joint, NoSliding::Never));
+        }
+    }
+    faults.or(())
+}
+
 pub(super) fn does_not_turn(mechanism: &Mechanism, joint: JointId, why: NoSliding) -> Fault {
     let Joint { name, place, .. } = &mechanism.joints[joint.index()];
     Fault::new(FaultKind::HingeDoesNotTurn { hinge: name.to_string(), why }, place.clone())

@@ -57,7 +57,10 @@ impl Smooth<'_, '_> {
                 // It is known when it ends.
                 Some(_) if self.holds_all && configuration.time <= known => return Ok(1.0),
                 Some(hold) if self.holds_all => hold.margin(configuration.time),
-                _ => decisions.sticking_margin(equations.mechanism, configuration, phase),
+                _ => {
+                    let phase = equations.with_present_forces(phase);
+                    decisions.sticking_margin(equations.mechanism, configuration, &phase)
+                }
             };
             return margin.map_err(Failure::Loads);
         }
@@ -103,7 +106,7 @@ impl Smooth<'_, '_> {
     ) -> Result<(), Failure> {
         match self.evaluate_within(solution, places[sample], Needs::Forces) {
             // Exactly where the equations have no solution; a little before they have one.
-            Err(Failure::Singular) => {
+            Err(Failure::Singular | Failure::Fold) => {
                 places[sample] -= BESIDE * (places[sample] - places[sample - 1]);
                 self.evaluate_within(solution, places[sample], Needs::Forces)?;
             }
@@ -177,7 +180,7 @@ impl Smooth<'_, '_> {
             let mut function = |fraction: f64| match self.evaluate_within(solution, fraction, watched.needs())
             {
                 // Where the equations have no solution forces are beyond all bounds: not before the zero.
-                Err(Failure::Singular) => Ok(0.0),
+                Err(Failure::Singular | Failure::Fold) => Ok(0.0),
                 evaluated => evaluated.and_then(|()| self.value(watched, phase, decisions)),
             };
             let same = first + SAME_INSTANT;
@@ -211,7 +214,8 @@ impl Smooth<'_, '_> {
     ) -> Result<(), Failure> {
         within(solution.dense, fraction, &mut self.inside);
         let time = self.time + fraction * solution.length;
-        if needs == Needs::Forces {
+        // Standstill beside hinges that turn with friction depends on the directions of their forces.
+        if needs == Needs::Forces || (needs == Needs::Standstill && self.equations.turns()) {
             self.equations.evaluate(time, &self.inside)
         } else {
             self.equations.place(time, &self.inside);

@@ -12,7 +12,7 @@ mod steps;
 use self::events::StepSolution;
 use self::steps::Zero;
 use crate::fault::Faults;
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::motion::decision::rules::{Decisions, Hold, Resting};
 use crate::motion::decision::{Outlook, scale_of_forces};
 use crate::motion::moving::cause::Cause;
@@ -33,6 +33,9 @@ const REST: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
 
+/// Where a mode locks its forces have grown by more than this since its beginning; at a fold they stay finite.
+const LOCKING: f64 = 1e4;
+
 /// What is known of the time ahead as long as nobody has looked.
 const NOTHING_KNOWN: Outlook = Outlook { proven: f64::NEG_INFINITY, slips: false };
 
@@ -42,16 +45,6 @@ pub(in crate::motion) enum Ended {
     Event(Vec<Cause>),
     /// The simulation ends.
     End(End),
-}
-
-impl From<Failure> for Ended {
-    /// Where loads have no value the simulation ends; where the equations have no solution the mode locks.
-    fn from(failure: Failure) -> Self {
-        match failure {
-            Failure::Loads(faults) => Self::End(End::NoValue(faults)),
-            Failure::Singular => Self::Event(vec![Cause::Locks]),
-        }
-    }
 }
 
 /// A motion within a phase.
@@ -68,6 +61,8 @@ pub(in crate::motion) struct Smooth<'o, 'm> {
     next: f64,
     scale: Vec<f64>,
     energy: f64,
+    /// The greatest force where the phase begins (N).
+    first_force: f64,
     /// Of all bodies (kg).
     mass: f64,
     watch: Watch<'o>,
@@ -108,6 +103,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             next: 0.0,
             scale: vec![0.0; size],
             energy: 0.0,
+            first_force: 0.0,
             mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
             switching: Switching::new(equations.mechanism, &equations.configuration),
@@ -162,6 +158,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.equations.enter(phase, self.time, &self.state)?;
         self.watch.begin(phase, &self.equations, &self.switching);
         self.equations.write_rates(&self.state, self.stepper.start());
+        self.first_force = self.equations.greatest_force();
         self.notice_force();
         self.hold = None;
         self.outlook = NOTHING_KNOWN;
@@ -171,9 +168,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
             self.hold = decisions
                 .hold(mechanism, configuration, Resting { phase, bodies: &rests })
                 .map_err(Failure::Loads)?;
-            let sticking =
-                sliders.iter().zip(&phase.joints).filter(|(_, state)| **state == JointPhase::Sticking);
-            self.holds_all = sticking.into_iter().all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
+            let hinges: Vec<JointId> = self.equations.hinge_joints().collect();
+            let states = sliders.iter().chain(&hinges).zip(phase.joints_and_hinges());
+            let mut sticking = states.filter(|(_, state)| *state == JointPhase::Sticking);
+            self.holds_all =
+                self.hold.is_some() && sticking.all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
         }
         self.watch_all(phase, decisions, 0)?;
         if self.next == 0.0 {
@@ -242,7 +241,21 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         history: &mut History,
     ) -> Option<Ended> {
-        self.followed_step(phase, decisions, history).unwrap_or_else(|failure| Some(failure.into()))
+        self.followed_step(phase, decisions, history).unwrap_or_else(|failure| Some(self.ended(failure)))
+    }
+
+    /// Where loads have no value the simulation ends; where the equations have no solution the mode does.
+    fn ended(&self, failure: Failure) -> Ended {
+        match failure {
+            Failure::Loads(faults) => Ended::End(End::NoValue(faults)),
+            Failure::Singular | Failure::Fold => Ended::Event(vec![self.end_of_mode()]),
+        }
+    }
+
+    /// How a mode has ended whose determinant vanishes: with forces beyond all bounds, or at a fold.
+    fn end_of_mode(&self) -> Cause {
+        let grows = self.watch.magnitudes.force > LOCKING * self.first_force;
+        if self.equations.turns() && !grows { Cause::Folds } else { Cause::Locks }
     }
 
     fn followed_step(
@@ -294,7 +307,12 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// What the watched functions that have passed zero are the causes of.
     fn causes(&self, watched: &[Watched]) -> Vec<Cause> {
         let name = |index: usize| self.options.events[index].name.clone();
-        watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
+        let hinges: Vec<JointId> = self.equations.hinge_joints().collect();
+        let one = |watched: &Watched| match watched {
+            Watched::Determinant => Some(self.end_of_mode()),
+            _ => Cause::of(*watched, [&self.equations.sliders, &hinges], name),
+        };
+        watched.iter().filter_map(one).collect()
     }
 
     /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the

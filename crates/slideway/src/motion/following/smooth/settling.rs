@@ -12,7 +12,7 @@ const SETTLED: f64 = 100.0;
 const LEAST_TOLERANCE: f64 = 1e-10;
 
 impl Smooth<'_, '_> {
-    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines
+    /// Makes the velocities of sliding joints, then hinges, that have stopped exactly zero, as an impulse on their lines
     /// would; unless that changes more than errors of steps do: at a dead centre the joint stands while the
     /// mechanism moves on.
     pub(in crate::motion) fn settle(&mut self, phase: &Phase, stopped: &[bool]) {
@@ -20,7 +20,8 @@ impl Smooth<'_, '_> {
             return;
         }
         let mut held = phase.clone();
-        for (joint, stopped) in held.joints.iter_mut().zip(stopped) {
+        let hinges = held.hinges.iter_mut().map(|hinge| &mut hinge.state);
+        for (joint, stopped) in held.joints.iter_mut().chain(hinges).zip(stopped) {
             if *stopped {
                 *joint = JointPhase::Sticking;
             }

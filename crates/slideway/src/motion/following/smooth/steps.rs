@@ -3,6 +3,7 @@
 use super::Smooth;
 use super::events::{ROOT_TOLERANCE, SAME_INSTANT, StepSolution};
 use crate::fault::{Fault, FaultKind};
+use crate::ids::JointId;
 use crate::motion::decision::rules::Decisions;
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Failure};
@@ -157,13 +158,20 @@ impl Smooth<'_, '_> {
     /// steps are: its stop was found on a solution within a longer step that did not resolve it.
     pub(super) fn still_slides(&self, phase: &Phase, causes: &[Cause]) -> bool {
         let little = self.tolerance * self.watch.magnitudes.velocity;
-        let only_stops = causes.iter().all(|cause| matches!(cause, Cause::Stops(_)));
+        let only_stops = causes.iter().all(|cause| matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
+        let hinges: Vec<JointId> = self.equations.hinge_joints().collect();
         only_stops
             && self.watch.list.iter().enumerate().any(|(index, watched)| {
-                let Watched::Velocity(joint, _) = *watched else { return false };
+                let (cause, little) = match *watched {
+                    Watched::Velocity(joint, _) => (Cause::Stops(self.equations.sliders[joint]), little),
+                    Watched::Spin(hinge, _) => {
+                        (Cause::StopsTurning(hinges[hinge]), little / self.equations.mechanism.size)
+                    }
+                    _ => return false,
+                };
                 let samples = self.values.iter().filter_map(|values| values.get(index));
                 let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
-                let stops = causes.contains(&Cause::Stops(self.equations.sliders[joint]));
+                let stops = causes.contains(&cause);
                 let velocity = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0);
                 stops && velocity > little && velocity > STOPPED * greatest
             })

@@ -4,7 +4,7 @@ use super::{Equations, Failure, Rubbing};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::{ConstraintRow, Wrench, effort_forces, friction_forces};
-use crate::mechanism::{CoordinateKind, rot90};
+use crate::mechanism::rot90;
 use crate::modes::Side;
 use crate::motion::moving::linear::LinearSystem;
 use crate::pattern::face;
@@ -26,6 +26,7 @@ impl Equations<'_> {
         self.assemble_constraints();
         self.update_friction()?;
         self.assemble_friction();
+        self.assemble_turning();
         self.assemble_drives()
     }
 
@@ -41,8 +42,8 @@ impl Equations<'_> {
             self.row_ends.push(self.rows.len());
         }
         let first = self.layout.len();
-        for (index, stuck) in self.stuck.iter().enumerate() {
-            let kind = CoordinateKind::Slide(stuck.joint);
+        for index in 0..self.stuck.len() {
+            let Some(kind) = self.kind_of(self.stuck[index].what) else { continue };
             self.row.set_coordinate(self.mechanism, &self.configuration, kind);
             put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
             self.rows.extend_from_slice(&self.row.entries);

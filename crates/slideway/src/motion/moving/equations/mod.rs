@@ -15,12 +15,17 @@
 //! adds the row that its sliding acceleration is zero, and the tangential force `t_j` on its centre line,
 //! block against guide. (At another line of the same joint it would shift normal force between the two ends
 //! of the block, and nothing else.)
+//!
+//! The couple of a hinge that turns with friction is `-r |R| sgn(omega)`, and the force `R` of the hinge is among the
+//! unknowns (`hinges.rs`). One that sticks adds the row that its angular acceleration is zero, and its couple.
 
 mod assembly;
+mod hinges;
 mod phase;
 mod projection;
 mod rest;
 
+use hinges::{RoughHinge, norm};
 pub(in crate::motion) use rest::joint_rests;
 
 use crate::configuration::{Configuration, ContactGeometry, Pose};
@@ -46,6 +51,8 @@ pub(in crate::motion) enum Failure {
     Loads(Faults),
     /// The matrix is singular.
     Singular,
+    /// With friction in hinges: the solution that was followed has met another one, and both have come to their end.
+    Fold,
 }
 
 /// What the friction of a contact is within a phase.
@@ -60,12 +67,21 @@ enum Rubbing {
     Sticking,
 }
 
-/// A joint that sticks by an equation of its own.
+/// What sticks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sticks {
+    /// A sliding joint.
+    Slider(JointId),
+    /// A hinge with friction, by its number among these.
+    Hinge(usize),
+}
+
+/// A joint or hinge that sticks by an equation of its own.
 #[derive(Debug, Clone, Copy)]
 struct Stuck {
-    joint: JointId,
-    /// Where it sticks (m).
-    displacement: f64,
+    what: Sticks,
+    /// Where it sticks (m or rad).
+    place: f64,
 }
 
 /// The greatest violation of the joints, before a projection.
@@ -87,7 +103,7 @@ impl Drift {
 /// The equations of motion of a mechanism in a phase, at a state.
 ///
 /// The state is a vector: (x, y, angle) of every body, their rates, then the work done so far by every
-/// contact, load and drive.
+/// contact, load, drive and hinge with friction.
 pub(in crate::motion) struct Equations<'m> {
     pub(in crate::motion) mechanism: &'m Mechanism,
     layout: Layout,
@@ -99,6 +115,9 @@ pub(in crate::motion) struct Equations<'m> {
     pub(in crate::motion) conservative: Vec<bool>,
     rubbing: Vec<Rubbing>,
     stuck: Vec<Stuck>,
+    hinges: Vec<RoughHinge>,
+    /// The sign of the determinant where the phase begins, if hinges turn with friction.
+    orientation: Option<f64>,
     /// The state of the last evaluation.
     pub(in crate::motion) configuration: Configuration,
     pub(in crate::motion) contacts: Vec<ContactGeometry>,
@@ -132,6 +151,8 @@ impl<'m> Equations<'m> {
                 .collect(),
             rubbing: vec![Rubbing::Sticking; mechanism.contacts.len()],
             stuck: Vec::new(),
+            hinges: hinges::rough_hinges(mechanism, &layout),
+            orientation: None,
             configuration: configuration.clone(),
             contacts: contacts.map(|contact| configuration.contact(mechanism, contact)).collect(),
             applied: Applied::new(),
@@ -148,7 +169,10 @@ impl<'m> Equations<'m> {
 
     /// Components of the state.
     pub(in crate::motion) fn state_size(&self) -> usize {
-        let powers = self.contacts.len() + self.mechanism.loads.len() + self.mechanism.drives.len();
+        let powers = self.contacts.len()
+            + self.mechanism.loads.len()
+            + self.mechanism.drives.len()
+            + self.hinges.len();
         6 * self.mechanism.bodies.len() + powers
     }
 
@@ -185,11 +209,14 @@ impl<'m> Equations<'m> {
         }
         self.unknowns = vec![0.0; size];
         self.work = vec![0.0; size];
+        self.orientation = None;
         self.assemble()?;
         let (rows, columns) =
             equilibration(&DMatrix::from_fn(size, size, |row, column| self.system.entry(row, column)));
         self.system.set_scales(rows.as_slice(), columns.as_slice());
-        self.solve()
+        self.solve()?;
+        self.orientation = self.turns().then(|| self.system.determinant().sign());
+        Ok(())
     }
 
     /// Takes over a state; cheap, and enough for whatever depends on positions and velocities alone.
@@ -219,7 +246,7 @@ impl<'m> Equations<'m> {
     /// Solves the equations in a state.
     ///
     /// # Errors
-    /// Loads without a value there, or a matrix that is singular.
+    /// Loads without a value there, a matrix that is singular, or no solution that continues the one before.
     pub(in crate::motion) fn evaluate(&mut self, time: f64, state: &[f64]) -> Result<(), Failure> {
         self.place(time, state);
         self.assemble()?;
@@ -229,6 +256,12 @@ impl<'m> Equations<'m> {
     /// Solves the equations that have been assembled.
     fn solve(&mut self) -> Result<(), Failure> {
         self.evaluations += 1;
+        self.solve_once()?;
+        self.turn_friction()
+    }
+
+    /// Solves them with the directions in which hinge forces have been taken to act.
+    fn solve_once(&mut self) -> Result<(), Failure> {
         if self.system.factor() > SINGULAR {
             return Err(Failure::Singular);
         }
@@ -306,13 +339,15 @@ impl<'m> Equations<'m> {
         self.system.determinant()
     }
 
-    /// The greatest force among loads and normal forces (N), couples divided by the size of the mechanism.
+    /// The greatest force among loads, normal forces and those of hinges with friction (N), couples divided by the size
+    /// of the mechanism.
     pub(in crate::motion) fn greatest_force(&self) -> f64 {
         let size = self.mechanism.size;
         let loads = self.applied.wrenches.iter();
         let loads = loads.map(|wrench| wrench.force.amax().max(wrench.couple.abs() / size));
         let normal = (0..self.contacts.len()).map(|k| self.normal_force(k).abs());
-        loads.chain(normal).fold(0.0, f64::max)
+        let hinges = (0..self.hinges.len()).map(|hinge| self.hinge_force(hinge).map_or(0.0, norm));
+        loads.chain(normal).chain(hinges).fold(0.0, f64::max)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a phase makes of the equations: friction of every contact, rows of the joints that stick.
 
-use super::{Equations, Rubbing, Stuck};
-use crate::ids::JointId;
+use super::{Equations, Rubbing, Sticks, Stuck};
+use crate::ids::{Frame, JointId};
 use crate::kinetics::{ConstraintRow, Reaction};
 use crate::mechanism::CoordinateKind;
 use crate::pattern::{ContactPhase, JointPhase, Law, Phase};
@@ -12,6 +12,7 @@ const DEPENDENT: f64 = 1e-7;
 
 impl Equations<'_> {
     pub(super) fn choose_friction(&mut self, phase: &Phase) {
+        self.choose_turning(phase);
         for (index, joint) in self.sliders.iter().enumerate() {
             let slider = self.mechanism.slider(*joint).expect("sliding joints slide");
             for contact in &slider.contacts {
@@ -72,15 +73,44 @@ impl Equations<'_> {
             self.row.set_coordinate(mechanism, &self.configuration, kind);
             is_new(&self.row);
         }
-        for (joint, state) in self.sliders.iter().zip(&phase.joints) {
-            if *state == JointPhase::Sticking {
-                self.row.set_coordinate(mechanism, &self.configuration, CoordinateKind::Slide(*joint));
-                if is_new(&self.row) {
-                    let slider = mechanism.slider(*joint).expect("sliding joints slide");
-                    let (displacement, _) = self.configuration.sliding(mechanism, slider);
-                    self.stuck.push(Stuck { joint: *joint, displacement });
-                }
+        for what in self.sticking(phase) {
+            let Some(kind) = self.kind_of(what) else { continue };
+            self.row.set_coordinate(mechanism, &self.configuration, kind);
+            if is_new(&self.row) {
+                self.stuck.push(Stuck { what, place: self.place_of(what) });
             }
+        }
+    }
+
+    /// The sliding joints that stick in a phase, then the hinges with friction that do.
+    fn sticking(&self, phase: &Phase) -> Vec<Sticks> {
+        let sliders = self.sliders.iter().zip(&phase.joints);
+        let sliders = sliders.filter(|(_, state)| **state == JointPhase::Sticking);
+        let hinges = phase.hinges.iter().enumerate();
+        let hinges = hinges.filter(|(_, hinge)| hinge.state == JointPhase::Sticking);
+        let sliders = sliders.map(|(joint, _)| Sticks::Slider(*joint));
+        sliders.chain(hinges.map(|(index, _)| Sticks::Hinge(index))).collect()
+    }
+
+    /// The coordinate that is held where something sticks.
+    pub(super) fn kind_of(&self, what: Sticks) -> Option<CoordinateKind> {
+        match what {
+            Sticks::Slider(joint) => Some(CoordinateKind::Slide(joint)),
+            Sticks::Hinge(hinge) => self.rotation_of(hinge).map(|(kind, _)| kind),
+        }
+    }
+
+    /// The value of that coordinate (m or rad).
+    pub(super) fn place_of(&self, what: Sticks) -> f64 {
+        match self.kind_of(what) {
+            Some(CoordinateKind::Slide(joint)) => {
+                let slider = self.mechanism.slider(joint).expect("sliding joints slide");
+                self.configuration.sliding(self.mechanism, slider).0
+            }
+            Some(CoordinateKind::Rotation(body, against)) => {
+                self.configuration.angle(Frame::Body(body)) - self.configuration.angle(against)
+            }
+            Some(CoordinateKind::Displacement(..)) | None => 0.0,
         }
     }
 }
@@ -88,8 +118,8 @@ impl Equations<'_> {
 impl Equations<'_> {
     /// Sets where a joint that sticks by an equation of its own does so (m).
     pub(in crate::motion) fn hold_at(&mut self, joint: JointId, displacement: f64) {
-        let stuck = self.stuck.iter_mut().filter(|stuck| stuck.joint == joint);
-        stuck.for_each(|stuck| stuck.displacement = displacement);
+        let stuck = self.stuck.iter_mut().filter(|stuck| stuck.what == Sticks::Slider(joint));
+        stuck.for_each(|stuck| stuck.place = displacement);
     }
 }
 

@@ -1,6 +1,6 @@
 //! How far a state is from the joints, and back.
 
-use super::{Drift, Equations};
+use super::{Drift, Equations, Sticks};
 use crate::ids::{ContactId, Frame};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Attachment, JointKind};
@@ -44,7 +44,12 @@ impl Equations<'_> {
     }
 
     fn gap_scale(&self, index: usize) -> f64 {
-        let is_angle = matches!(self.layout.reactions().get(index), Some(Reaction::Couple(_)));
+        let is_angle = match self.layout.reactions().get(index) {
+            Some(reaction) => matches!(reaction, Reaction::Couple(_)),
+            None => {
+                matches!(self.stuck[index - self.layout.reactions().len()].what, Sticks::Hinge(_))
+            }
+        };
         if is_angle { 1.0 } else { self.mechanism.size }
     }
 
@@ -65,9 +70,7 @@ impl Equations<'_> {
                 .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
             None => {
                 let stuck = &self.stuck[index - self.layout.reactions().len()];
-                mechanism
-                    .slider(stuck.joint)
-                    .map_or(0.0, |slider| configuration.sliding(mechanism, slider).0 - stuck.displacement)
+                self.place_of(stuck.what) - stuck.place
             }
         };
         (gap, self.gap_scale(index))

@@ -54,11 +54,13 @@ impl Equations<'_> {
     }
 }
 
-/// Whether both sides of a sliding joint stand still.
+/// Whether both sides of a joint stand still.
 pub(in crate::motion) fn joint_rests(mechanism: &Mechanism, joint: JointId, rests: &[bool]) -> bool {
-    mechanism.slider(joint).is_some_and(|slider| {
-        [slider.block, slider.guide].into_iter().filter_map(Frame::body).all(|body| rests[body.index()])
-    })
+    let frames = match &mechanism.joints[joint.index()].kind {
+        JointKind::Slider(slider) => [slider.block, slider.guide],
+        JointKind::Hinge(ends) => ends.each_ref().map(|end| end.frame),
+    };
+    frames.into_iter().filter_map(Frame::body).all(|body| rests[body.index()])
 }
 
 /// The bodies on which drives act, and those whose motion they prescribe.

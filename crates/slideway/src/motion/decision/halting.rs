@@ -1,0 +1,91 @@
+//! The impulse that stops a mechanism with friction in hinges that has no admissible acceleration, as [`jam`](super::jam())
+//! does without.
+//!
+//! Some joint or hinge wedges: it stops within static friction, while the others go on sliding and turning with kinetic
+//! friction, or stay at rest. If another velocity would reverse first, the impulse ends where that is zero.
+
+use super::BOUNDARY;
+use super::hinged::{setup, unit};
+use super::impulse::AT_REST;
+use super::rules::{EventInstant, HaltingImpulse};
+use crate::configuration::{Configuration, Velocity};
+use crate::fault::Faults;
+use crate::motion::moving::energy::kinetic;
+use crate::pattern::phase::sliding_joints;
+use crate::standstill::{MotionState, motion_states, sticking_slack};
+use nalgebra::Vector2;
+
+/// The first impulse that can act; `None` if there is none.
+///
+/// # Errors
+/// As for the phases that can follow.
+pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+    let EventInstant { mechanism, configuration, rounding, .. } = *event;
+    let signs: Vec<f64> = event.signs.iter().chain(event.spins).copied().collect();
+    let known: Vec<Option<f64>> = signs.iter().map(|sign| Some(*sign).filter(|sign| *sign != 0.0)).collect();
+    let setup = setup(mechanism, configuration, (&known, rounding))?;
+    let velocities = relative_velocities(event, configuration);
+    for stops in (0..signs.len()).filter(|joint| signs[*joint] != 0.0) {
+        let impulses = setup.impulsive(stops, velocities[stops]);
+        let (found, _) = motion_states(&impulses)?;
+        for state in found {
+            let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| unit(*force)).collect();
+            let slack = sticking_slack(&impulses, &state.pattern, &directions);
+            if slack.is_none_or(|slack| slack < -BOUNDARY) {
+                continue;
+            }
+            if let Some(after) = stopped(event, (&signs, &velocities), &state) {
+                let energy_lost = kinetic(mechanism, configuration) - kinetic(mechanism, &after);
+                return Ok(Some(HaltingImpulse { velocities: after.velocities, energy_lost }));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// The velocities of the sliding joints, then of the hinges with friction (m/s, rad/s).
+fn relative_velocities(event: &EventInstant<'_>, configuration: &Configuration) -> Vec<f64> {
+    let mechanism = event.mechanism;
+    let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
+    let sliding = sliders.map(|slider| configuration.sliding(mechanism, slider).1);
+    let turning = mechanism.friction_circles.iter().map(|circle| {
+        mechanism.hinge(circle.joint).map_or(0.0, |[first, second]| {
+            configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame)
+        })
+    });
+    sliding.chain(turning).collect()
+}
+
+/// The mechanism after as much of the jumps of a state as takes the first velocity to zero; `None` where something at rest
+/// would begin to move against its friction.
+fn stopped(
+    event: &EventInstant<'_>,
+    (signs, velocities): (&[f64], &[f64]),
+    state: &MotionState,
+) -> Option<Configuration> {
+    let mut part = 1.0_f64;
+    let whole = jumped(event.configuration, &state.accelerations, 1.0);
+    let pattern = state.pattern.joints.iter().chain(&state.pattern.hinges);
+    for ((before, after), phase) in velocities.iter().zip(relative_velocities(event, &whole)).zip(pattern) {
+        let (jump, sign) = (after - before, phase.sign());
+        if sign * jump < 0.0 && sign * after < 0.0 {
+            part = part.min(before.abs() / jump.abs());
+        }
+    }
+    let after = jumped(event.configuration, &state.accelerations, part);
+    signs.iter().any(|sign| *sign != 0.0).then_some(after)
+}
+
+/// The configuration with a part of the jumps of the velocities; what rounding leaves of one is zero.
+fn jumped(configuration: &Configuration, jumps: &[f64], part: f64) -> Configuration {
+    let mut after = configuration.clone();
+    let sum = |velocity: f64, jump: f64| {
+        let sum = velocity + part * jump;
+        if sum.abs() <= AT_REST * velocity.abs() { 0.0 } else { sum }
+    };
+    for (Velocity { linear, angular }, jump) in after.velocities.iter_mut().zip(jumps.chunks_exact(3)) {
+        *linear = Vector2::new(sum(linear.x, jump[0]), sum(linear.y, jump[1]));
+        *angular = sum(*angular, jump[2]);
+    }
+    after
+}

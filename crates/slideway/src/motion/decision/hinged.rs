@@ -1,0 +1,343 @@
+//! Mechanisms with friction in hinges: which phases can follow, how long hinges stick (theory of hinges, section 9).
+//!
+//! The magnitudes of hinge forces enter, so that the forces of a pattern are not linear in friction, and a pattern may
+//! have several solutions. All states of the joints and hinges at rest are tried that their accelerations can have over
+//! the motions of the mechanism, with all sides of the contacts, by the same programs as at rest; their solutions are
+//! those in which the motion can go on. The solution that is followed is one of them, known by the forces of its hinges.
+
+use super::rules::{Continuation, Continuations, EventInstant, Hold, Outlook, Resting};
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::ContactId;
+use crate::kinetics::KineticEquations;
+use crate::mechanism::{Contact, Mechanism};
+use crate::motion::moving::amounts::Amounts;
+use crate::motion::moving::equations::Equations;
+use crate::motion::moving::switching::Switching;
+use crate::motion::moving::watch::{Watch, Watched};
+use crate::pattern::{HingePhase, JointPhase, Phase};
+use crate::report::Verdict;
+use crate::standstill::{MotionState, Pattern, Setup, motion_states, sticking_slack};
+
+/// Accelerations that differ by less than this part of the greatest are the same.
+const SAME: f64 = 1e-6;
+/// Forces of hinges that differ by less than this part of the greatest are the same.
+const SAME_FORCE: f64 = 1e-6;
+/// What is watched is at its boundary below this part of its unit.
+const BOUNDARY: f64 = 1e-7;
+/// What changes by less than this part of its unit a little later stays what it is, ...
+const STAYS: f64 = 1e-10;
+/// ... and a velocity that is greater than this begins.
+const MOVES: f64 = 1e-13;
+/// Part of the time in which the mechanism moves through its own size after which a phase is looked at again.
+const LATER: f64 = 1e-4;
+
+/// A mechanism at an instant, with the friction at its sliding speeds, and the signs of the velocities of its sliding
+/// joints and hinges with friction: 0 where they have to stick, nothing where the acceleration decides.
+///
+/// # Errors
+/// Whatever [`KineticEquations::new`] refuses, and friction without a value.
+pub(super) fn setup(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (signs, rounding): (&[Option<f64>], f64),
+) -> Result<Setup, Faults> {
+    mechanism.check_no_press_fit("what follows in time")?;
+    mechanism.check_determinate("what follows in time")?;
+    let equations = KineticEquations::new(mechanism, configuration)?;
+    let mut at_speeds = mechanism.clone();
+    for k in (0..mechanism.contacts.len()).filter(|&k| mechanism.contacts[k].depends_on_speed()) {
+        let speed = equations.contacts[k].sliding_velocity.abs();
+        at_speeds.contacts[k].mu =
+            mechanism.friction_of(ContactId(k), speed, configuration.pieces.as_deref())?;
+    }
+    let force = super::scale_of_forces(mechanism, configuration).max(rounding);
+    Setup::in_motion(at_speeds, configuration, (signs, force))
+}
+
+/// The phases that can follow at an instant, in order of preference: those in which more stays stuck, and more sticks; the
+/// present one; one that continues it; those that are not unattainable.
+///
+/// # Errors
+/// As [`setup`], and more states than are tried.
+pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, Faults> {
+    let EventInstant { mechanism, configuration, signs, spins, rounding, previous, .. } = *event;
+    let signs = signs.iter().chain(spins).map(|sign| Some(*sign).filter(|sign| *sign != 0.0));
+    let signs: Vec<Option<f64>> = signs.collect();
+    let (found, undecided) = motion_states(&setup(mechanism, configuration, (&signs, rounding))?)?;
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for state in found {
+        let phase = phase_of(mechanism, state);
+        let Some(candidate) = Candidate::new(event, phase)? else { continue };
+        if !candidates.iter().any(|other| other.is_same(&candidate, mechanism)) {
+            candidates.push(candidate);
+        }
+    }
+    let present = previous.and_then(|phase| Candidate::at(event, phase.clone()));
+    for candidate in &mut candidates {
+        candidate.continues = present.as_ref().is_some_and(|present| present.accelerates_like(candidate));
+    }
+    candidates.sort_by_key(|candidate| candidate.rank(previous));
+    let one = |candidate: Candidate| Continuation {
+        verdict: if candidate.orientation < 0.0 { Verdict::Unattainable } else { Verdict::NotComputed },
+        continues: candidate.continues,
+        phase: candidate.phase,
+    };
+    Ok(Continuations { list: candidates.into_iter().map(one).collect(), left_out: undecided > 0 })
+}
+
+/// The phase of a state. A joint without friction always slides.
+fn phase_of(mechanism: &Mechanism, state: MotionState) -> Phase {
+    let joints = crate::pattern::phase::sliding_joints(mechanism);
+    let is_smooth = |contact: &Contact| contact.is_frictionless() && contact.mu_static == [0.0; 2];
+    let slides = |(joint, phase): (&crate::ids::JointId, &JointPhase)| {
+        let slider = mechanism.slider(*joint).expect("sliding joints slide");
+        let smooth = slider.contacts.iter().all(|k| is_smooth(&mechanism.contacts[k.index()]));
+        if smooth && *phase == JointPhase::Sticking { JointPhase::Sliding(1.0) } else { *phase }
+    };
+    let hinges = state.pattern.hinges.iter().zip(state.forces);
+    Phase {
+        joints: joints.iter().zip(&state.pattern.joints).map(slides).collect(),
+        contacts: state.pattern.contacts,
+        hinges: hinges.map(|(state, force)| HingePhase { state: *state, force }).collect(),
+    }
+}
+
+/// A phase that may follow.
+struct Candidate {
+    phase: Phase,
+    accelerations: Vec<f64>,
+    /// The sign of the determinant, beside that without friction.
+    orientation: f64,
+    continues: bool,
+}
+
+impl Candidate {
+    /// A phase, unless its equations have no solution, or something at its boundary does not move away from it.
+    ///
+    /// # Errors
+    /// As [`setup`].
+    fn new(event: &EventInstant<'_>, phase: Phase) -> Result<Option<Self>, Faults> {
+        let Some(candidate) = Self::at(event, phase) else { return Ok(None) };
+        let phase = &candidate.phase;
+        let turns = phase.hinges.iter().any(|hinge| hinge.state != JointPhase::Sticking);
+        let sticks = !(turns && phase.sticks())
+            || sticking_margin(event.mechanism, event.configuration, phase)? >= -BOUNDARY;
+        Ok((sticks && lasts(event, phase)).then_some(candidate))
+    }
+
+    /// A phase with its accelerations.
+    fn at(event: &EventInstant<'_>, mut phase: Phase) -> Option<Self> {
+        let equations = entered(event.mechanism, event.configuration, &phase)?;
+        for (index, hinge) in phase.hinges.iter_mut().enumerate() {
+            hinge.force = equations.hinge_force(index)?;
+        }
+        let accelerations = equations.accelerations().to_vec();
+        let smooth = frictionless(event.mechanism);
+        let without_friction = entered(&smooth, event.configuration, &phase)?.determinant();
+        let orientation = equations.determinant().sign() * without_friction.sign();
+        Some(Self { phase, accelerations, orientation, continues: false })
+    }
+
+    /// Whether two differ in nothing but the sides of contacts that stick.
+    fn is_same(&self, other: &Self, mechanism: &Mechanism) -> bool {
+        let forces = |phase: &Phase| phase.hinges.iter().flat_map(|hinge| hinge.force).collect::<Vec<f64>>();
+        self.phase.joints_and_hinges().eq(other.phase.joints_and_hinges())
+            && self.phase.pattern(mechanism) == other.phase.pattern(mechanism)
+            && self.accelerates_like(other)
+            && (self.phase.is_at_rest() || near(&forces(&self.phase), &forces(&other.phase), SAME_FORCE))
+    }
+
+    fn accelerates_like(&self, other: &Self) -> bool {
+        near(&self.accelerations, &other.accelerations, SAME)
+    }
+
+    /// Less is preferred.
+    fn rank(&self, previous: Option<&Phase>) -> [usize; 5] {
+        let sticking = |phase: &Phase| {
+            phase.joints_and_hinges().map(|joint| joint == JointPhase::Sticking).collect::<Vec<_>>()
+        };
+        let now = sticking(&self.phase);
+        let before = previous.map_or_else(|| vec![false; now.len()], sticking);
+        let leaves = before.iter().zip(&now).filter(|(before, now)| **before && !**now).count();
+        let slides = now.iter().filter(|sticks| !**sticks).count();
+        let changes = !previous.is_some_and(|previous| self.continues && previous.has_states_of(&self.phase));
+        let last = [changes, !self.continues, self.orientation < 0.0].map(usize::from);
+        [leaves, slides, last[0], last[1], last[2]]
+    }
+}
+
+fn near(one: &[f64], other: &[f64], part: f64) -> bool {
+    let greatest = one.iter().chain(other).fold(0.0_f64, |greatest, value| greatest.max(value.abs()));
+    one.iter().zip(other).all(|(one, other)| (one - other).abs() <= part * greatest)
+}
+
+/// The mechanism without friction.
+fn frictionless(mechanism: &Mechanism) -> Mechanism {
+    let mut smooth = mechanism.clone();
+    for contact in &mut smooth.contacts {
+        (contact.mu, contact.preload, contact.law) = ([0.0; 2], [0.0; 2], [None; 2]);
+    }
+    smooth.friction_circles.iter_mut().for_each(|circle| circle.radius = 0.0);
+    smooth
+}
+
+/// The equations of a phase at an instant, if they have a solution.
+fn entered<'m>(
+    mechanism: &'m Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Option<Equations<'m>> {
+    let mut equations = Equations::new(mechanism, configuration);
+    equations.follow(phase.hinges.iter().map(|hinge| hinge.force));
+    let state = equations.state_of(configuration);
+    equations.enter(phase, configuration.time, &state).ok()?;
+    Some(equations)
+}
+
+/// Whether everything that is watched in a phase is within its bounds, and what is at its boundary moves away from it, which
+/// is looked at a little later in its own motion; what stays at its boundary may last.
+fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
+    let EventInstant { mechanism, configuration, .. } = *event;
+    let Some(mut equations) = entered(mechanism, configuration, phase) else { return false };
+    let switching = Switching::new(mechanism, configuration);
+    let mut watch = Watch::new(&[], None);
+    watch.begin(phase, &equations, &switching);
+    let units = Units::of(&equations);
+    let value = |watched: &Watched, equations: &Equations<'_>| {
+        watch.value(*watched, phase, equations).map_or(f64::NEG_INFINITY, |value| value / units.of_watched(*watched))
+    };
+    let bounds = watch.list.iter().filter(|watched| Units::counts(**watched));
+    let values: Vec<(&Watched, f64)> = bounds.map(|watched| (watched, value(watched, &equations))).collect();
+    if values.iter().any(|(_, value)| *value < -BOUNDARY) {
+        return false;
+    }
+    let at_boundary = || values.iter().filter(|(_, value)| *value <= BOUNDARY);
+    at_boundary().next().is_none()
+        || later(&mut equations, configuration, LATER * units.time).is_some_and(|()| {
+            at_boundary().all(|(watched, before)| {
+                let least = if matches!(watched, Watched::Velocity(..) | Watched::Spin(..)) { MOVES } else { -STAYS };
+                value(watched, &equations) - before > least
+            })
+        })
+}
+
+/// Takes equations a little further in their own motion, by one step of Heun's method; nothing where they have no solution
+/// there.
+fn later(equations: &mut Equations<'_>, configuration: &Configuration, step: f64) -> Option<()> {
+    let mut state = equations.state_of(configuration);
+    let bodies = 3 * equations.mechanism.bodies.len();
+    let before = equations.accelerations().to_vec();
+    for index in 0..bodies {
+        state[index] += step * (state[bodies + index] + step / 2.0 * before[index]);
+    }
+    let start: Vec<f64> = state[bodies..2 * bodies].to_vec();
+    let rates = |accelerations: &dyn Fn(usize) -> f64, state: &mut [f64]| {
+        for index in 0..bodies {
+            state[bodies + index] = start[index] + step * accelerations(index);
+        }
+    };
+    rates(&|index| before[index], &mut state);
+    equations.evaluate(configuration.time + step, &state).ok()?;
+    let after = equations.accelerations().to_vec();
+    rates(&|index| f64::midpoint(before[index], after[index]), &mut state);
+    equations.evaluate(configuration.time + step, &state).ok()
+}
+
+/// Units in which what is watched is of order one.
+struct Units {
+    force: f64,
+    length: f64,
+    velocity: f64,
+    time: f64,
+}
+
+impl Units {
+    fn of(equations: &Equations<'_>) -> Self {
+        let (mechanism, configuration) = (equations.mechanism, &equations.configuration);
+        let length = mechanism.size;
+        let speeds = configuration.velocities.iter().map(|v| v.linear.amax().max(v.angular.abs() * length));
+        let accelerations = equations.accelerations().chunks_exact(3);
+        let acceleration = accelerations
+            .fold(0.0_f64, |a, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * length));
+        let velocity = speeds.fold((acceleration * length).sqrt(), f64::max);
+        let velocity = if velocity > 0.0 { velocity } else { 1.0 };
+        let force = super::scale_of_forces(mechanism, configuration);
+        Self { force, length, velocity, time: length / velocity }
+    }
+
+    /// Whether it bounds a phase at its beginning, as far as the equations of the phase tell.
+    fn counts(watched: Watched) -> bool {
+        matches!(
+            watched,
+            Watched::NormalForce(_)
+                | Watched::Share(..)
+                | Watched::Between(..)
+                | Watched::Velocity(..)
+                | Watched::Spin(..)
+                | Watched::Couple(_)
+                | Watched::Circles
+        )
+    }
+
+    fn of_watched(&self, watched: Watched) -> f64 {
+        match watched {
+            Watched::Velocity(..) => self.velocity,
+            Watched::Spin(..) => self.velocity / self.length,
+            Watched::Couple(_) | Watched::Circles => self.force * self.length,
+            Watched::NormalForce(_) | Watched::Between(..) => self.force,
+            _ => 1.0,
+        }
+    }
+}
+
+/// By how much what sticks in a phase stays within its bounds; -1 where it cannot stick, or where that was not decided.
+///
+/// # Errors
+/// As [`setup`].
+pub(super) fn sticking_margin(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<f64, Faults> {
+    let signs: Vec<Option<f64>> = phase.joints_and_hinges().map(|joint| Some(joint.sign())).collect();
+    let setup = setup(mechanism, configuration, (&signs, 0.0))?;
+    let pattern = Pattern {
+        joints: phase.joints.clone(),
+        hinges: phase.hinges.iter().map(|hinge| hinge.state).collect(),
+        contacts: phase.contacts.clone(),
+    };
+    let directions: Vec<[f64; 2]> = phase.hinges.iter().map(|hinge| unit(hinge.force)).collect();
+    Ok(sticking_slack(&setup, &pattern, &directions).unwrap_or(super::sticking::NONE))
+}
+
+/// The direction of a force; zero where there is none.
+pub(super) fn unit(force: [f64; 2]) -> [f64; 2] {
+    let length = force[0].hypot(force[1]);
+    if length > 0.0 { force.map(|component| component / length) } else { force }
+}
+
+/// Bodies that stand still under loads that do not change with time: nothing changes for them.
+pub(super) fn hold<'m>(
+    mechanism: &'m Mechanism,
+    configuration: &Configuration,
+    resting: Resting<'_>,
+) -> Option<Box<dyn Hold + 'm>> {
+    let amounts = Amounts::new(mechanism, configuration, resting.bodies);
+    if amounts.units().next().is_some() {
+        return None;
+    }
+    Some(Box::new(Forever))
+}
+
+struct Forever;
+
+impl Hold for Forever {
+    fn outlook(&mut self, [_, until]: [f64; 2]) -> Result<Outlook, Faults> {
+        Ok(Outlook { proven: until, slips: false })
+    }
+
+    fn margin(&mut self, _: f64) -> Result<f64, Faults> {
+        Ok(1.0)
+    }
+}

@@ -1,0 +1,225 @@
+//! States in which hinges turn with friction, as the block mode problem has them: what sticks is held by equations of its
+//! own, and the forces of the hinges that turn enter by their magnitudes.
+
+use super::instant::MotionState;
+use super::setup::Setup;
+use super::state::Pattern;
+use crate::configuration::null_space;
+use crate::enclosure::{BlockCoefficients, TurningHinge};
+use crate::ids::ContactId;
+use crate::kinetics::{Reaction, equilibration};
+use crate::modes::blocks::{self, BlockProblem, BlockSolution};
+use crate::modes::{BySide, ContactState, SearchOptions, Side};
+use crate::pattern::{ContactPhase, JointPhase};
+use crate::solve::{preload_columns, without_rounding};
+use nalgebra::{DMatrix, DVector, RowDVector};
+use std::ops::ControlFlow;
+
+/// Normal forces below this part of the greatest force may be on either side.
+const ON_BOUNDARY: f64 = 1e-8;
+/// A row that sticks is held by others already if it is no greater than this on the motions that they leave.
+const HELD: f64 = 1e-9;
+
+/// The states with these signs of all joints and hinges, and whether these are all; nothing where the equations are
+/// singular.
+pub(super) fn turning_states(
+    setup: &Setup,
+    signs: &Pattern,
+    motions: &DMatrix<f64>,
+) -> Option<(Vec<MotionState>, bool)> {
+    let held = Held::new(setup, signs, motions);
+    let blocks = Blocks::new(&held, signs);
+    let problem = blocks.problem()?;
+    let result = blocks::search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
+    let states = result.solutions.iter().flat_map(|solution| blocks.states(solution)).collect();
+    Some((states, result.open.is_empty() && result.stopped.is_none()))
+}
+
+/// The kinetic equations in which what sticks has rows of its own.
+struct Held<'s> {
+    setup: &'s Setup,
+    matrix: DMatrix<f64>,
+    load: DVector<f64>,
+    /// Powers of two that bring rows and columns to order one.
+    scales: [DVector<f64>; 2],
+}
+
+impl<'s> Held<'s> {
+    fn new(setup: &'s Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Self {
+        let rows = independent_rows(setup, signs, motions);
+        let (size, given) = (setup.assembled.matrix.nrows(), setup.equations_of_motion());
+        let mut matrix = setup.assembled.matrix.clone().resize(size + rows.len(), size + rows.len(), 0.0);
+        let mut load = setup.assembled.load.clone().resize_vertically(size + rows.len(), 0.0);
+        load.rows_mut(0, given).copy_from(&setup.given);
+        for (index, (row, value)) in rows.iter().enumerate() {
+            matrix.view_mut((size + index, 0), (1, given)).copy_from(row);
+            matrix.view_mut((0, size + index), (given, 1)).copy_from(&-row.transpose());
+            load[size + index] = -value;
+        }
+        let (rows, columns) = equilibration(&matrix);
+        let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
+            rows[row] * matrix[(row, column)] * columns[column]
+        });
+        Self { setup, matrix: scaled, load, scales: [rows, columns] }
+    }
+
+    /// The answers to some right-hand sides.
+    fn answers(&self, right_hand_sides: &[DVector<f64>]) -> Option<Vec<DVector<f64>>> {
+        let factors = self.matrix.clone().full_piv_lu();
+        let one = |right_hand_side: &DVector<f64>| {
+            let scaled = right_hand_side.component_mul(&self.scales[0]);
+            factors.solve(&scaled).map(|answer| answer.component_mul(&self.scales[1]))
+        };
+        right_hand_sides.iter().map(one).collect()
+    }
+
+    /// Forces in the equations of motion, as a right-hand side.
+    fn forces(&self, forces: &DVector<f64>) -> DVector<f64> {
+        let mut all = DVector::zeros(self.load.len());
+        let given = self.setup.equations_of_motion();
+        all.rows_mut(0, given).copy_from(&forces.rows(0, given));
+        all
+    }
+}
+
+/// The rows of what sticks that say something which neither the joints nor the rows before say, with what velocities add.
+fn independent_rows(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Vec<(RowDVector<f64>, f64)> {
+    let mut motions = motions.clone();
+    let mut found = Vec::new();
+    let states = signs.joints.iter().chain(&signs.hinges).enumerate();
+    for (joint, _) in states.filter(|(_, state)| **state == JointPhase::Sticking) {
+        let row = setup.row(joint);
+        let moves = &row * &motions;
+        if moves.amax() > HELD * row.amax() * motions.amax() {
+            motions = &motions * null_space(&DMatrix::from_rows(&[moves]));
+            found.push((row, setup.known[joint].acceleration));
+        }
+    }
+    found
+}
+
+/// The block mode problem of a pattern of signs.
+struct Blocks<'h, 's> {
+    held: &'h Held<'s>,
+    signs: Vec<JointPhase>,
+    hinges: Vec<TurningHinge>,
+}
+
+impl<'h, 's> Blocks<'h, 's> {
+    fn new(held: &'h Held<'s>, signs: &Pattern) -> Self {
+        let circles = held.setup.mechanism.friction_circles.iter().zip(&signs.hinges).enumerate();
+        let turning = circles.filter(|(_, (_, state))| **state != JointPhase::Sticking);
+        let hinge = |(circle, (friction, state)): (usize, (&crate::mechanism::FrictionCircle, &JointPhase))| {
+            TurningHinge { circle, joint: friction.joint, sense: state.sign() }
+        };
+        let signs = signs.joints.iter().chain(&signs.hinges).copied();
+        Self { held, signs: signs.collect(), hinges: turning.map(hinge).collect() }
+    }
+
+    /// The sign of the sliding velocity at a contact, 0 where it sticks.
+    fn sign(&self, k: usize) -> f64 {
+        let sliders = &self.held.setup.sliders;
+        let slider = sliders.iter().position(|slider| slider.contacts.contains(&k));
+        slider.map_or(0.0, |slider| self.signs[slider].sign())
+    }
+
+    fn problem(&self) -> Option<BlockProblem> {
+        let setup = self.held.setup;
+        let contacts = &setup.mechanism.contacts;
+        let layout = &setup.assembled.layout;
+        let normal = (0..contacts.len()).map(|k| layout.reaction(Reaction::Normal(ContactId(k))));
+        let force = self.hinges.iter().flat_map(|hinge| {
+            [0, 1].map(|axis| layout.reaction(Reaction::Hinge(hinge.joint, axis)))
+        });
+        let rows: Vec<usize> = normal.chain(force).collect::<Option<_>>()?;
+        let answers = |columns: Vec<&DVector<f64>>| {
+            let columns: Vec<DVector<f64>> = columns.into_iter().map(|column| self.held.forces(column)).collect();
+            let answers = self.held.answers(&columns)?;
+            Some(DMatrix::from_fn(rows.len(), answers.len(), |row, column| answers[column][rows[row]]))
+        };
+        let friction = |side: usize| answers(setup.assembled.friction.iter().map(|both| &both[side]).collect());
+        let eta = without_rounding(&setup.mechanism, [friction(0)?, friction(1)?]);
+        let of_contacts = |value: &dyn Fn(usize) -> f64| {
+            DVector::from_fn(contacts.len(), |k, _| if self.sign(k) == 0.0 { 0.0 } else { value(k) })
+        };
+        let load = self.held.answers(std::slice::from_ref(&self.held.load))?;
+        let coefficients = BlockCoefficients {
+            eta_preload: preload_columns(&setup.mechanism, &eta),
+            eta,
+            mu: BySide {
+                positive: of_contacts(&|k| contacts[k].mu[0]),
+                negative: of_contacts(&|k| contacts[k].mu[1]),
+            },
+            preload: BySide {
+                positive: of_contacts(&|k| contacts[k].preload[0]),
+                negative: of_contacts(&|k| contacts[k].preload[1]),
+            },
+            velocity_signs: of_contacts(&|k| self.sign(k)),
+            couples: answers(self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect())?,
+            leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
+            frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
+        };
+        BlockProblem::new(coefficients.response(), coefficients.jumps(), coefficients.frictionless).ok()
+    }
+
+    fn leverage(&self, hinge: usize) -> f64 {
+        let TurningHinge { circle, sense, .. } = self.hinges[hinge];
+        -self.held.setup.mechanism.friction_circles[circle].radius * sense
+    }
+
+    /// The states of a solution: contacts without a normal force may be on either side.
+    fn states(&self, solution: &BlockSolution) -> Vec<MotionState> {
+        let setup = self.held.setup;
+        let Some(accelerations) = self.accelerations(solution) else { return Vec::new() };
+        let mut forces = vec![[0.0; 2]; setup.mechanism.friction_circles.len()];
+        for (hinge, force) in self.hinges.iter().zip(&solution.reactions) {
+            forces[hinge.circle] = *force;
+        }
+        let (joints, hinges) = self.signs.split_at(setup.sliders.len());
+        let state = |contacts| MotionState {
+            pattern: Pattern { joints: joints.to_vec(), hinges: hinges.to_vec(), contacts },
+            accelerations: accelerations.clone(),
+            forces: forces.clone(),
+        };
+        self.sides(solution).into_iter().map(state).collect()
+    }
+
+    fn sides(&self, solution: &BlockSolution) -> Vec<Vec<ContactPhase>> {
+        let mut all = vec![Vec::new()];
+        for (k, state) in solution.states.iter().enumerate() {
+            let vanishes = solution.forces[k].abs() <= ON_BOUNDARY * self.held.setup.units.force;
+            let jumps = self.held.setup.mechanism.preload_jumps(ContactId(k));
+            let options: &[ContactPhase] = match state {
+                ContactState::Gap => &[ContactPhase::PreloadGap],
+                _ if vanishes && self.sign(k) != 0.0 => ContactPhase::options(jumps),
+                ContactState::Positive => &[ContactPhase::Pressed(Side::Positive)],
+                ContactState::Negative => &[ContactPhase::Pressed(Side::Negative)],
+            };
+            all = all
+                .into_iter()
+                .flat_map(|sides: Vec<ContactPhase>| {
+                    options.iter().map(move |side| sides.iter().copied().chain([*side]).collect())
+                })
+                .collect();
+        }
+        all
+    }
+
+    /// The accelerations of the bodies with the friction of a solution, which has no contact in its gap.
+    fn accelerations(&self, solution: &BlockSolution) -> Option<Vec<f64>> {
+        let setup = self.held.setup;
+        let mut load = self.held.load.clone();
+        for (k, friction) in setup.assembled.friction.iter().enumerate() {
+            let side = usize::from(solution.states[k] == ContactState::Negative);
+            let contact = &setup.mechanism.contacts[k];
+            let force = self.sign(k) * (contact.mu[side] * solution.magnitudes[k] + contact.preload[side]);
+            load += self.held.forces(&friction[side]) * force;
+        }
+        for (index, hinge) in self.hinges.iter().enumerate() {
+            let [x, y] = solution.reactions[index];
+            load += self.held.forces(&setup.assembled.couples[hinge.circle]) * (self.leverage(index) * x.hypot(y));
+        }
+        let answer = self.held.answers(&[load])?;
+        Some(answer[0].rows(0, setup.equations_of_motion()).iter().copied().collect())
+    }
+}
