@@ -27,8 +27,6 @@ fn moved(model: &Model, duration: f64) -> History {
 /// A motion whose energy balance closes to this part of its greatest term.
 fn moved_with(model: &Model, duration: f64, balance: f64) -> History {
     let history = simulate(model, &SimulateOptions::new(duration).tolerance(1e-10)).unwrap();
-    for event in &history.events {
-    }
     assert!(
         history.energy_error <= balance * history.energy_scale,
         "{} of {}",
@@ -196,8 +194,6 @@ fn a_slider_crank_with_rough_pins_moves_as_integrated_apart() {
     let reference: Reference = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
     let history = moved(&model, 0.1);
-    for event in &history.events {
-    }
     assert_eq!(history.end, End::Finished, "{:?}", history.events.last());
     let joint = |name: &str| history.mechanism.joints.iter().position(|joint| *joint.name == *name).unwrap();
     let of = |found: &slideway::ids::JointId, name: &str| found.index() == joint(name);

@@ -1,11 +1,10 @@
 //! Whether a hinge turns, and what is not answered for hinges with friction.
 
 use crate::cases::reference;
-use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
 use slideway::report::{Proof, Status};
-use slideway::{Faults, Model, Settings, SweepOptions, gallery, solve, sweep};
+use slideway::{Faults, Model, Settings, gallery, solve};
 
 /// A slider-crank, drawn with the crank at a right angle to the piston: the rod only shifts there.
 fn slider_crank() -> Model {
@@ -155,13 +154,4 @@ fn at_rest_friction_has_no_sense() {
     );
     let faults = solve(&Model::parse(&pendulum).unwrap()).unwrap_err();
     assert_eq!(why(&faults), ("pin".to_owned(), NoSliding::AtRest(vec!["phi".to_owned()])));
-}
-
-/// Whatever does not take friction in hinges into account says so and names them.
-#[rstest]
-#[case(|model: &Model| sweep(model, &SweepOptions::new("friction=1..2".parse().unwrap())).map(drop))]
-fn other_questions_are_refused(#[case] question: fn(&Model) -> Result<(), Faults>) {
-    let faults = question(&slider_crank()).unwrap_err();
-    let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };
-    assert_eq!(*hinges, ["O", "A", "B"]);
 }
