@@ -98,7 +98,7 @@ fn motions_tell_where_they_jam_and_which_forces_are_open() {
     let (stuck, history) = of("klepp-2002-spring", &Settings::default().parameter("mu_1", "0.5"), 0.3);
     let [zone] = &stuck.panels[1].zones[..] else { panic!("{:?}", stuck.panels[1].zones) };
     assert!((zone.from - history.events[1].time).abs() < 1e-12 && (zone.to - 0.3).abs() < 1e-9, "{zone:?}");
-    assert!(texts(&svg(&stuck)).contains(&"sticks: statics leaves normal forces open".to_owned()));
+    assert!(texts(&svg(&stuck)).contains(&"sticks: statics leaves forces open".to_owned()));
     assert!(stuck.panels.iter().all(|panel| panel.marked.is_empty()));
     let (apart, _) = of("stick-slip", &Settings::default(), 2.0);
     let axes: Vec<&str> = apart.panels.iter().map(|panel| &*panel.y.name).collect();

@@ -382,6 +382,8 @@ pub enum FaultKind {
     RigidAtRest { contacts: Vec<String> },
     #[error("this question is not answered for hinges with friction: {}", listed(hinges))]
     FrictionInHinges { hinges: Vec<String> },
+    #[error("impulses at end stops are not computed beside hinges with friction: {}", listed(joints))]
+    StopsBesideHinges { joints: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
     #[error(
@@ -592,6 +594,9 @@ impl FaultKind {
             }
             Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
             Self::HingeDoesNotTurn { why, .. } => Some(why.hint_of_hinge()),
+            Self::StopsBesideHinges { .. } => {
+                Some("pads, with `stiffness` in place of `restitution`, act without impulses".to_owned())
+            }
             Self::FrictionInHingesOfRedundant { .. } => {
                 Some("leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge".to_owned())
             }
@@ -684,7 +689,7 @@ impl FaultKind {
             Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
             Self::MalformedMode { .. } => Some(
-                "+ and - are the signs of normal forces, 0 is a preload gap, = is a contact whose joint sticks",
+                "+ and - are the signs of normal forces, for hinges those of angular velocities; 0 is a preload gap, = is a contact whose joint sticks, or a hinge that sticks",
             ),
             Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
             Self::HeldLoadNeeded { .. } => {

@@ -35,7 +35,7 @@ pub(crate) struct SimulateArguments {
     pub(crate) until: String,
 
     /// The initial contact mode: + or - (sign of the normal force), 0 (preload gap) or = (sticks) for each
-    /// contact.
+    /// contact, then + or - (sense in which it turns) or = for each hinge with friction.
     #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
     pub(crate) mode: Option<String>,
 

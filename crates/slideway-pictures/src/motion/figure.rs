@@ -7,6 +7,7 @@ use crate::plot::{
     Axis, Band, Branch, Curve, Figure, Hatching, MarkedPoint, MarkedValue, Panel, PointKind, Stroke, Zone,
 };
 use crate::theme::LIGHT;
+use slideway::mechanism::Mechanism;
 use slideway::motion::{Cause, History, PhaseInterval, Series, modes_in_words};
 use slideway::report::precise;
 use slideway::units::{Unit, Units};
@@ -48,15 +49,7 @@ pub fn motion_figure(history: &History) -> Figure {
             });
         }
     }
-    let contacts = mechanism.contacts.iter();
-    let forces: Vec<(String, String)> = contacts
-        .map(|contact| (contact.name.to_string(), format!("{}.normal_force", contact.name)))
-        .collect();
-    let mut panel = builder.panel("Normal forces and contact modes", ("normal force", "N"), &forces);
-    panel.bands = bands(history, forces.len());
-    panel.y.range = range_of_what_lasts(&panel.curves);
-    panel.zones = samples.left_open(&forces, &mechanism.units.of("s"));
-    panels.push(panel);
+    panels.extend(builder.forces(history));
     let energies = [
         ("kinetic energy", "energy.kinetic"),
         ("potential energy", "energy.potential"),
@@ -75,10 +68,7 @@ pub fn motion_figure(history: &History) -> Figure {
     panels.iter_mut().for_each(|panel| panel.marked.clone_from(&jams));
     Figure {
         title: headline(mechanism.title.as_deref(), "motion over time"),
-        subtitle: format!(
-            "Modes: signs of the normal forces of {}; = where the joint sticks",
-            names(history)
-        ),
+        subtitle: format!("Modes: {}; = where the joint sticks", signs_of_modes(mechanism)),
         panels,
         branches: builder.branches,
         quantities: vec![String::new()],
@@ -206,9 +196,18 @@ fn point_size(curves: &[Curve]) -> [f64; 2] {
     })
 }
 
-fn names(history: &History) -> String {
-    let names: Vec<&str> = history.mechanism.contacts.iter().map(|contact| &*contact.name).collect();
-    names.join(", ")
+/// What the signs of modes are those of.
+fn signs_of_modes(mechanism: &Mechanism) -> String {
+    let contacts: Vec<&str> = mechanism.contacts.iter().map(|contact| &*contact.name).collect();
+    let hinges = mechanism.friction_circles.iter();
+    let hinges: Vec<&str> = hinges.map(|circle| &*mechanism.joints[circle.joint.index()].name).collect();
+    match (contacts.join(", "), hinges.join(", ")) {
+        (contacts, hinges) if hinges.is_empty() => format!("signs of the normal forces of {contacts}"),
+        (contacts, hinges) if contacts.is_empty() => format!("signs of the angular velocities of {hinges}"),
+        (contacts, hinges) => {
+            format!("signs of the normal forces of {contacts}, then of the angular velocities of {hinges}")
+        }
+    }
 }
 
 /// The range of an axis that leaves out what curves over time reach for a short time only, where that is many
@@ -297,7 +296,7 @@ impl Samples {
         let zone = |piece: &Series| {
             let times = &piece.column("t")?.values;
             let [from, to] = extent(times.iter().copied().flatten())?.map(|time| seconds.number_of(time));
-            let meaning = "sticks: statics leaves normal forces open".to_owned();
+            let meaning = "sticks: statics leaves forces open".to_owned();
             Some(Zone { from, to, hatching: Hatching::Falling, meaning })
         };
         self.pieces.iter().filter(is_open).filter_map(zone).collect()
@@ -355,6 +354,36 @@ impl Builder<'_> {
             curves: drawn,
             ..Panel::default()
         }
+    }
+
+    /// The normal forces of the contacts, and the magnitudes of the forces of hinges with friction; the first of these
+    /// panels has the modes.
+    fn forces(&mut self, history: &History) -> Vec<Panel> {
+        let mechanism = &history.mechanism;
+        let contacts = mechanism.contacts.iter();
+        let contacts = contacts.map(|one| (one.name.to_string(), format!("{}.normal_force", one.name)));
+        let hinges = mechanism.friction_circles.iter();
+        let hinges = hinges.map(|circle| mechanism.joints[circle.joint.index()].name.to_string());
+        let hinges = hinges.map(|name| (name.clone(), format!("{name}.force")));
+        let (contacts, hinges): (Vec<_>, Vec<_>) = (contacts.collect(), hinges.collect());
+        let titles = ["Normal forces and contact modes", "Hinge forces and modes"];
+        let mut panels = Vec::new();
+        if !contacts.is_empty() || hinges.is_empty() {
+            panels.push((titles[0], "normal force", contacts));
+        }
+        if !hinges.is_empty() {
+            panels.push((if panels.is_empty() { titles[1] } else { "Hinge forces" }, "hinge force", hinges));
+        }
+        let modes = bands(history, panels[0].2.len());
+        let panel = |(title, quantity, forces): (&str, &str, Vec<(String, String)>)| {
+            let mut panel = self.panel(title, (quantity, "N"), &forces);
+            panel.y.range = range_of_what_lasts(&panel.curves);
+            panel.zones = self.samples.left_open(&forces, &self.units.of("s"));
+            panel
+        };
+        let mut panels: Vec<Panel> = panels.into_iter().map(panel).collect();
+        panels[0].bands = modes;
+        panels
     }
 }
 

@@ -1040,7 +1040,7 @@ class Model:
         until : float or str
             When it ends (s).
         mode : str, optional
-            The contact mode to begin with, a sign for each contact, such as `"+ - 0"`.
+            The contact mode to begin with, a sign for each contact, such as `"+ - 0"`, and for each hinge with friction.
         branches : list of int, optional
             Which of several possible modes to take at each decision, from 1.
         prefer : {"rule", "sliding"}

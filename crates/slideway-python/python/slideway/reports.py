@@ -197,7 +197,9 @@ CauseKind = Literal[
     "preload_gap_ends",
     "stops",
     "slips",
+    "stops_turning",
     "locks",
+    "folds",
     "reaction_limit",
     "tips",
     "overlap_vanishes",
@@ -216,7 +218,9 @@ CauseKind = Literal[
 - `"preload_gap_ends"`: A preload gap closes.
 - `"stops"`: A joint stops sliding.
 - `"slips"`: Sticking joints begin to slip.
+- `"stops_turning"`: A hinge with friction stops turning.
 - `"locks"`: The mode locks.
+- `"folds"`: The solution of the mode ends at a fold.
 - `"reaction_limit"`: A normal force reaches its limit.
 - `"tips"`: A guided slider tips.
 - `"overlap_vanishes"`: A block leaves its guide.
@@ -1482,6 +1486,8 @@ class EnergyReport(Record):
     """Potential energy at the start and at the end."""
     friction: tuple[Named, ...]
     """Dissipated by the friction of each contact."""
+    hinges: tuple[Named, ...] = ()
+    """Dissipated by the friction of each hinge that has some."""
     loads: tuple[Named, ...]
     """Work of each load other than constant springs."""
     drives: tuple[Named, ...]
@@ -2130,9 +2136,13 @@ class PhaseReport(Record):
     to: float
     """Its end (s)."""
     mode: str
-    """The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks."""
+    """The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks; then for each
+    hinge with friction `+` or `-` for the sense in which its first body turns against the second, `=` where
+    it sticks."""
     sliding: tuple[int, ...]
     """For each sliding joint the sign of its velocity, 0 where it sticks."""
+    turning: tuple[int, ...] = ()
+    """For each hinge with friction the sign of its angular velocity, 0 where it sticks."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2420,7 +2430,7 @@ class Series(Record):
 class SimulateReport(Report):
     """A motion in time."""
 
-    _absent = {"steps_from_drawing": None, "samples": None}
+    _absent = {"hinges": (), "steps_from_drawing": None, "samples": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2428,6 +2438,8 @@ class SimulateReport(Report):
     """Summary of the model."""
     contacts: tuple[str, ...]
     """The names of the contacts, in the order of their signs in modes."""
+    hinges: tuple[str, ...]
+    """The names of the hinges with friction, whose signs follow those of the contacts in modes."""
     tolerance: float
     """Relative error permitted for each step."""
     start: float

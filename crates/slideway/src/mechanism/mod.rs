@@ -254,6 +254,11 @@ pub enum CircleLaw<T = f64> {
 }
 
 impl FrictionCircle {
+    /// Whether there is friction, in motion or at rest.
+    pub(crate) fn is_rough(&self) -> bool {
+        self.radius.max(self.static_radius) > 0.0
+    }
+
     /// What is varied where static friction is: the coefficient of a pin, else the radius.
     pub(crate) fn static_friction(&self) -> f64 {
         match self.law {

@@ -98,18 +98,20 @@ impl SimulateOptions {
         self
     }
 
-    /// The same, after what a person types: blanks between the signs of the contacts do not count.
+    /// The same, after what a person types: blanks between the signs do not count.
     ///
     /// # Errors
-    /// If there is not one of "+", "-", "0" and "=" for each contact.
+    /// If there is not one of "+", "-", "0" and "=" for each contact, then for each hinge with friction.
     pub fn initial_of(self, typed: &str, mechanism: &Mechanism) -> Result<Self, Faults> {
         let pattern: String = typed.chars().filter(|sign| !sign.is_whitespace()).collect();
-        let contacts = &mechanism.contacts;
-        if pattern.len() == contacts.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
+        let contacts = mechanism.contacts.iter().map(|contact| contact.name.to_string());
+        let hinges = mechanism.friction_circles.iter().filter(|circle| circle.is_rough());
+        let hinges = hinges.map(|circle| mechanism.joints[circle.joint.index()].name.to_string());
+        let names: Vec<String> = contacts.chain(hinges).collect();
+        if pattern.len() == names.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
             return Ok(self.initial(&pattern));
         }
-        let contacts = contacts.iter().map(|contact| contact.name.to_string()).collect();
-        Err(Fault::general(FaultKind::MalformedMode { text: typed.to_owned(), contacts }).into())
+        Err(Fault::general(FaultKind::MalformedMode { text: typed.to_owned(), contacts: names }).into())
     }
 
     /// Takes these phases at the branchings, counted from 0.

@@ -47,7 +47,8 @@ pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states, ne
 pub(crate) use hinges::{block_instance, directions, locking_factor, turning_hinges, unknowns_of};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs, without_rounding,
+    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
+    without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;

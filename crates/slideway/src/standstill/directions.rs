@@ -77,7 +77,11 @@ fn rows(setup: &Setup) -> Vec<Row> {
         let length = if joint < setup.sliders.len() { setup.units.length } else { 1.0 };
         let unit = setup.units.acceleration * length / setup.units.length;
         let known = setup.known[joint];
-        Row { of_motion: setup.row(joint) / length, of_velocities: known.acceleration / unit, sign: known.sign }
+        Row {
+            of_motion: setup.row(joint) / length,
+            of_velocities: known.acceleration / unit,
+            sign: known.sign,
+        }
     };
     (0..setup.known.len()).map(row).collect()
 }

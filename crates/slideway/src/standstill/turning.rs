@@ -109,9 +109,10 @@ impl<'h, 's> Blocks<'h, 's> {
     fn new(held: &'h Held<'s>, signs: &Pattern) -> Self {
         let circles = held.setup.mechanism.friction_circles.iter().zip(&signs.hinges).enumerate();
         let turning = circles.filter(|(_, (_, state))| **state != JointPhase::Sticking);
-        let hinge = |(circle, (friction, state)): (usize, (&crate::mechanism::FrictionCircle, &JointPhase))| {
-            TurningHinge { circle, joint: friction.joint, sense: state.sign() }
-        };
+        let hinge =
+            |(circle, (friction, state)): (usize, (&crate::mechanism::FrictionCircle, &JointPhase))| {
+                TurningHinge { circle, joint: friction.joint, sense: state.sign() }
+            };
         let signs = signs.joints.iter().chain(&signs.hinges).copied();
         Self { held, signs: signs.collect(), hinges: turning.map(hinge).collect() }
     }
@@ -128,16 +129,19 @@ impl<'h, 's> Blocks<'h, 's> {
         let contacts = &setup.mechanism.contacts;
         let layout = &setup.assembled.layout;
         let normal = (0..contacts.len()).map(|k| layout.reaction(Reaction::Normal(ContactId(k))));
-        let force = self.hinges.iter().flat_map(|hinge| {
-            [0, 1].map(|axis| layout.reaction(Reaction::Hinge(hinge.joint, axis)))
-        });
+        let force = self
+            .hinges
+            .iter()
+            .flat_map(|hinge| [0, 1].map(|axis| layout.reaction(Reaction::Hinge(hinge.joint, axis))));
         let rows: Vec<usize> = normal.chain(force).collect::<Option<_>>()?;
         let answers = |columns: Vec<&DVector<f64>>| {
-            let columns: Vec<DVector<f64>> = columns.into_iter().map(|column| self.held.forces(column)).collect();
+            let columns: Vec<DVector<f64>> =
+                columns.into_iter().map(|column| self.held.forces(column)).collect();
             let answers = self.held.answers(&columns)?;
             Some(DMatrix::from_fn(rows.len(), answers.len(), |row, column| answers[column][rows[row]]))
         };
-        let friction = |side: usize| answers(setup.assembled.friction.iter().map(|both| &both[side]).collect());
+        let friction =
+            |side: usize| answers(setup.assembled.friction.iter().map(|both| &both[side]).collect());
         let eta = without_rounding(&setup.mechanism, [friction(0)?, friction(1)?]);
         let of_contacts = |value: &dyn Fn(usize) -> f64| {
             DVector::from_fn(contacts.len(), |k, _| if self.sign(k) == 0.0 { 0.0 } else { value(k) })
@@ -155,7 +159,9 @@ impl<'h, 's> Blocks<'h, 's> {
                 negative: of_contacts(&|k| contacts[k].preload[1]),
             },
             velocity_signs: of_contacts(&|k| self.sign(k)),
-            couples: answers(self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect())?,
+            couples: answers(
+                self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect(),
+            )?,
             leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
             frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
         };
@@ -217,7 +223,8 @@ impl<'h, 's> Blocks<'h, 's> {
         }
         for (index, hinge) in self.hinges.iter().enumerate() {
             let [x, y] = solution.reactions[index];
-            load += self.held.forces(&setup.assembled.couples[hinge.circle]) * (self.leverage(index) * x.hypot(y));
+            load += self.held.forces(&setup.assembled.couples[hinge.circle])
+                * (self.leverage(index) * x.hypot(y));
         }
         let answer = self.held.answers(&[load])?;
         Some(answer[0].rows(0, setup.equations_of_motion()).iter().copied().collect())

@@ -3,11 +3,13 @@
 use crate::set_up::{State, assert_close, joints, sides};
 use slideway::configuration::Configuration;
 use slideway::gallery::MODELS;
-use slideway::mechanism::Mechanism;
+use slideway::ids::JointId;
+use slideway::kinetics::KineticEquations;
+use slideway::mechanism::{JointKind, Mechanism};
 use slideway::model::{Model, Settings};
-use slideway::motion::JointPhase;
 use slideway::motion::decision::{Standing, successors};
-use slideway::report::SolveReport;
+use slideway::motion::{Continuation, Decisions, EventInstant, JointPhase, Thorough};
+use slideway::report::{SolveReport, Verdict};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
 
@@ -53,10 +55,58 @@ fn patterns(report: &SolveReport) -> Vec<(String, Vec<f64>)> {
     all
 }
 
+/// With friction in hinges each solution of `solve` can follow, and nothing else, with the same hinge forces.
+fn assert_turning(name: &str, state: &State, report: &SolveReport) {
+    let State { mechanism, configuration } = state;
+    let contacts = KineticEquations::new(mechanism, configuration).unwrap().contacts;
+    let sliders = (0..mechanism.joints.len()).filter_map(|joint| mechanism.slider(JointId(joint)));
+    let sliding = sliders.map(|slider| contacts[slider.contacts[0].index()].sliding_velocity.signum());
+    let turning = mechanism.friction_circles.iter().map(|circle| {
+        let JointKind::Hinge([first, second]) = &mechanism.joints[circle.joint.index()].kind else {
+            panic!("a hinge")
+        };
+        let spin = configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame);
+        spin.signum()
+    });
+    let instant = EventInstant {
+        mechanism,
+        configuration,
+        signs: &sliding.collect::<Vec<f64>>(),
+        spins: &turning.collect::<Vec<f64>>(),
+        zero: &[],
+        rounding: 0.0,
+        previous: None,
+    };
+    let found = Thorough.successors(&instant).unwrap();
+    assert!(!found.left_out);
+    assert_eq!(found.list.len(), report.solutions.len(), "{name}");
+    for solution in &report.solutions {
+        let rough: Vec<[f64; 2]> = solution
+            .hinges
+            .iter()
+            .filter(|hinge| hinge.friction.is_some())
+            .map(|hinge| hinge.force)
+            .collect();
+        let scale = rough.iter().flatten().fold(0.0_f64, |greatest, force| greatest.max(force.abs()));
+        let agrees = |one: &&Continuation| {
+            let both = one.phase.hinges.iter().map(|hinge| hinge.force).zip(&rough);
+            let mut components = both.flat_map(|(found, force)| [0, 1].map(|axis| found[axis] - force[axis]));
+            components.all(|difference| difference.abs() <= 1e-7 * scale)
+        };
+        let same: Vec<&Continuation> = found.list.iter().filter(agrees).collect();
+        let [one] = same[..] else { panic!("{name}: {} agree with one solution", same.len()) };
+        let found_sides = sides(&one.phase);
+        let mut both = found_sides.chars().zip(&solution.signs);
+        assert!(both.all(|(side, sign)| (side == '+') == (*sign == 1)), "{name}");
+        let never = one.verdict == Verdict::Unattainable;
+        assert!(!never || solution.attainability.verdict != Verdict::Attainable, "{name}");
+    }
+}
+
 #[test]
 fn sliding_mechanisms_have_the_solutions_of_solve() {
     let mut random = Random(2002);
-    let (mut compared, mut several, mut none, mut gaps) = (0, 0, 0, 0);
+    let (mut compared, mut several, mut none, mut gaps, mut turning) = (0, 0, 0, 0, 0);
     for entry in MODELS.iter().filter(|entry| !entry.redundant) {
         for _ in 0..60 {
             let Some(model) = random_model(entry.text, &mut random) else { continue };
@@ -66,8 +116,9 @@ fn sliding_mechanisms_have_the_solutions_of_solve() {
                 continue;
             }
             let state = State::of(&model);
-            // Motions do not take friction in hinges into account.
             if !state.mechanism.friction_circles.is_empty() {
+                assert_turning(entry.name, &state, &report);
+                turning += 1;
                 continue;
             }
             let found = state.successors(&vec![false; slider_count(&state)], None);
@@ -110,6 +161,7 @@ fn sliding_mechanisms_have_the_solutions_of_solve() {
         }
     }
     assert!(compared > 300 && several > 10 && none > 5 && gaps > 0, "{compared} {several} {none} {gaps}");
+    assert!(turning > 100, "{turning}");
 }
 
 /// A mechanism at rest; nothing where `solve` cannot treat it, either.

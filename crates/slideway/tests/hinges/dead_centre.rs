@@ -53,6 +53,17 @@ impl DeadCentre {
         Model::parse(&text).unwrap()
     }
 
+    /// A piston drives a crank against a torque, in this sense, from where the crank is drawn at a right angle.
+    pub(crate) fn driven_by_piston(&self, sense: f64) -> Model {
+        let further = format!(
+            "[loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = {}\n\
+             [coordinates.phi]\nrotation = \"crank\"\ndrawn_at = \"90 deg\"\nrate = {sense}\n\
+             [drives.gas]\ncoordinate = \"phi\"\nforce = {{ at = \"piston.B\", direction = 0 }}\n",
+            -5.0 * sense
+        );
+        self.model(["[0, 0.05]", "[\"sqrt(0.15^2 - 0.05^2)\", 0]"], ("block_slider", 0.08), &further)
+    }
+
     /// The same drawn at the inner or the outer dead centre.
     pub(crate) fn at_dead_centre(&self, inner: bool, further: &str) -> Model {
         let places = if inner { ["[-0.05, 0]", "[0.1, 0]"] } else { ["[0.05, 0]", "[0.2, 0]"] };

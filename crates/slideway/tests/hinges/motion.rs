@@ -1,7 +1,9 @@
 //! Motions with friction in hinges: closed forms, an independent integration, stops that hold and folds.
 
+use crate::dead_centre::dead_centres;
 use rstest::rstest;
 use serde::Deserialize;
+use slideway::fault::{FaultKind, NoSliding};
 use slideway::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
 use slideway::{Model, Settings, gallery};
 use std::path::Path;
@@ -161,7 +163,8 @@ fn a_pendulum_swings_less_and_less_and_sticks() {
 #[case(0.01)]
 fn a_wheel_starts_where_static_friction_is_exceeded(#[case] static_radius: f64) {
     let friction = format!("friction_radius = 0.01\nstatic_friction_radius = {static_radius}");
-    let torque = "gravity = 10\n[loads.torque]\ntype = \"torque\"\nbody = \"body\"\nmoment = \"0.1 N m/s * t\"";
+    let torque =
+        "gravity = 10\n[loads.torque]\ntype = \"torque\"\nbody = \"body\"\nmoment = \"0.1 N m/s * t\"";
     let history = moved(&body_on_pin(0.0, &friction, 0.0, torque), 4.0);
     let start: f64 = static_radius * MASS * 10.0 / 0.1;
     let slips = times(&history, |cause| matches!(cause, Cause::Slips));
@@ -269,6 +272,33 @@ fn at_a_fold_a_body_jams() {
     is_near(alpha, 0.3 * (1.0 - at / 0.1) / inertia / (1.0 + e), 1e-5);
 }
 
+/// Where no effort of the drive moves the mechanism any further, it locks.
+fn locks(model: &Model, duration: f64) -> f64 {
+    let history = simulate(model, &SimulateOptions::new(duration)).unwrap();
+    assert_eq!(history.end, End::Jammed, "{:?}", history.events);
+    assert!(history.events.last().unwrap().causes.contains(&Cause::Locks), "{:?}", history.events);
+    phi(&history, history.stop())[0]
+}
+
+/// The push on the gallery's bell crank passes its friction circle where `a cos(phi) = r`.
+#[test]
+fn a_driven_lever_locks_where_the_push_passes_the_friction_circle() {
+    let model = Model::parse(gallery::find("bell-crank").unwrap().text).unwrap();
+    let radius = 0.025 * 0.2_f64.atan().sin();
+    is_near(locks(&model, 3.0), (radius / 0.08).acos(), 1e-8);
+}
+
+/// A piston turns the crank up to the locked ranges about both dead centres.
+#[test]
+fn a_crank_locks_where_the_locked_ranges_of_its_dead_centres_begin() {
+    for case in dead_centres() {
+        let ends = [(1.0, 180.0 - case.inner_deg), (-1.0, case.outer_deg)];
+        for (sense, end) in ends.into_iter().filter(|(_, end)| end.is_finite()) {
+            is_near(locks(&case.driven_by_piston(sense), 2.0).to_degrees(), end, 1e-7);
+        }
+    }
+}
+
 /// Seen in a mirror everything turns the other way.
 #[test]
 fn the_mirror_image_moves_as_the_mirror_image() {
@@ -282,4 +312,21 @@ fn the_mirror_image_moves_as_the_mirror_image() {
     assert_eq!(one.2, mirrored.2);
     is_near(one.0, -mirrored.0, 1e-9);
     is_near(one.1, -mirrored.1, 1e-9);
+}
+
+/// What is refused is named: Klepp's bar only shifts, so that its lower hinge never turns; impulses at stops.
+#[test]
+fn hinges_that_never_turn_and_stops_that_are_hit_are_refused() {
+    let refused = |text: &str| {
+        let faults = simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(1.0)).unwrap_err();
+        faults.sorted()[0].kind.clone()
+    };
+    let bar = gallery::find("klepp-2002").unwrap().text;
+    let standing = bar.replacen("type = \"hinge\"", "type = \"hinge\"\nfriction_radius = 0.01", 1);
+    let kind = refused(&standing);
+    assert_eq!(kind, FaultKind::HingeDoesNotTurn { hinge: "A".to_owned(), why: NoSliding::Never });
+    let crank = gallery::find("slider-crank-with-pins").unwrap().text;
+    let stop = "type = \"block_slider\"\ntravel = [\"0 mm\", \"90 mm\"]\nstop = { restitution = 0.3 }";
+    let kind = refused(&crank.replacen("type = \"block_slider\"", stop, 1));
+    assert_eq!(kind, FaultKind::StopsBesideHinges { joints: vec!["cylinder".to_owned()] });
 }

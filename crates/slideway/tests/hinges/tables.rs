@@ -1,6 +1,6 @@
 //! Friction in hinges over many points: `sweep`, `map`, and the table of `drive`.
 
-use crate::dead_centre::{DeadCentre, dead_centres};
+use crate::dead_centre::dead_centres;
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map};
@@ -188,24 +188,12 @@ fn over_the_factor_of_friction_a_press_needs_the_efforts_of_multiplied_coefficie
     }
 }
 
-/// A piston drives a crank against a torque.
-fn driven_by_piston(case: &DeadCentre) -> Model {
-    let places = ["[0, 0.05]", "[\"sqrt(0.15^2 - 0.05^2)\", 0]"];
-    case.model(
-        places,
-        ("block_slider", 0.08),
-        "[loads.resistance]\ntype = \"torque\"\nbody = \"crank\"\nmoment = \"-5 N m\"\n\
-         [coordinates.phi]\nrotation = \"crank\"\ndrawn_at = \"90 deg\"\nrate = 1\n\
-         [drives.gas]\ncoordinate = \"phi\"\nforce = { at = \"piston.B\", direction = 0 }\n",
-    )
-}
-
 /// About both dead centres no force on the piston turns the crank; the ranges end where the closed form says.
 #[test]
 fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
     let case = &dead_centres()[0];
     let options = DriveOptions::default().vary("phi=-20 deg..200 deg".parse::<slideway::Vary>().unwrap());
-    let report = drive(&driven_by_piston(case), &options.rows(23)).unwrap();
+    let report = drive(&case.driven_by_piston(1.0), &options.rows(23)).unwrap();
     let turning = &report.course.as_ref().unwrap().directions[0];
     let expected = [[-case.outer_deg, case.outer_deg], [180.0 - case.inner_deg, 180.0 + case.inner_deg]];
     assert_eq!(turning.locked.len(), 2, "{:?}", turning.locked);

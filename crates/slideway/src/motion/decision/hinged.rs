@@ -205,7 +205,9 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
     watch.begin(phase, &equations, &switching);
     let units = Units::of(&equations);
     let value = |watched: &Watched, equations: &Equations<'_>| {
-        watch.value(*watched, phase, equations).map_or(f64::NEG_INFINITY, |value| value / units.of_watched(*watched))
+        watch
+            .value(*watched, phase, equations)
+            .map_or(f64::NEG_INFINITY, |value| value / units.of_watched(*watched))
     };
     let bounds = watch.list.iter().filter(|watched| Units::counts(**watched));
     let values: Vec<(&Watched, f64)> = bounds.map(|watched| (watched, value(watched, &equations))).collect();
@@ -216,7 +218,8 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
     at_boundary().next().is_none()
         || later(&mut equations, configuration, LATER * units.time).is_some_and(|()| {
             at_boundary().all(|(watched, before)| {
-                let least = if matches!(watched, Watched::Velocity(..) | Watched::Spin(..)) { MOVES } else { -STAYS };
+                let least =
+                    if matches!(watched, Watched::Velocity(..) | Watched::Spin(..)) { MOVES } else { -STAYS };
                 value(watched, &equations) - before > least
             })
         })

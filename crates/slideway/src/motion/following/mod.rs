@@ -11,8 +11,7 @@ use super::options::SimulateOptions;
 use super::record::history::History;
 use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::JointId;
-use crate::mechanism::{FrictionCircle, Mechanism, Slider};
+use crate::mechanism::{FrictionCircle, Joint, JointKind, Mechanism};
 use crate::model::Model;
 use crate::progress::Callback;
 use crate::solve::never_turning;
@@ -57,24 +56,29 @@ pub fn simulate_with(
 
 /// The mechanism without friction circles of no size: these hinges have no friction.
 fn with_rough_hinges_alone(mechanism: &Mechanism) -> Cow<'_, Mechanism> {
-    let is_rough = |circle: &FrictionCircle| circle.radius.max(circle.static_radius) > 0.0;
     let mut mechanism = Cow::Borrowed(mechanism);
-    if !mechanism.friction_circles.iter().all(is_rough) {
-        mechanism.to_mut().friction_circles.retain(is_rough);
+    if !mechanism.friction_circles.iter().all(FrictionCircle::is_rough) {
+        mechanism.to_mut().friction_circles.retain(FrictionCircle::is_rough);
     }
     mechanism
 }
 
-/// Refuses hinges with friction that never turn, and those beside end stops that are hit.
+/// Refuses hinges with friction that never turn, and end stops that are hit beside hinges with friction.
 ///
 /// # Errors
-/// A fault that names the hinges.
+/// A fault that names the hinges or the joints with stops.
 fn check_hinges(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
     never_turning(mechanism, configuration)?;
-    let hits = |slider: &Slider| slider.stops.iter().flatten().any(|stop| stop.restitution().is_some());
-    let joints = (0..mechanism.joints.len()).map(JointId);
-    let hit = joints.into_iter().any(|joint| mechanism.slider(joint).is_some_and(hits));
-    if hit { mechanism.check_frictionless_hinges() } else { Ok(()) }
+    let is_hit = |joint: &&Joint| {
+        let JointKind::Slider(slider) = &joint.kind else { return false };
+        slider.stops.iter().flatten().any(|stop| stop.restitution().is_some())
+    };
+    let joints: Vec<String> =
+        mechanism.joints.iter().filter(is_hit).map(|joint| joint.name.to_string()).collect();
+    if mechanism.friction_circles.is_empty() || joints.is_empty() {
+        return Ok(());
+    }
+    Err(Fault::general(FaultKind::StopsBesideHinges { joints }).into())
 }
 
 /// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more

@@ -33,7 +33,8 @@ pub struct Event {
 }
 
 /// Where every sliding joint touches its guide in a phase, or that it sticks, and which hinges with friction stick: "floor
-/// flat on the lower guide; sole sticks". Sides are those of the configuration.
+/// flat on the lower guide; sole sticks". Without sliding joints also how hinges turn. Sides are those of the
+/// configuration.
 pub fn modes_in_words(mechanism: &Mechanism, configuration: &Configuration, phase: &Phase) -> String {
     let sliders = sliding_joints(mechanism);
     let words = Words { mechanism, configuration, sliders: &sliders };
@@ -41,8 +42,11 @@ pub fn modes_in_words(mechanism: &Mechanism, configuration: &Configuration, phas
         JointPhase::Sticking => format!("{} sticks", words.name(*joint)),
         JointPhase::Sliding(_) => words.mode(words.name(*joint), *joint, phase),
     };
-    let hinges = words.hinges(phase).filter(|(_, state)| *state == JointPhase::Sticking);
-    let hinges = hinges.map(|(joint, _)| format!("{} sticks", words.name(joint)));
+    let hinges = words.hinges(phase).filter_map(|(joint, state)| match state {
+        JointPhase::Sticking => Some(format!("{} sticks", words.name(joint))),
+        JointPhase::Sliding(sign) if sliders.is_empty() => Some(words.turns(joint, sign)),
+        JointPhase::Sliding(_) => None,
+    });
     sliders.iter().enumerate().map(one).chain(hinges).collect::<Vec<String>>().join("; ")
 }
 
@@ -74,7 +78,7 @@ impl Words<'_> {
             match before {
                 Some(before) => {
                     parts.extend(self.changes(causes, before, after));
-                    parts.extend(self.turns(causes, before, after));
+                    parts.extend(self.changes_of_turning(causes, before, after));
                 }
                 None => {
                     parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
@@ -82,9 +86,7 @@ impl Words<'_> {
                     }));
                     parts.extend(self.hinges(after).map(|(joint, state)| match state {
                         JointPhase::Sticking => format!("{} sticks", self.name(joint)),
-                        JointPhase::Sliding(sign) => {
-                            format!("{}: {}", self.name(joint), self.turning("turns", joint, sign))
-                        }
+                        JointPhase::Sliding(sign) => self.turns(joint, sign),
                     }));
                 }
             }
@@ -199,7 +201,7 @@ impl Words<'_> {
     }
 
     /// What differs between two phases, hinge by hinge.
-    fn turns(&self, causes: &[Cause], before: &Phase, after: &Phase) -> Vec<String> {
+    fn changes_of_turning(&self, causes: &[Cause], before: &Phase, after: &Phase) -> Vec<String> {
         let one = |((joint, before), (_, after)): ((JointId, JointPhase), (JointId, JointPhase))| {
             let name = self.name(joint);
             Some(match (before, after) {
@@ -219,6 +221,11 @@ impl Words<'_> {
             })
         };
         self.hinges(before).zip(self.hinges(after)).filter_map(one).collect()
+    }
+
+    /// "A: rod turns clockwise against crank"
+    fn turns(&self, joint: JointId, sign: f64) -> String {
+        format!("{}: {}", self.name(joint), self.turning("turns", joint, sign))
     }
 
     /// "rod turns clockwise against crank"
