@@ -75,20 +75,17 @@ impl Words<'_> {
     ) -> String {
         let mut parts: Vec<String> = causes.iter().filter_map(|cause| self.cause(cause, after)).collect();
         if let Some(after) = after {
-            match before {
-                Some(before) => {
-                    parts.extend(self.changes(causes, before, after));
-                    parts.extend(self.changes_of_turning(causes, before, after));
-                }
-                None => {
-                    parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
-                        format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
-                    }));
-                    parts.extend(self.hinges(after).map(|(joint, state)| match state {
-                        JointPhase::Sticking => format!("{} sticks", self.name(joint)),
-                        JointPhase::Sliding(sign) => self.turns(joint, sign),
-                    }));
-                }
+            if let Some(before) = before {
+                parts.extend(self.changes(causes, before, after));
+                parts.extend(self.changes_of_turning(causes, before, after));
+            } else {
+                parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
+                    format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
+                }));
+                parts.extend(self.hinges(after).map(|(joint, state)| match state {
+                    JointPhase::Sticking => format!("{} sticks", self.name(joint)),
+                    JointPhase::Sliding(sign) => self.turns(joint, sign),
+                }));
             }
         }
         if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
