@@ -5,13 +5,15 @@
 //! friction, or stay at rest. If another velocity would reverse first, the impulse ends where that is zero.
 
 use super::BOUNDARY;
-use super::hinged::{setup, unit};
+use super::hinged::{frictionless, setup, unit};
 use super::impulse::AT_REST;
 use super::rules::{EventInstant, HaltingImpulse};
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
 use crate::motion::moving::energy::kinetic;
+use crate::motion::moving::equations::Equations;
 use crate::pattern::phase::sliding_joints;
+use crate::pattern::{HingePhase, JointPhase, Phase};
 use crate::standstill::{MotionState, motion_states, sticking_slack};
 use nalgebra::Vector2;
 
@@ -63,17 +65,49 @@ fn stopped(
     (signs, velocities): (&[f64], &[f64]),
     state: &MotionState,
 ) -> Option<Configuration> {
-    let mut part = 1.0_f64;
     let whole = jumped(event.configuration, &state.accelerations, 1.0);
-    let pattern = state.pattern.joints.iter().chain(&state.pattern.hinges);
-    for ((before, after), phase) in velocities.iter().zip(relative_velocities(event, &whole)).zip(pattern) {
+    let pattern: Vec<JointPhase> =
+        state.pattern.joints.iter().chain(&state.pattern.hinges).copied().collect();
+    let reverses = |((before, after), phase): ((&f64, f64), &JointPhase)| {
         let (jump, sign) = (after - before, phase.sign());
-        if sign * jump < 0.0 && sign * after < 0.0 {
-            part = part.min(before.abs() / jump.abs());
-        }
-    }
+        if sign * jump < 0.0 && sign * after < 0.0 { before.abs() / jump.abs() } else { f64::INFINITY }
+    };
+    let jumps = velocities.iter().zip(relative_velocities(event, &whole)).zip(&pattern);
+    let zeros: Vec<f64> = jumps.map(reverses).collect();
+    let part = zeros.iter().copied().fold(1.0, f64::min);
+    let ends = |joint: usize| {
+        let stays = pattern[joint] == JointPhase::Sticking && (part >= 1.0 || signs[joint] == 0.0);
+        stays || zeros[joint] <= part
+    };
+    let at_rest: Vec<bool> = (0..pattern.len()).map(ends).collect();
     let after = jumped(event.configuration, &state.accelerations, part);
-    signs.iter().any(|sign| *sign != 0.0).then_some(after)
+    signs.iter().any(|sign| *sign != 0.0).then(|| settled(event, after, state, &at_rest))
+}
+
+/// The configuration with exactly no velocity where there is none, of which the programs leave a rest within their
+/// tolerance.
+fn settled(
+    event: &EventInstant<'_>,
+    after: Configuration,
+    state: &MotionState,
+    at_rest: &[bool],
+) -> Configuration {
+    let smooth = frictionless(event.mechanism);
+    let does = |rests: &bool| if *rests { JointPhase::Sticking } else { JointPhase::Sliding(1.0) };
+    let (joints, hinges) = at_rest.split_at(state.pattern.joints.len());
+    let phase = Phase {
+        joints: joints.iter().map(does).collect(),
+        contacts: state.pattern.contacts.clone(),
+        hinges: hinges.iter().map(|rests| HingePhase { state: does(rests), force: [0.0; 2] }).collect(),
+    };
+    let mut equations = Equations::new(&smooth, &after);
+    let mut values = equations.state_of(&after);
+    if equations.enter(&phase, after.time, &values).is_err() {
+        return after;
+    }
+    equations.project(&mut values);
+    equations.place(after.time, &values);
+    equations.configuration.clone()
 }
 
 /// The configuration with a part of the jumps of the velocities; what rounding leaves of one is zero.

@@ -29,8 +29,8 @@ const BOUNDARY: f64 = 1e-7;
 const STAYS: f64 = 1e-10;
 /// ... and a velocity that is greater than this begins.
 const MOVES: f64 = 1e-13;
-/// Part of the time in which the mechanism moves through its own size after which a phase is looked at again.
-const LATER: f64 = 1e-4;
+/// Parts of the time in which the mechanism moves through its own size after which a phase is looked at again.
+const LATER: [f64; 3] = [1e-4, 1e-3, 1e-2];
 
 /// A mechanism at an instant, with the friction at its sliding speeds, and the signs of the velocities of its sliding
 /// joints and hinges with friction: 0 where they have to stick, nothing where the acceleration decides.
@@ -173,7 +173,7 @@ fn near(one: &[f64], other: &[f64], part: f64) -> bool {
 }
 
 /// The mechanism without friction.
-fn frictionless(mechanism: &Mechanism) -> Mechanism {
+pub(super) fn frictionless(mechanism: &Mechanism) -> Mechanism {
     let mut smooth = mechanism.clone();
     for contact in &mut smooth.contacts {
         (contact.mu, contact.preload, contact.law) = ([0.0; 2], [0.0; 2], [None; 2]);
@@ -196,10 +196,11 @@ fn entered<'m>(
 }
 
 /// Whether everything that is watched in a phase is within its bounds, and what is at its boundary moves away from it, which
-/// is looked at a little later in its own motion; what stays at its boundary may last.
+/// is looked at a little later in its own motion; what stays at its boundary may last. Where velocities that begin are
+/// too small to be told from rounding, which they are under loads that grow slowly, it is looked at later still.
 fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
     let EventInstant { mechanism, configuration, .. } = *event;
-    let Some(mut equations) = entered(mechanism, configuration, phase) else { return false };
+    let Some(equations) = entered(mechanism, configuration, phase) else { return false };
     let switching = Switching::new(mechanism, configuration);
     let mut watch = Watch::new(&[], None);
     watch.begin(phase, &equations, &switching);
@@ -209,20 +210,42 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
             .value(*watched, phase, equations)
             .map_or(f64::NEG_INFINITY, |value| value / units.of_watched(*watched))
     };
+    let begins = |watched: &Watched| match *watched {
+        Watched::Velocity(joint, _) => event.signs[joint] == 0.0,
+        Watched::Spin(hinge, _) => event.spins[hinge] == 0.0,
+        _ => false,
+    };
     let bounds = watch.list.iter().filter(|watched| Units::counts(**watched));
     let values: Vec<(&Watched, f64)> = bounds.map(|watched| (watched, value(watched, &equations))).collect();
     if values.iter().any(|(_, value)| *value < -BOUNDARY) {
         return false;
     }
-    let at_boundary = || values.iter().filter(|(_, value)| *value <= BOUNDARY);
-    at_boundary().next().is_none()
-        || later(&mut equations, configuration, LATER * units.time).is_some_and(|()| {
-            at_boundary().all(|(watched, before)| {
-                let least =
-                    if matches!(watched, Watched::Velocity(..) | Watched::Spin(..)) { MOVES } else { -STAYS };
-                value(watched, &equations) - before > least
-            })
-        })
+    let is_speed = |watched: &Watched| matches!(watched, Watched::Velocity(..) | Watched::Spin(..));
+    let at_boundary = |(watched, value): &&(&Watched, f64)| {
+        if is_speed(watched) { begins(watched) } else { *value <= BOUNDARY }
+    };
+    let at_boundary: Vec<&(&Watched, f64)> = values.iter().filter(at_boundary).collect();
+    if at_boundary.is_empty() {
+        return true;
+    }
+    for part in LATER {
+        let Some(mut equations) = entered(mechanism, configuration, phase) else { return false };
+        if later(&mut equations, configuration, part * units.time).is_none() {
+            return false;
+        }
+        let changes = at_boundary.iter().map(|(watched, before)| {
+            let least = if begins(watched) { MOVES } else { STAYS };
+            (begins(watched), (value(watched, &equations) - before) / least)
+        });
+        let changes: Vec<(bool, f64)> = changes.collect();
+        if changes.iter().any(|(_, change)| *change < -1.0) {
+            return false;
+        }
+        if changes.iter().all(|(begins, change)| !begins || *change > 1.0) {
+            return true;
+        }
+    }
+    false
 }
 
 /// Takes equations a little further in their own motion, by one step of Heun's method; nothing where they have no solution
@@ -263,9 +286,13 @@ impl Units {
         let accelerations = equations.accelerations().chunks_exact(3);
         let acceleration = accelerations
             .fold(0.0_f64, |a, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * length));
+        let force = super::scale_of_forces(mechanism, configuration);
+        let masses =
+            mechanism.bodies.iter().map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
+        let mass = masses.fold(0.0, f64::max);
+        let acceleration = if mass > 0.0 { acceleration.max(force / mass) } else { acceleration };
         let velocity = speeds.fold((acceleration * length).sqrt(), f64::max);
         let velocity = if velocity > 0.0 { velocity } else { 1.0 };
-        let force = super::scale_of_forces(mechanism, configuration);
         Self { force, length, velocity, time: length / velocity }
     }
 
