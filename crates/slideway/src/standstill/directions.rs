@@ -18,6 +18,8 @@ struct Branch {
     start: DVector<f64>,
     /// What may be added to it, one in each column.
     motions: DMatrix<f64>,
+    /// Joints that none of the motions moves at once, and that begin to move later: at a dead centre.
+    later: Vec<usize>,
 }
 
 /// No more signs than these are those of so many joints over so many motions: `sum_i C(joints, i) 2^i` for `i` up to the
@@ -33,15 +35,16 @@ pub(super) fn most_directions(motions: usize, joints: usize) -> u64 {
 }
 
 /// What joints and hinges do in some motion, their contacts left out; the motions are one in each column. Those whose
-/// velocities are known do what these say, and the accelerations of the others decide.
-pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>) -> Vec<Pattern> {
+/// velocities are known do what these say, and the accelerations of the others decide; with `later`, those that no motion
+/// moves at once may begin in either direction.
+pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>, later: bool) -> Vec<Pattern> {
     let rows = rows(setup);
     let start = acceleration_of_velocities(setup);
-    let mut branches = vec![Branch { signs: Vec::new(), start, motions: motions.clone() }];
+    let mut branches = vec![Branch { signs: Vec::new(), start, motions: motions.clone(), later: Vec::new() }];
     for joint in 0..rows.len() {
         let mut next = Vec::new();
         for branch in branches {
-            next.extend(extended(&rows, joint, &branch));
+            next.extend(extended(&rows, joint, (&branch, later)));
         }
         branches = next;
     }
@@ -100,11 +103,11 @@ fn acceleration_of_velocities(setup: &Setup) -> DVector<f64> {
 }
 
 /// The branches that the next joint's signs leave: the one that is known, or all.
-fn extended(rows: &[Row], joint: usize, branch: &Branch) -> Vec<Branch> {
+fn extended(rows: &[Row], joint: usize, (branch, later): (&Branch, bool)) -> Vec<Branch> {
     let known = rows[joint].sign;
     let with = |sign: f64, start: DVector<f64>, motions: DMatrix<f64>| {
         let signs = branch.signs.iter().copied().chain([sign]).collect();
-        Branch { signs, start, motions }
+        Branch { signs, start, motions, later: branch.later.clone() }
     };
     let as_before = |sign: f64| with(sign, branch.start.clone(), branch.motions.clone());
     if let Some(sign) = known.filter(|sign| *sign != 0.0) {
@@ -113,12 +116,15 @@ fn extended(rows: &[Row], joint: usize, branch: &Branch) -> Vec<Branch> {
     let (moves, begins) = (&rows[joint].of_motion * &branch.motions, rows[joint].at(&branch.start));
     let size = rows[joint].of_motion.amax() * branch.motions.amax();
     if moves.iter().all(|value| value.abs() <= TOLERANCE * size) {
-        let sign = if known.is_some() || begins.abs() <= TOLERANCE * branch.start.amax().max(1.0) {
-            0.0
-        } else {
-            begins.signum()
-        };
-        return vec![as_before(sign)];
+        if known.is_none() && begins.abs() > TOLERANCE * branch.start.amax().max(1.0) {
+            return vec![as_before(begins.signum())];
+        }
+        let mut next = vec![as_before(0.0)];
+        if later && known.is_none() && branch.motions.ncols() > 0 {
+            next.extend([1.0, -1.0].map(as_before));
+            next[1..].iter_mut().for_each(|later| later.later.push(joint));
+        }
+        return next;
     }
     let start = &branch.start - &branch.motions * moves.transpose() * (begins / moves.norm_squared());
     let still = with(0.0, start, &branch.motions * null_space(&DMatrix::from_rows(&[moves])));
@@ -131,8 +137,10 @@ fn extended(rows: &[Row], joint: usize, branch: &Branch) -> Vec<Branch> {
 
 /// Whether some motion has all the signs; where the linear program is not solved, it may.
 fn is_possible(rows: &[Row], branch: &Branch) -> bool {
-    let moving = rows.iter().zip(&branch.signs).filter(|(row, sign)| row.sign.is_none() && **sign != 0.0);
-    let slack = |(row, sign): (&Row, &f64)| Affine {
+    let moving = rows.iter().zip(&branch.signs).enumerate();
+    let moving = moving
+        .filter(|(joint, (row, sign))| row.sign.is_none() && **sign != 0.0 && !branch.later.contains(joint));
+    let slack = |(_, (row, sign)): (usize, (&Row, &f64))| Affine {
         coefficients: (&row.of_motion * &branch.motions).iter().map(|value| sign * value).collect(),
         constant: sign * row.at(&branch.start),
     };

@@ -38,7 +38,7 @@ pub(crate) fn motion_states(setup: &Setup) -> Result<(Vec<MotionState>, usize), 
         over.found.extend(states);
         over.undecided += usize::from(!decided);
     };
-    for signs in directions(setup, &motions) {
+    for signs in directions(setup, &motions, true) {
         if signs.hinges.iter().any(|hinge| *hinge != JointPhase::Sticking) {
             note(turning_states(setup, &signs, &motions));
             continue;

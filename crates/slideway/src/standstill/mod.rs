@@ -162,7 +162,7 @@ pub(crate) fn hold_within(
     let wedging = threshold::wedging(model, options, &setup, work.part(1, 4).part(1, 2))?;
     let motions_without_inertia = undriven_without_inertia(&setup, &motions);
     let has_inertia = motions_without_inertia.is_empty();
-    let directions = if has_inertia { directions(&setup, &motions) } else { Vec::new() };
+    let directions = if has_inertia { directions(&setup, &motions, false) } else { Vec::new() };
     let is_held = rest.found.is_some();
     let release = release::releases(&setup, &directions, (nominal, is_held), work.part(2, 4));
     let verdict = if has_inertia {

@@ -8,6 +8,7 @@ mod dead_centre;
 mod gallery;
 mod limits;
 mod motion;
+mod random_linkages;
 mod reading;
 mod reference;
 mod standstill;

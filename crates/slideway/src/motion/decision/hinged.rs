@@ -225,12 +225,18 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
         if is_speed(watched) { begins(watched) } else { *value <= BOUNDARY }
     };
     let at_boundary: Vec<&(&Watched, f64)> = values.iter().filter(at_boundary).collect();
-    if at_boundary.is_empty() {
+    let sticks_amid_motion = phase.sticks() && !phase.is_at_rest();
+    if at_boundary.is_empty() && !sticks_amid_motion {
         return true;
     }
+    let stuck = |equations: &Equations<'_>| stuck_velocities(equations, phase, &units);
+    let stuck_before = stuck(&equations);
     for part in LATER {
         let Some(mut equations) = entered(mechanism, configuration, phase) else { return false };
         if later(&mut equations, configuration, part * units.time).is_none() {
+            return false;
+        }
+        if stuck(&equations).iter().zip(&stuck_before).any(|(now, before)| (now - before).abs() > MOVES) {
             return false;
         }
         let changes = at_boundary.iter().map(|(watched, before)| {
@@ -241,11 +247,23 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
         if changes.iter().any(|(_, change)| *change < -1.0) {
             return false;
         }
-        if changes.iter().all(|(begins, change)| !begins || *change > 1.0) {
+        let is_told = part > LATER[0] || !sticks_amid_motion;
+        if is_told && changes.iter().all(|(begins, change)| !begins || *change > 1.0) {
             return true;
         }
     }
     false
+}
+
+/// The velocities of what sticks in a phase: one that no equation holds, since no motion moves it at once, goes on at a
+/// dead centre.
+fn stuck_velocities(equations: &Equations<'_>, phase: &Phase, units: &Units) -> Vec<f64> {
+    let sliding = equations.sliders.iter().zip(&phase.joints).filter_map(|(joint, state)| {
+        let slider = equations.mechanism.slider(*joint).filter(|_| *state == JointPhase::Sticking)?;
+        Some(equations.contacts[slider.contacts[0].index()].sliding_velocity / units.velocity)
+    });
+    let turning = phase.hinges.iter().enumerate().filter(|(_, hinge)| hinge.state == JointPhase::Sticking);
+    sliding.chain(turning.map(|(hinge, _)| equations.spin(hinge) * units.length / units.velocity)).collect()
 }
 
 /// Takes equations a little further in their own motion, by one step of Heun's method; nothing where they have no solution
