@@ -211,7 +211,7 @@ fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
 /// contacts, where dividing directions first would take tens of thousands of nodes.
 #[test]
 fn about_a_dead_centre_contacts_are_divided_before_directions() {
-    let model = driven_by_piston(&dead_centres()[0]);
+    let model = dead_centres()[0].driven_by_piston(1.0);
     for angle in [-5.0, -1.0, 0.5, 4.0, 175.0, 183.0] {
         let settings = Settings::default().position("phi", f64::to_radians(angle));
         let report = solve(&model.with(&settings).unwrap()).unwrap();
