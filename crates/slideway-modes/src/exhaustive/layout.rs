@@ -4,7 +4,7 @@ use super::double_double::{DoubleDouble, UNIT};
 use super::instructions::Instructions;
 use super::lanes::LANES;
 use super::pattern::Pattern;
-use crate::problem::{ContactState, ProblemView, Side};
+use crate::problem::{Column, ContactState, ProblemView, Side};
 
 /// The maximum number of places that the kernel decides.
 pub(super) const LEVELS: usize = 12;
@@ -108,16 +108,18 @@ impl ScaledEquations {
             for (at, &contact) in layout.order.iter().enumerate() {
                 let place = layout.padding + at;
                 for (index, side) in Side::BOTH.into_iter().enumerate() {
-                    let mut put = |column: usize, (centre, radius): (f64, f64), scale: f64, more: f64| {
-                        entries[column] = DoubleDouble::from(centre * scale * more);
-                        let rounded = 4.0 * f64::MIN_POSITIVE * loads.scale.max(1.0);
-                        bound = bound.max(radius * scale * more * (1.0 + 1e-10) + rounded);
+                    let mut put = |column: usize, of: Column<'_>, scale: f64, more: f64| {
+                        for (centre, radius) in of.terms().map(|term| term.centre_and_radius(row)) {
+                            // Two terms are a sum and its rounding error: exact as one number.
+                            entries[column] = entries[column].plus(DoubleDouble::from(centre * scale * more));
+                            let rounded = 4.0 * f64::MIN_POSITIVE * loads.scale.max(1.0);
+                            bound = bound.max(radius * scale * more * (1.0 + 1e-10) + rounded);
+                        }
                     };
                     let column = layout.column(place) + index;
-                    put(column, problem.column(contact, side).centre_and_radius(row), scale, 1.0);
+                    put(column, problem.column(contact, side), scale, 1.0);
                     if place >= layout.plain {
-                        let jump = problem.jump(contact, side).centre_and_radius(row);
-                        put(column + 2, jump, scale, loads.scale);
+                        put(column + 2, problem.jump(contact, side), scale, loads.scale);
                     }
                 }
             }
