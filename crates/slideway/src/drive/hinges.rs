@@ -7,7 +7,6 @@ use super::report::{
     Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, Frictionless, LockedRange, Sense,
 };
 use super::state;
-use crate::configuration::Follower;
 use crate::fault::Faults;
 use crate::limits::{Naming, Varied};
 use crate::mechanism::Mechanism;
@@ -67,7 +66,7 @@ impl Sampled<'_> {
     /// Whatever `solve` refuses there.
     fn at(&self, value: f64) -> Result<(Vec<DriveSolution>, Frictionless), Faults> {
         let (model, factor) = self.varied.model_at(value)?;
-        let stages = Stages::following(&mut Follower::default(), Mechanism::new(&model)?)?;
+        let stages = Stages::of_model(&model)?;
         let report = self.solved(&model, stages.rougher(factor))?;
         Ok(state::efforts(&report, &stages))
     }
@@ -103,9 +102,8 @@ impl Sampled<'_> {
         let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
         if !model.has_guided_sliders() {
             let mut goes_on = |_: &Progress| self.work.flow();
-            let rougher = (factor != 1.0).then(|| stages.with_friction(factor));
-            let data = rougher.as_ref().unwrap_or(&stages).hinged();
-            let found = hinged_states(data, stages.accuracy, &mut before.1, &mut goes_on).ok()?;
+            let rougher = stages.with_friction(factor);
+            let found = hinged_states(rougher.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
             if let Some(states) = found {
                 return Some(states.is_empty());
             }

@@ -54,7 +54,7 @@ impl Varied {
     pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
         let mut varied = Self::at_rest(model, name)?;
         if varied.is_friction_factor() {
-            varied.stages = Some(Stages::following(&mut Follower::default(), Mechanism::new(model)?)?);
+            varied.stages = Some(Stages::of_model(model)?);
         }
         Ok(varied)
     }
@@ -284,9 +284,8 @@ impl Varied {
         question: impl Fn(&Stages, &[TurningHinge]) -> Result<R, Faults>,
     ) -> Result<R, Faults> {
         self.at(value, |stages, factor| {
-            let rougher = (factor != 1.0).then(|| stages.with_friction(factor));
-            let stages = rougher.as_ref().unwrap_or(stages);
-            question(stages, &turning_hinges(stages, circles)?)
+            let stages = stages.with_friction(factor);
+            question(&stages, &turning_hinges(&stages, circles)?)
         })
     }
 

@@ -26,9 +26,8 @@ pub(super) fn states(
     work: Work<'_>,
 ) -> Result<States, Faults> {
     let mut goes_on = |_: &Progress| work.flow();
-    let rougher = (factor != 1.0).then(|| stages.with_friction(factor));
-    let data = rougher.as_ref().unwrap_or(stages).hinged();
-    if !careful && let Some(found) = hinged_states(data, stages.accuracy, last, &mut goes_on)? {
+    let rougher = stages.with_friction(factor);
+    if !careful && let Some(found) = hinged_states(rougher.hinged(), stages.accuracy, last, &mut goes_on)? {
         return Ok(of_found(&found));
     }
     let options = SolveOptions { margins: false, ..SolveOptions::default() };

@@ -44,7 +44,9 @@ pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub use hinges::exact_block_problem;
 pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states, never_turning};
-pub(crate) use hinges::{block_instance, directions, locking_factor, turning_hinges, unknowns_of};
+pub(crate) use hinges::{
+    block_instance, directions, friction_of_contacts, locking_factor, turning_hinges, unknowns_of,
+};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,

@@ -16,6 +16,7 @@ use crate::modes::{ModeProblem, SharedLoad};
 use crate::report::Elasticity;
 use crate::sharing::{elasticity, shared_load};
 use nalgebra::DVector;
+use std::borrow::Cow;
 
 /// The mode problem of a model in floating point: a problem with exact numbers, which differ from those of the
 /// mechanism by rounding.
@@ -45,6 +46,14 @@ impl Stages {
         let mechanism = Mechanism::new(model)?;
         mechanism.check_frictionless_hinges()?;
         Self::following(&mut Follower::default(), mechanism)
+    }
+
+    /// Those of a model whose hinges may have friction.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn of_model(model: &Model) -> Result<Self, Faults> {
+        Self::following(&mut Follower::default(), Mechanism::new(model)?)
     }
 
     /// Those of a mechanism, its positions from those of the last ones if these are near.
@@ -137,8 +146,11 @@ impl Stages {
     }
 
     /// The same with every coefficient of friction multiplied by a factor, those of hinges, too.
-    pub(crate) fn with_friction(&self, factor: f64) -> Self {
-        Self { mechanism: rougher_throughout(&self.mechanism, factor), ..self.clone() }
+    pub(crate) fn with_friction(&self, factor: f64) -> Cow<'_, Self> {
+        if factor == 1.0 {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Self { mechanism: rougher_throughout(&self.mechanism, factor), ..self.clone() })
     }
 
     /// The same with every coefficient of friction multiplied by a factor.

@@ -9,9 +9,9 @@ use crate::enclosure::{BlockCoefficients, TurningHinge};
 use crate::ids::ContactId;
 use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
-use crate::modes::{BySide, ContactState, SearchOptions, Side};
+use crate::modes::{ContactState, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
-use crate::solve::{preload_columns, without_rounding};
+use crate::solve::{friction_of_contacts, preload_columns, without_rounding};
 use nalgebra::{DMatrix, DVector, RowDVector};
 use std::ops::ControlFlow;
 
@@ -143,22 +143,14 @@ impl<'h, 's> Blocks<'h, 's> {
         let friction =
             |side: usize| answers(setup.assembled.friction.iter().map(|both| &both[side]).collect());
         let eta = without_rounding(&setup.mechanism, [friction(0)?, friction(1)?]);
-        let of_contacts = |value: &dyn Fn(usize) -> f64| {
-            DVector::from_fn(contacts.len(), |k, _| if self.sign(k) == 0.0 { 0.0 } else { value(k) })
-        };
+        let [mu, preload] = friction_of_contacts(contacts, &|k| self.sign(k) != 0.0);
         let load = self.held.answers(std::slice::from_ref(&self.held.load))?;
         let coefficients = BlockCoefficients {
             eta_preload: preload_columns(&setup.mechanism, &eta),
             eta,
-            mu: BySide {
-                positive: of_contacts(&|k| contacts[k].mu[0]),
-                negative: of_contacts(&|k| contacts[k].mu[1]),
-            },
-            preload: BySide {
-                positive: of_contacts(&|k| contacts[k].preload[0]),
-                negative: of_contacts(&|k| contacts[k].preload[1]),
-            },
-            velocity_signs: of_contacts(&|k| self.sign(k)),
+            mu,
+            preload,
+            velocity_signs: DVector::from_fn(contacts.len(), |k, _| self.sign(k)),
             couples: answers(
                 self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect(),
             )?,

@@ -10,7 +10,6 @@ use super::together::{PointsFound, Together};
 use super::told;
 use super::writer::{Writer, head};
 use crate::attainability::ElasticGuides;
-use crate::configuration::Follower;
 use crate::fault::{FaultKind, Faults};
 use crate::influence::HingeState;
 use crate::kinetics::KineticEquations;
@@ -334,7 +333,7 @@ impl<'p> Evaluator<'p> {
         let model = self.plan.model.varied_with(&settings)?;
         let options = SolveOptions { margins: false, ..SolveOptions::default() };
         let report = if self.plan.varied.contains(&Kind::Friction) {
-            let stages = solve::Stages::following(&mut Follower::default(), Mechanism::new(&model)?)?;
+            let stages = solve::Stages::of_model(&model)?;
             solve_with_friction(&model, stages.rougher(friction), &options, look)?
         } else {
             solve_with(&model, &options, look)?

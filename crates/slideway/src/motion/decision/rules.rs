@@ -26,6 +26,17 @@ pub struct EventInstant<'a> {
     pub previous: Option<&'a Phase>,
 }
 
+impl<'a> EventInstant<'a> {
+    /// That of a mechanism without friction in hinges, where nothing has just reached zero.
+    pub(crate) fn new(
+        (mechanism, configuration): (&'a Mechanism, &'a Configuration),
+        signs: &'a [f64],
+        previous: Option<&'a Phase>,
+    ) -> Self {
+        Self { mechanism, configuration, signs, spins: &[], zero: &[], rounding: 0.0, previous }
+    }
+}
+
 /// A phase in which the motion can continue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Continuation {

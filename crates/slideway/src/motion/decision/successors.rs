@@ -119,15 +119,7 @@ pub fn successors(
         velocity => velocity.signum(),
     };
     let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
-    let event = rules::EventInstant {
-        mechanism,
-        configuration,
-        signs: &signs,
-        spins: &[],
-        zero: &[],
-        rounding: 0.0,
-        previous,
-    };
+    let event = rules::EventInstant::new((mechanism, configuration), &signs, previous);
     at(instant, &event, Detail::Everything)
 }
 

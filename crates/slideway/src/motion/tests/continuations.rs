@@ -74,15 +74,7 @@ fn fast(
         if *stopped { 0.0 } else { velocity.signum() }
     };
     let signs: Vec<f64> = sliding_joints(mechanism).iter().zip(stopped).map(sign).collect();
-    continuations(&EventInstant {
-        mechanism,
-        configuration,
-        signs: &signs,
-        spins: &[],
-        zero: &[],
-        rounding: 0.0,
-        previous,
-    })
+    continuations(&EventInstant::new((mechanism, configuration), &signs, previous))
 }
 
 /// What the states came to that were compared.

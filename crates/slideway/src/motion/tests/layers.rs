@@ -349,15 +349,7 @@ slide = \"j{index}\"
         }
         let mechanism = mechanism_of(&text);
         let configuration = Configuration::new(&mechanism).unwrap();
-        let event = EventInstant {
-            mechanism: &mechanism,
-            configuration: &configuration,
-            signs: &[0.0; 10],
-            spins: &[],
-            zero: &[],
-            rounding: 0.0,
-            previous: None,
-        };
+        let event = EventInstant::new((&mechanism, &configuration), &[0.0; 10], None);
         let before = ASSESSED.get();
         let found = continuations(&event).unwrap();
         let work = ASSESSED.get() - before;

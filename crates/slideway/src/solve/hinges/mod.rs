@@ -22,7 +22,7 @@ use crate::enclosure::{BlockCoefficients, TurningHinge, UncertainParameters, enc
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Contact, Mechanism};
 use crate::model::Model;
 use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
@@ -130,19 +130,12 @@ fn coefficients_of(
     eta: BySide<DMatrix<f64>>,
 ) -> BlockCoefficients<f64> {
     let HingedData { mechanism, influence, velocity_signs, .. } = data;
-    let contacts = &mechanism.contacts;
-    let of_contacts = |value: &dyn Fn(usize) -> f64| DVector::from_fn(contacts.len(), |k, _| value(k));
+    let [mu, preload] = friction_of_contacts(&mechanism.contacts, &|_| true);
     BlockCoefficients {
         eta_preload: preload_columns(mechanism, &eta),
         eta,
-        mu: BySide {
-            positive: of_contacts(&|k| contacts[k].mu[0]),
-            negative: of_contacts(&|k| contacts[k].mu[1]),
-        },
-        preload: BySide {
-            positive: of_contacts(&|k| contacts[k].preload[0]),
-            negative: of_contacts(&|k| contacts[k].preload[1]),
-        },
+        mu,
+        preload,
         velocity_signs: velocity_signs.clone(),
         couples: DMatrix::from_fn(rows.len(), hinges.len(), |row, hinge| {
             influence.couples[hinges[hinge].circle][rows[row]]
@@ -153,4 +146,18 @@ fn coefficients_of(
         }),
         frictionless: DVector::from_fn(rows.len(), |row, _| influence.frictionless[rows[row]]),
     }
+}
+
+/// The friction coefficients and the preloads of contacts, zero where they have no part.
+pub(crate) fn friction_of_contacts(
+    contacts: &[Contact],
+    has_part: &dyn Fn(usize) -> bool,
+) -> [BySide<DVector<f64>>; 2] {
+    let of = |value: fn(&Contact) -> [f64; 2]| {
+        let side = |side: usize| {
+            DVector::from_fn(contacts.len(), |k, _| if has_part(k) { value(&contacts[k])[side] } else { 0.0 })
+        };
+        BySide { positive: side(0), negative: side(1) }
+    };
+    [of(|contact| contact.mu), of(|contact| contact.preload)]
 }
