@@ -27,20 +27,14 @@ export function shape(name, attributes = {}, ...children) {
   return made;
 }
 
-/** A picture of the engine as an element. It is read as XML, so that nothing in it runs. */
-export function picture(svg) {
-  const read = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
-  return document.importNode(read, true);
+/** Markup of the engine, in which all text of the model is escaped, as elements. Nothing in it runs: the page's policy. */
+export function parsed(markup) {
+  const read = new DOMParser().parseFromString(markup, "text/html").body;
+  return [...read.childNodes].map((node) => document.adoptNode(node));
 }
 
 /** Shapes of the engine, to stand within a picture. */
-export const shapes = (markup) => [...picture(`<svg xmlns="${SVG}">${markup}</svg>`).childNodes];
-
-/** Sections of the engine, in which all text of the model is escaped, as elements. */
-export function sections(html) {
-  const read = new DOMParser().parseFromString(html, "text/html").body;
-  return [...read.childNodes].map((node) => document.importNode(node, true));
-}
+export const shapes = (markup) => [...parsed(`<svg>${markup}</svg>`)[0].childNodes];
 
 /** The function, called when it was not asked for during this time (ms). */
 export function settled(act, wait) {

@@ -1,6 +1,6 @@
 // The drawings of the mechanism and of its contact modes, with the verdict above them.
 
-import { element, picture } from "./dom.js";
+import { element, parsed } from "./dom.js";
 
 /** What is seen at a glance, for each status. */
 const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", infinitely_many: "∞" };
@@ -37,7 +37,7 @@ export class Drawings {
     drawings.forEach((drawing, index) => {
       const old = this.#place.children[index];
       if (old && this.#shown[index] === drawing.svg) return;
-      const svg = picture(drawing.svg);
+      const [svg] = parsed(drawing.svg);
       svg.removeAttribute("width");
       svg.removeAttribute("height");
       const figure = element("figure", { role: "listitem", tabindex: "0", "aria-label": drawing.words }, svg);

@@ -42,12 +42,15 @@ const look = EditorView.theme({
 export class Editor {
   #view;
   #isSet = false;
+  /** The faults that are underlined, as text; those of another text are none. */
+  #underlined = null;
 
   /** `change(text)`: the text was edited. */
   constructor(place, change) {
     // In a shadow tree its style sheets are made without style elements, which the page's policy forbids.
     const root = place.attachShadow({ mode: "open" });
     const listener = EditorView.updateListener.of((update) => {
+      if (update.docChanged) this.#underlined = null;
       if (update.docChanged && !this.#isSet) change(update.state.doc.toString());
     });
     this.#view = new EditorView({
@@ -97,6 +100,9 @@ export class Editor {
         severity: is_warning ? "warning" : "error",
         message: hint ? `${message}\n${hint}` : message,
       }));
+    const underlined = JSON.stringify(diagnostics);
+    if (underlined === this.#underlined) return;
+    this.#underlined = underlined;
     this.#view.dispatch(setDiagnostics(this.#view.state, diagnostics));
   }
 

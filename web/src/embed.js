@@ -20,9 +20,9 @@ let asked;
 
 /** What all figures of a page share: an engine for questions that take longer, and the models to begin with. */
 async function begin() {
-  const module = await load(here("engine.wasm"));
+  const module = load(here("engine.wasm"));
   const slow = new Turns(new Engine(module, here("worker.js")));
-  const { answer: library } = await slow.ask("library", { ask: "library" });
+  const library = await (await fetch(here("library.json"))).json();
   return { module, slow, library };
 }
 

@@ -1,6 +1,6 @@
 // A map of two quantities, in which one walks.
 
-import { element, picture, shape, themeName } from "./dom.js";
+import { element, parsed, shape, themeName } from "./dom.js";
 import { key } from "./sliders.js";
 import { scale, withUnit } from "./numbers.js";
 
@@ -123,7 +123,7 @@ export class MapPanel {
         return;
       }
       this.#notice.textContent = "Click, drag, or use the arrow keys to walk in the map: drawing and sliders follow.";
-      const svg = picture(reply.answer.svg);
+      const [svg] = parsed(reply.answer.svg);
       svg.removeAttribute("height");
       svg.setAttribute("width", "100%");
       this.#place.replaceChildren(svg);

@@ -1,6 +1,6 @@
 // The page: a model, what is changed in it, and what the engine says of it.
 
-import { byId, element, sections, settled, themeName } from "./dom.js";
+import { byId, element, parsed, settled, themeName } from "./dom.js";
 import { pixels, save } from "./downloads.js";
 import { Drawings, showVerdict } from "./drawings.js";
 import { Editor } from "./editor.js";
@@ -17,14 +17,16 @@ const LARGEST_FILE = 4 << 20;
 /** Without a change for this long (ms) what takes longer is computed, too. */
 const REST = 250;
 
-const module = await load("engine.wasm");
+const module = load("engine.wasm");
 /** One engine follows what is dragged, the other answers what takes longer. */
 const live = new Engine(module, "worker.js");
 const slow = new Turns(new Engine(module, "worker.js"));
 const newest = new Newest(live);
-const library = (await live.ask({ ask: "library" })).answer;
+live.begin();
+/** The models to begin with; they come while the page is made. */
+const library = fetch("library.json").then((response) => response.json());
 
-let state = await State.of(location.hash.slice(1), library);
+let state = new State();
 /** What the engine said last, of which text and settings. */
 let look = null;
 
@@ -75,13 +77,13 @@ function refresh() {
 const thoroughly = settled((wanted) => {
   wanted(true);
   motion.clear();
-  if (state.tab === "rest") showRest();
 }, REST);
 
 /** The reply of a look. */
 function took(reply, question) {
   byId("work").hidden = true;
   document.documentElement.dataset.milliseconds = reply.milliseconds.toFixed(1);
+  if (question.margins && state.tab === "rest") showRest();
   if (reply.faults) {
     showFaults(reply.faults, question);
     told("faults", question);
@@ -97,11 +99,20 @@ function took(reply, question) {
   byId("left-out").hidden = !look.left_out;
   byId("left-out").textContent = `${look.left_out} more parameters can be changed in the text.`;
   map.show(look.quantities, state.map);
-  if (look.answer) byId("panel-numbers").replaceChildren(...look.answer.sections.flatMap(sections));
-  else byId("panel-numbers").replaceChildren();
+  byId("panel-numbers").replaceChildren(...parsed(look.answer?.sections.join("") ?? ""));
   showStrip();
   told("shown", question);
   document.documentElement.dataset.shown = String(Number(document.documentElement.dataset.shown ?? 0) + 1);
+  keep();
+}
+
+let isKept = false;
+
+/** Keeps the page for use without a network, once it shows something: before that the network has better to do. */
+function keep() {
+  if (isKept || !("serviceWorker" in navigator) || location.protocol === "file:") return;
+  isKept = true;
+  navigator.serviceWorker.register("service.js").catch(() => {});
 }
 
 /** What has become of the present text, for tests. */
@@ -125,6 +136,9 @@ function notice(text) {
   byId("notice").hidden = text === "";
 }
 
+/** The faults that are listed, and of which text. */
+let faultsListed = "";
+
 /** Faults are told below the editor and underlined in it; while there are any the drawing is of the state before. */
 function showFaults(faults, question) {
   const errors = faults.filter(({ is_warning }) => !is_warning);
@@ -140,6 +154,9 @@ function showFaults(faults, question) {
   }
   sliders.showFaults(errors, question.settings, state.changes);
   editor.showFaults(faults, question.text);
+  const listed = JSON.stringify([faults, question.text]);
+  if (listed === faultsListed) return;
+  faultsListed = listed;
   byId("faults").replaceChildren(
     ...faults.slice(0, 50).map((fault) => {
       const words = [fault.message, fault.hint].filter(Boolean).join(" – ");
@@ -231,18 +248,22 @@ byId("reset").addEventListener("click", () => {
   refresh();
 });
 
-for (const [kind, title] of [
-  ["gallery", "Gallery"],
-  ["template", "Templates"],
-]) {
-  const options = library
-    .filter((entry) => entry.kind === kind)
-    .map((entry) => element("option", { value: `${kind}:${entry.name}`, title: entry.shows }, entry.summary));
-  byId("pick").append(element("optgroup", { label: title }, ...options));
+/** Offers the models to begin with. */
+function offerModels(entries) {
+  for (const [kind, title] of [
+    ["gallery", "Gallery"],
+    ["template", "Templates"],
+  ]) {
+    const options = entries
+      .filter((entry) => entry.kind === kind)
+      .map((entry) => element("option", { value: `${kind}:${entry.name}`, title: entry.shows }, entry.summary));
+    byId("pick").append(element("optgroup", { label: title }, ...options));
+  }
+  byId("pick").prepend(element("option", { value: "", disabled: true }, "a text of one's own"));
 }
-byId("pick").prepend(element("option", { value: "", disabled: true }, "a text of one's own"));
+
 byId("pick").addEventListener("change", async () =>
-  begin(await State.of(new URLSearchParams({ model: byId("pick").value }), library)),
+  begin(await State.of(new URLSearchParams({ model: byId("pick").value }), await library)),
 );
 
 byId("open").addEventListener("click", () => byId("file").click());
@@ -416,7 +437,7 @@ const remember = settled(async () => {
 
 addEventListener("hashchange", async () => {
   const address = location.hash.slice(1);
-  if (address !== written) begin(await State.of(address, library));
+  if (address !== written) begin(await State.of(address, await library));
 });
 
 byId("share").addEventListener("click", async () => {
@@ -484,7 +505,9 @@ theme.addEventListener("change", () => {
 });
 paint();
 
-begin(state);
-
-if ("serviceWorker" in navigator && location.protocol !== "file:")
-  navigator.serviceWorker.register("service.js").catch(() => {});
+try {
+  offerModels(await library);
+  begin(await State.of(location.hash.slice(1), await library));
+} catch (error) {
+  failed(error);
+}

@@ -22,6 +22,8 @@ export class Strip {
   #vary = null;
   #quantity = null;
   #line;
+  /** Kept: to ask the browser for it takes a new layout of the whole page. */
+  #width = 600;
 
   /** `change(value)`: the value was dragged, in the unit of the quantity. */
   constructor(place, change) {
@@ -43,7 +45,10 @@ export class Strip {
     this.#svg.addEventListener("pointermove", drag);
     this.element = element("div", { class: "strip-box" }, this.#svg, this.#slider, this.#words);
     place.append(this.element);
-    new ResizeObserver(() => this.#draw()).observe(this.element);
+    new ResizeObserver(() => {
+      this.#width = Math.max(260, this.element.clientWidth || 600);
+      this.#draw();
+    }).observe(this.element);
   }
 
   /** What is varied, before its limits are known: { name, from, to } and the quantity. */
@@ -74,10 +79,6 @@ export class Strip {
   present(value) {
     if (!this.#slider.matches(":active")) this.#slider.value = value;
     this.#mark(value);
-  }
-
-  get #width() {
-    return Math.max(260, this.element.clientWidth || 600);
   }
 
   #place(value) {

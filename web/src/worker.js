@@ -18,11 +18,14 @@ function progress(done, fraction, counted) {
   return now > deadline;
 }
 
-let engine;
+let begin;
+const engine = new Promise((begun) => {
+  begin = begun;
+});
 
 onmessage = async ({ data }) => {
   if (data.module) {
-    engine = start(data.module, progress);
+    begin(start(data.module, progress));
     return;
   }
   const ask = await engine;

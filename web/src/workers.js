@@ -8,7 +8,7 @@ const GRACE = 3;
 
 let compiled;
 
-/** The module of the engine, compiled once. */
+/** The module of the engine, compiled once; a promise. */
 export function load(address) {
   compiled ??= WebAssembly.compileStreaming(fetch(address)).catch(async () =>
     // A server that does not know the type of the file.
@@ -25,20 +25,27 @@ export class Engine {
   #asked = null;
   #number = 0;
 
+  /** `module`: what `load` promises. */
   constructor(module, script) {
     this.#module = module;
     this.#script = script;
-    this.#begin();
   }
 
-  #begin() {
-    this.#worker = new Worker(this.#script, { type: "module" });
-    this.#worker.postMessage({ module: this.#module });
-    this.#worker.onmessage = ({ data }) => this.#hear(data);
-    this.#worker.onerror = (event) => {
+  /** Starts the worker, if it does not run: before the first question, so that it is ready for it. */
+  begin() {
+    if (this.#worker) return;
+    const worker = new Worker(this.#script, { type: "module" });
+    worker.onmessage = ({ data }) => this.#hear(data);
+    worker.onerror = (event) => {
       event.preventDefault();
       this.#fail(new Error(`the engine stopped: ${event.message}`));
     };
+    this.#worker = worker;
+    // The worker starts while the module is still being read.
+    this.#module.then(
+      (module) => worker.postMessage({ module }),
+      (error) => this.#fail(new Error(`the engine cannot be loaded: ${error.message}`)),
+    );
   }
 
   #hear({ number, progress, reply, broken, ended, milliseconds }) {
@@ -59,7 +66,7 @@ export class Engine {
   /** The worker may be in any state: another one takes its place. */
   #fail(error) {
     this.#worker.terminate();
-    this.#begin();
+    this.#worker = null;
     const asked = this.#asked;
     this.#asked = null;
     clearTimeout(asked?.timer);
@@ -88,6 +95,7 @@ export class Engine {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => this.#fail(new Ended("it took too long")), 1000 * (seconds + GRACE));
       this.#asked = { number, resolve, reject, progress, timer };
+      this.begin();
       this.#worker.postMessage({ number, question, seconds });
     });
   }
@@ -124,20 +132,34 @@ export class Newest {
 
   async #run() {
     this.#running = true;
-    while (this.#next) {
-      const { make, take, fail } = this.#next;
-      this.#next = null;
-      const { question, options } = make();
-      this.#begun = performance.now();
+    for (let asked = this.#ask(); asked; asked ??= this.#ask()) {
+      const { question, take, fail, replied } = asked;
+      const [reply, error] = await replied.then(
+        (answered) => [answered],
+        (failed) => [null, failed],
+      );
+      // The engine goes on with what is wanted by now, while this answer is drawn.
+      asked = this.#ask();
       try {
-        const reply = await this.#engine.ask(question, options);
+        if (error) throw error;
         // What is not the newest is shown, too: the picture follows.
         take(reply, question);
-      } catch (error) {
-        if (!this.#next) fail(error);
+      } catch (caught) {
+        if (!asked) fail(caught);
       }
     }
     this.#running = false;
+  }
+
+  /** Asks what is wanted now, if anything is. */
+  #ask() {
+    if (!this.#next) return null;
+    const { make, take, fail } = this.#next;
+    this.#next = null;
+    const { question, options } = make();
+    this.#begun = performance.now();
+    const replied = this.#engine.ask(question, options);
+    return { question, take, fail, replied };
   }
 }
 

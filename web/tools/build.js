@@ -111,11 +111,12 @@ function notices(packages) {
   return readFileSync(resolve(top, "THIRD-PARTY-NOTICES"), "utf8") + packages.map(licence).join("");
 }
 
-/** The rest: the engine, its style sheet, and what stands beside. */
+/** The rest: the engine, its style sheet, the models to begin with, and what stands beside. */
 async function gather(packages) {
   cpSync(engine, resolve(page, "engine.wasm"));
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
+  writeFileSync(resolve(page, "library.json"), JSON.stringify(ask({ ask: "library" }).answer));
   for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"])
     cpSync(resolve(web, "src", name), resolve(page, name));
   writeFileSync(resolve(page, "notices.txt"), notices(packages));
