@@ -376,8 +376,10 @@ impl Layout<'_> {
         let width = picture.size().x.max(LEAST_WIDTH);
         let mut all = Scene::default();
         let sheet = |scene: Scene, foot: f64, title: &str, description: String| {
-            let bounds = Bounds { least: Point::zeros(), greatest: Point::new(width, foot) };
-            let (bounds, title) = (bounds.widened(0.5 * SPACE), title.to_owned());
+            let frame =
+                Bounds { least: Point::zeros(), greatest: Point::new(width, foot) }.widened(0.5 * SPACE);
+            // Nothing that is drawn is cut off.
+            let (bounds, title) = (scene.bounds().map_or(frame, |drawn| frame.with(drawn)), title.to_owned());
             Sheet { scene, bounds, title, description, heading: (0, 0.0) }
         };
         let piece = |panel: &Panel| {

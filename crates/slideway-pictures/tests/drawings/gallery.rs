@@ -6,9 +6,10 @@ use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{
     Bounds, Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Sheet, Shown, Text, View,
-    scene, sheet,
+    pieces, scene, sheet,
 };
 use slideway_pictures::theme::{DARK, LIGHT};
+use std::iter::once;
 use std::sync::LazyLock;
 
 /// The models at several positions, and the templates, each with the sheet of all its drawings.
@@ -52,15 +53,21 @@ fn cases() -> Vec<(String, Case)> {
 
 #[test]
 fn everything_is_within_the_view_box() {
-    for (name, _, sheet) in &*CASES {
-        let bounds = sheet.bounds;
-        for element in &sheet.scene.elements {
-            let Some(inner) = element.shape.bounds() else { continue };
-            assert!(
-                bounds.contains(&inner.least) && bounds.contains(&inner.greatest),
-                "{name}: {element:?} is not within {bounds:?}"
-            );
+    for (name, case, sheet) in &*CASES {
+        for sheet in once(sheet).chain(&pieces(&case.mechanism, &case.configuration, case.report.as_ref())) {
+            within(name, sheet);
         }
+    }
+}
+
+fn within(name: &str, sheet: &Sheet) {
+    let bounds = sheet.bounds;
+    for element in &sheet.scene.elements {
+        let Some(inner) = element.shape.bounds() else { continue };
+        assert!(
+            bounds.contains(&inner.least) && bounds.contains(&inner.greatest),
+            "{name}: {element:?} is not within {bounds:?}"
+        );
     }
 }
 
