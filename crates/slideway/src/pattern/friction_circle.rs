@@ -217,18 +217,43 @@ impl Pinned<'_> {
     /// # Errors
     /// If a linear program was not solved, or too many sectors would be needed.
     pub(super) fn extents(&self, function: &Affine) -> Result<Vec<Extent>, Unsolved> {
+        self.searched(function, Vec::push)
+    }
+
+    /// Least and greatest value of a function in the whole set, whatever lies between; nothing if it is empty.
+    ///
+    /// # Errors
+    /// As [`Pinned::extents`].
+    pub(super) fn extent(&self, function: &Affine) -> Result<Option<Extent>, Unsolved> {
+        let found = self.searched(function, |found, extent| match found.first_mut() {
+            Some(whole) => *whole = hull(*whole, extent),
+            None => found.push(extent),
+        })?;
+        Ok(found.first().copied())
+    }
+
+    fn searched(
+        &self,
+        function: &Affine,
+        note: impl Fn(&mut Vec<Extent>, Extent),
+    ) -> Result<Vec<Extent>, Unsolved> {
         let mut found: Vec<Extent> = Vec::new();
         let mut open = vec![vec![None; self.pins.len()]];
         for _ in 0..MOST_SECTORS {
             let Some(sectors) = open.pop() else { return Ok(found) };
             let outer = self.around(&sectors);
             let Some(outer) = nearly_possible(outer)? else { continue };
-            let ends = outer.ends(function)?;
-            for end in &ends {
+            let Ok(ends) = outer.ends(function) else {
+                let (_, at) = outer.highest()?;
+                let end = End { value: None, at, is_ray: false };
+                open.extend(self.divided((&sectors, FINEST), &end).ok_or(Unsolved)?);
+                continue;
+            };
+            for (side, end) in ends.iter().enumerate() {
                 if !covers(&found, [end.value; 2])
-                    && let Some(inner) = nearly_possible(self.inside(end))?
+                    && let Ok(Some(inner)) = self.climbed(function, (end, side))
                 {
-                    found.push(inner.convex_extent(function)?);
+                    note(&mut found, inner);
                 }
             }
             let extent = ends.each_ref().map(|end| end.value);
@@ -238,10 +263,29 @@ impl Pinned<'_> {
             let missed = ends.iter().find(|end| !covers(&found, [end.value; 2])).unwrap_or(&ends[0]);
             match self.divided((&sectors, FINEST), missed) {
                 Some(parts) => open.extend(parts),
-                None => found.push(extent),
+                None => note(&mut found, extent),
             }
         }
         Err(Unsolved)
+    }
+
+    /// The values of a function in regions from inside, whose directions are those that the reactions have somewhere, then
+    /// at the least or greatest value so far: each has the end of the one before. Nothing if the first is empty.
+    fn climbed(&self, function: &Affine, (end, side): (&End, usize)) -> Result<Option<Extent>, Unsolved> {
+        let Some(inner) = nearly_possible(self.inside(end))? else { return Ok(None) };
+        let mut ends = inner.ends(function)?;
+        let mut extent = ends.each_ref().map(|end| end.value);
+        for _ in 0..MOST_STEPS {
+            let Some(before) = ends[side].value else { break };
+            let Some(inner) = nearly_possible(self.inside(&ends[side]))? else { break };
+            ends = inner.ends(function)?;
+            extent = hull(extent, ends.each_ref().map(|end| end.value));
+            let stays = |value: f64| (value - before).abs() <= AGREEMENT * before.abs().max(1.0);
+            if ends[side].value.is_some_and(stays) {
+                break;
+            }
+        }
+        Ok(Some(extent))
     }
 
     /// Regions in which turning hinges have their couples with fixed directions of their reactions: one for each of the
@@ -299,12 +343,7 @@ impl Pinned<'_> {
 
     /// The directions that the reactions have somewhere; of none, nothing.
     fn directions(&self, end: &End) -> Directions {
-        let direction = |pin: &Pin| {
-            let [x, y] = pin.reaction_at(end);
-            let size = x.hypot(y);
-            if size > 0.0 { [x / size, y / size] } else { [0.0; 2] }
-        };
-        self.pins.iter().map(direction).collect()
+        self.pins.iter().map(|pin| direction(pin.reaction_at(end))).collect()
     }
 
     /// Whether no pin is loaded anywhere in a region that is not empty: then directions make no difference.
@@ -350,6 +389,12 @@ impl Pinned<'_> {
     }
 }
 
+/// The direction of a force; zero where there is none.
+pub(crate) fn direction(force: [f64; 2]) -> [f64; 2] {
+    let size = force[0].hypot(force[1]);
+    if size > 0.0 { force.map(|component| component / size) } else { force }
+}
+
 /// The greatest difference of two choices of directions.
 fn change(one: &Directions, other: &Directions) -> f64 {
     let differences = one.iter().flatten().zip(other.iter().flatten()).map(|(a, b)| (a - b).abs());
@@ -360,6 +405,12 @@ fn change(one: &Directions, other: &Directions) -> f64 {
 fn nearly_possible(region: Region) -> Result<Option<Region>, Unsolved> {
     let (slack, _) = region.highest()?;
     Ok((slack >= -NOTHING).then(|| region.relaxed(-slack.min(0.0))))
+}
+
+/// The least extent that has both.
+fn hull(one: Extent, other: Extent) -> Extent {
+    let end = |side: usize, pick: fn(f64, f64) -> f64| Some(pick(one[side]?, other[side]?));
+    [end(0, f64::min), end(1, f64::max)]
 }
 
 /// Whether an extent lies within the union of others.

@@ -26,7 +26,7 @@ mod simplex;
 
 pub(crate) use affine::{Affine, AffineExpression, AffineSet};
 pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipping};
-pub(crate) use friction_circle::Pin;
+pub(crate) use friction_circle::{Pin, direction};
 pub(crate) use phase::{ContactPhase, HingePhase, JointPhase, Phase};
 pub(crate) use program::{NOTHING, Region, Unsolved};
 

@@ -158,12 +158,10 @@ impl Region {
     /// # Errors
     /// If a linear program was not solved.
     pub(crate) fn extent(&self, function: &Affine) -> Result<Extent, Unsolved> {
-        let parts = self.extents(function)?;
-        let whole = |place: usize, pick: fn(f64, f64) -> f64| {
-            let ends: Option<Vec<f64>> = parts.iter().map(|part| part[place]).collect();
-            ends.and_then(|ends| ends.into_iter().reduce(pick))
-        };
-        Ok([whole(0, f64::min), whole(1, f64::max)])
+        if self.pins.is_empty() {
+            return self.convex_extent(function);
+        }
+        Pinned { convex: self, pins: &self.pins }.extent(function)?.ok_or(Unsolved)
     }
 
     /// The extent without regard to pins.

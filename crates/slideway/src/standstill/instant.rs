@@ -40,7 +40,7 @@ pub(crate) fn motion_states(setup: &Setup) -> Result<(Vec<MotionState>, usize), 
     };
     for signs in directions(setup, &motions, true) {
         if signs.hinges.iter().any(|hinge| *hinge != JointPhase::Sticking) {
-            note(turning_states(setup, &signs, &motions));
+            note(turning_states(setup, &signs, &motions).map(|states| (states.list, states.decided)));
             continue;
         }
         for sides in &sides {

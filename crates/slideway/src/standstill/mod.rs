@@ -157,19 +157,16 @@ pub(crate) fn hold_within(
     let rest_patterns = check_states(&setup, most_states)?;
     let motions = held_motions(&setup);
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
-    let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
+    let (rest, is_held) = rest::at_rest(&setup, nominal, work.part(0, 4));
     let load = load_report(model, options, &setup, work.part(1, 4).part(0, 2))?;
     let wedging = threshold::wedging(model, options, &setup, work.part(1, 4).part(1, 2))?;
     let motions_without_inertia = undriven_without_inertia(&setup, &motions);
     let has_inertia = motions_without_inertia.is_empty();
     let directions = if has_inertia { directions(&setup, &motions, false) } else { Vec::new() };
-    let is_held = rest.found.is_some();
-    let release = release::releases(&setup, &directions, (nominal, is_held), work.part(2, 4));
+    let release = release::releases(&setup, &directions, is_held, work.part(2, 4));
     let verdict = if has_inertia {
         let moves = !release.found.is_empty();
-        verdict(is_held, moves, || {
-            slips_against_static_friction(&setup, &directions, nominal, work.part(3, 4))
-        })
+        verdict(is_held, moves, || slips_against_static_friction(&setup, &directions, work.part(3, 4)))
     } else if is_held {
         HoldVerdict::MayHold
     } else {
@@ -317,7 +314,7 @@ fn verdict(holds: bool, moves: bool, slips_against_static_friction: impl FnOnce(
 }
 
 /// Whether it begins to slide even where kinetic friction is as great as static friction.
-fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], factor: f64, work: Work<'_>) -> bool {
+fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], work: Work<'_>) -> bool {
     let mut rough = setup.clone();
     for contact in &mut rough.mechanism.contacts {
         contact.mu = contact.mu_static;
@@ -325,7 +322,7 @@ fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], factor: 
     for circle in &mut rough.mechanism.friction_circles {
         circle.radius = circle.static_radius;
     }
-    !release::releases(&rough, directions, (factor, true), work).found.is_empty()
+    !release::releases(&rough, directions, true, work).found.is_empty()
 }
 
 fn state(setup: &Setup) -> Vec<CoordinateValue> {

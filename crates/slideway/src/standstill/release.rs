@@ -1,52 +1,89 @@
 //! States in which a mechanism begins to move: every joint sticks or slips one way or the other.
 
-use super::TOLERANCE;
+use super::instant::MotionState;
 use super::reactions::{range, reactions};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
 use super::rest::{Over, possible, static_friction, symbols, until_over};
 use super::setup::{Setup, SlidingJoint};
 use super::state::{Pattern, State, StateQuestion, sides};
+use super::turning::{TurningStates, turning_states};
 use super::words::slip_in_words;
+use super::{TOLERANCE, held_motions};
 use crate::configuration::unit;
-use crate::pattern::{JointPhase, Region, Unsolved};
+use crate::pattern::{JointPhase, Region, Unsolved, direction};
 use crate::progress::Work;
+use nalgebra::DMatrix;
 
 /// Two states are the same if no number differs by more than this, relative to the units of the programs.
 const SAME: f64 = 1e-7;
 
-/// All states in which something begins to move in one of these directions, with a factor of the varied load.
+/// All states in which something begins to move in one of these directions, with the nominal factor of the varied load.
 ///
 /// Without `at_rest` the state in which all joints stick is tried, too: bodies may begin to move in hinges
 /// without friction alone.
 pub(super) fn releases(
     setup: &Setup,
     directions: &[Pattern],
-    (factor, at_rest): (f64, bool),
+    at_rest: bool,
     work: Work<'_>,
 ) -> Over<Vec<Release>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
+    let motions = held_motions(setup);
     let all = directions.len();
     for (index, signs) in directions.iter().enumerate() {
         let mut joints = signs.joints.iter().chain(&signs.hinges);
         if at_rest && joints.all(|joint| *joint == JointPhase::Sticking) {
             continue;
         }
-        for sides in until_over(sides(setup), work.part(index, all)) {
-            let pattern = Pattern { contacts: sides, ..signs.clone() };
-            match released(setup, &pattern, factor) {
-                Ok(releases) => releases.into_iter().for_each(|release| add(&mut over.found, release, setup)),
-                Err(Unsolved) => over.undecided += 1,
+        let work = work.part(index, all);
+        if let Some(states) = isolated(setup, signs, &motions) {
+            over.undecided += usize::from(!states.decided);
+            for state in until_over(states.list, work) {
+                over.note(setup, turned(setup, &state).map(Vec::from_iter));
             }
+            continue;
+        }
+        for sides in until_over(sides(setup), work) {
+            over.note(setup, released(setup, &Pattern { contacts: sides, ..signs.clone() }));
         }
     }
     over
 }
 
+impl Over<Vec<Release>> {
+    fn note(&mut self, setup: &Setup, releases: Result<Vec<Release>, Unsolved>) {
+        match releases {
+            Ok(releases) => releases.into_iter().for_each(|release| add(&mut self.found, release, setup)),
+            Err(Unsolved) => self.undecided += 1,
+        }
+    }
+}
+
+/// The states with these signs if hinges turn in them and the friction of what sticks is determined, so that their forces
+/// are isolated: then the search of the block mode problem finds all of them, or says that it does not.
+fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Option<TurningStates> {
+    let turns = signs.hinges.iter().any(|hinge| *hinge != JointPhase::Sticking);
+    let states = if turns { turning_states(setup, signs, motions)? } else { return None };
+    states.determinate.then_some(states)
+}
+
+/// How a mechanism begins to move in a state in which hinges turn.
+fn turned(setup: &Setup, state: &MotionState) -> Result<Option<Release>, Unsolved> {
+    let Some(linear) = State::new(setup, &state.pattern, question(setup)) else { return Ok(None) };
+    let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
+    let region = linear.region(&static_friction(setup)).with_directions(&directions);
+    release(setup, &state.pattern, &linear, region)
+}
+
+fn question(setup: &Setup) -> StateQuestion {
+    let factor = setup.load.as_ref().map_or(1.0, |load| load.nominal);
+    StateQuestion { moving: true, ..StateQuestion::rest(Some(factor)) }
+}
+
 /// The ways in which a mechanism begins to move with a pattern: one for each part into which turning hinges divide its
 /// region.
-fn released(setup: &Setup, pattern: &Pattern, factor: f64) -> Result<Vec<Release>, Unsolved> {
-    let question = StateQuestion { moving: true, ..StateQuestion::rest(Some(factor)) };
-    let Some(state) = State::new(setup, pattern, question) else { return Ok(Vec::new()) };
+fn released(setup: &Setup, pattern: &Pattern) -> Result<Vec<Release>, Unsolved> {
+    let Some(state) = State::new(setup, pattern, question(setup)) else { return Ok(Vec::new()) };
     let parts = state.region(&static_friction(setup)).parts()?;
     let releases = parts.into_iter().map(|part| release(setup, pattern, &state, part));
     releases.filter_map(Result::transpose).collect()

@@ -79,7 +79,7 @@ pub struct HoldReport {
     pub wedging: Option<Wedging>,
     /// The load that is varied, if one is.
     pub load: Option<LoadReport>,
-    /// The states of rest, if there is one.
+    /// The states of rest, if there is one of which the reactions were decided.
     pub at_rest: Option<AtRest>,
     /// Every state in which it begins to move; empty also where motions without inertia kept them from being
     /// sought.

@@ -61,17 +61,18 @@ pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Ite
     states.into_iter().enumerate().take_while(goes_on).map(|(_, state)| state)
 }
 
-/// All states of rest with a factor of the varied load.
-pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option<AtRest>> {
+/// All states of rest with a factor of the varied load, and whether there is one: its reactions may not be decided.
+pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> (Over<Option<AtRest>>, bool) {
     let mut over = Over { found: None::<AtRest>, undecided: 0 };
+    let mut is_possible = false;
     for sides in until_over(sides(setup), work.part(0, 2)) {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_friction(setup));
-        let found =
-            possible(region).and_then(|region| region.map(|r| reactions(setup, &state, &r)).transpose());
-        match found {
+        let region = possible(region);
+        is_possible |= matches!(region, Ok(Some(_)));
+        match region.and_then(|region| region.map(|r| reactions(setup, &state, &r)).transpose()) {
             Ok(None) => {}
             Ok(Some(reactions)) => {
                 let rest = over.found.get_or_insert_with(|| AtRest {
@@ -93,7 +94,7 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
         rest.wedging = rest.reactions.unbounded();
         rest.without_preloads = without_preloads(setup, factor, work.part(1, 2));
     }
-    over
+    (over, is_possible)
 }
 
 /// Whether some state of rest is possible without the preloads; none if there are none, or where that is not

@@ -154,15 +154,18 @@ impl Setup {
         })
     }
 
-    /// The same for impulses, without loads and preloads, by which one joint or hinge that moves comes to rest; jumps of
-    /// velocities stand in place of accelerations.
-    pub(crate) fn impulsive(&self, stops: usize, velocity: f64) -> Self {
+    /// The same for impulses, without loads and preloads, by which these joints and hinges, each with its velocity, come to
+    /// rest; jumps of velocities stand in place of accelerations.
+    pub(crate) fn impulsive(&self, stopping: impl Iterator<Item = (usize, f64)>) -> Self {
         let mut impulsive = self.alone(DVector::zeros(self.given.len()));
         impulsive.assembled.load.fill(0.0);
         impulsive.known.iter_mut().for_each(|known| known.acceleration = 0.0);
-        impulsive.known[stops] = KnownMotion { sign: Some(0.0), acceleration: velocity };
-        let is_hinge = stops >= self.sliders.len();
-        let speed = velocity.abs() * if is_hinge { self.units.length } else { 1.0 };
+        let mut speed = 0.0_f64;
+        for (stops, velocity) in stopping {
+            impulsive.known[stops] = KnownMotion { sign: Some(0.0), acceleration: velocity };
+            let is_hinge = stops >= self.sliders.len();
+            speed = speed.max(velocity.abs() * if is_hinge { self.units.length } else { 1.0 });
+        }
         impulsive.units.force = self.units.force / self.units.acceleration * speed;
         impulsive.units.acceleration = speed;
         impulsive

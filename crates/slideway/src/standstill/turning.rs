@@ -20,19 +20,31 @@ const ON_BOUNDARY: f64 = 1e-8;
 /// A row that sticks is held by others already if it is no greater than this on the motions that they leave.
 const HELD: f64 = 1e-9;
 
-/// The states with these signs of all joints and hinges, and whether these are all; nothing where the equations are
-/// singular.
+/// States in which hinges turn.
+pub(super) struct TurningStates {
+    /// The states; where what sticks is statically indeterminate, those in which only some of it transmits friction.
+    pub(super) list: Vec<MotionState>,
+    /// Whether these are all.
+    pub(super) decided: bool,
+    /// Whether the friction of all that sticks is determined.
+    pub(super) determinate: bool,
+}
+
+/// The states with these signs of all joints and hinges; nothing where the equations are singular.
 pub(super) fn turning_states(
     setup: &Setup,
     signs: &Pattern,
     motions: &DMatrix<f64>,
-) -> Option<(Vec<MotionState>, bool)> {
+) -> Option<TurningStates> {
     let held = Held::new(setup, signs, motions);
     let blocks = Blocks::new(&held, signs);
     let problem = blocks.problem()?;
     let result = blocks::search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
-    let states = result.solutions.iter().flat_map(|solution| blocks.states(solution)).collect();
-    Some((states, result.open.is_empty() && result.stopped.is_none()))
+    Some(TurningStates {
+        list: result.solutions.iter().flat_map(|solution| blocks.states(solution)).collect(),
+        decided: result.open.is_empty() && result.stopped.is_none(),
+        determinate: held.determinate,
+    })
 }
 
 /// The kinetic equations in which what sticks has rows of its own.
@@ -42,15 +54,20 @@ struct Held<'s> {
     load: DVector<f64>,
     /// Powers of two that bring rows and columns to order one.
     scales: [DVector<f64>; 2],
+    /// Whether only hinges stick, and each has a row: how the friction of a joint is shared by its contacts is open.
+    determinate: bool,
 }
 
 impl<'s> Held<'s> {
     fn new(setup: &'s Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Self {
         let rows = independent_rows(setup, signs, motions);
+        let sticking =
+            |states: &[JointPhase]| states.iter().filter(|state| **state == JointPhase::Sticking).count();
+        let determinate = sticking(&signs.joints) == 0 && sticking(&signs.hinges) == rows.len();
         let (size, given) = (setup.assembled.matrix.nrows(), setup.equations_of_motion());
         let mut matrix = setup.assembled.matrix.clone().resize(size + rows.len(), size + rows.len(), 0.0);
         let mut load = setup.assembled.load.clone().resize_vertically(size + rows.len(), 0.0);
-        load.rows_mut(0, given).copy_from(&setup.given);
+        load.rows_mut(0, given).copy_from(&setup.loads());
         for (index, (row, value)) in rows.iter().enumerate() {
             matrix.view_mut((size + index, 0), (1, given)).copy_from(row);
             matrix.view_mut((0, size + index), (given, 1)).copy_from(&-row.transpose());
@@ -60,7 +77,7 @@ impl<'s> Held<'s> {
         let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
             rows[row] * matrix[(row, column)] * columns[column]
         });
-        Self { setup, matrix: scaled, load, scales: [rows, columns] }
+        Self { setup, matrix: scaled, load, scales: [rows, columns], determinate }
     }
 
     /// The answers to some right-hand sides.

@@ -1,8 +1,10 @@
-//! Motions of random linkages: their hinges obey the law of friction at all times, and energy is balanced.
+//! Random linkages: in motion their hinges obey the law of friction at all times, and energy is balanced; how they begin
+//! to move is what `solve` finds.
 
 use rstest::rstest;
-use slideway::Model;
 use slideway::motion::{End, JointPhase, SimulateOptions, simulate};
+use slideway::standstill::{HoldOptions, HoldVerdict, hold};
+use slideway::{Model, Settings, solve};
 use std::fmt::Write;
 
 /// A linear congruential generator (Knuth, The Art of Computer Programming, 3.3.4).
@@ -25,6 +27,14 @@ const FOUR_BAR: &str = "gravity = 9.81\n[points]\nO = [0, 0]\nA = [0.03, 0.04]\n
      [bodies.three]\npoints = [\"B\", \"C\"]\nmass = 0.5\nshape = { bar = [\"B\", \"C\"] }\n\
      [loads.torque]\ntype = \"torque\"\nbody = \"one\"\nmoment = \"0.5 N m*sin(5/(1 s)*t)\"\n";
 
+const PENDULUM_HINGES: &[&str] = &["[\"one.O\", \"ground.O\"]", "[\"two.A\", \"one.A\"]"];
+const FOUR_BAR_HINGES: &[&str] = &[
+    "[\"one.O\", \"ground.O\"]",
+    "[\"two.A\", \"one.A\"]",
+    "[\"three.B\", \"two.B\"]",
+    "[\"three.C\", \"ground.C\"]",
+];
+
 /// A linkage with friction of these radii in its hinges, static friction half as great again.
 fn linkage(text: &str, hinges: &[&str], radii: [f64; 2], random: &mut Random) -> Model {
     let rate = random.between([-5.0, 5.0]);
@@ -42,12 +52,8 @@ fn linkage(text: &str, hinges: &[&str], radii: [f64; 2], random: &mut Random) ->
 }
 
 #[rstest]
-#[case(DOUBLE_PENDULUM, &["[\"one.O\", \"ground.O\"]", "[\"two.A\", \"one.A\"]"], [0.002, 0.06])]
-#[case(
-    FOUR_BAR,
-    &["[\"one.O\", \"ground.O\"]", "[\"two.A\", \"one.A\"]", "[\"three.B\", \"two.B\"]", "[\"three.C\", \"ground.C\"]"],
-    [0.0005, 0.006]
-)]
+#[case(DOUBLE_PENDULUM, PENDULUM_HINGES, [0.002, 0.06])]
+#[case(FOUR_BAR, FOUR_BAR_HINGES, [0.0005, 0.006])]
 fn hinges_of_random_linkages_obey_the_law_of_friction(
     #[case] text: &str,
     #[case] hinges: &[&str],
@@ -91,4 +97,57 @@ fn hinges_of_random_linkages_obey_the_law_of_friction(
         }
     }
     assert!(turning > 1000 && sticking > 500, "{turning} {sticking}");
+}
+
+/// With friction circles nearly as wide as the links no motion ends: where no acceleration is possible an impulse stops the
+/// linkage.
+#[rstest]
+#[case(DOUBLE_PENDULUM, PENDULUM_HINGES, [0.06, 0.2])]
+#[case(FOUR_BAR, FOUR_BAR_HINGES, [0.006, 0.05])]
+fn linkages_with_great_friction_circles_go_on(
+    #[case] text: &str,
+    #[case] hinges: &[&str],
+    #[case] radii: [f64; 2],
+) {
+    let mut random = Random(2026);
+    for _ in 0..36 {
+        let model = linkage(text, hinges, radii, &mut random);
+        let history = simulate(&model, &SimulateOptions::new(2.0)).unwrap();
+        assert_eq!(history.end, End::Finished, "{:?}", history.events.last());
+        assert!(history.energy_error <= 1e-6 * history.energy_scale);
+    }
+}
+
+/// How a four-bar with great friction circles begins to move is what `solve` finds at a very small rate, as far as the
+/// acceleration has the sense of the rate: every state is decided.
+#[test]
+fn linkages_with_great_friction_circles_begin_to_move_as_solved_at_small_rates() {
+    let mut random = Random(2026);
+    let mut moved = 0;
+    let driven = FOUR_BAR.replace("0.5 N m", "50 N m");
+    for _ in 0..16 {
+        let model = linkage(&driven, FOUR_BAR_HINGES, [0.004, 0.03], &mut random);
+        let loaded = model.with(&Settings::default().time(0.3)).unwrap();
+        let report = hold(&loaded, &HoldOptions::default()).unwrap();
+        assert_ne!(report.verdict, HoldVerdict::Neither);
+        let mut expected = Vec::new();
+        for rate in [1e-6, -1e-6] {
+            let turning = solve(&loaded.with(&Settings::default().rate("p", rate)).unwrap()).unwrap();
+            let accelerations = turning.solutions.iter().map(|solution| solution.coordinates[0].acceleration);
+            expected.extend(accelerations.filter(|acceleration| acceleration * rate > 0.0));
+        }
+        let mut found: Vec<f64> = report
+            .releases
+            .iter()
+            .map(|release| release.coordinates[0].acceleration.least.unwrap())
+            .collect();
+        found.sort_by(f64::total_cmp);
+        expected.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), expected.len(), "{found:?} instead of {expected:?}");
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{found} instead of {expected}");
+        }
+        moved += found.len();
+    }
+    assert!(moved > 0);
 }

@@ -2,10 +2,12 @@
 //! does without.
 //!
 //! Some joint or hinge wedges: it stops within static friction, while the others go on sliding and turning with kinetic
-//! friction, or stay at rest. If another velocity would reverse first, the impulse ends where that is zero.
+//! friction, or stay at rest. If another velocity would reverse first, the impulse ends where that is zero. Where no single
+//! one can wedge, all that moves wedges at once, within the static friction of each; in a mechanism of one degree of
+//! freedom, in which everything stops together anyway, that is possible wherever some of it can wedge.
 
 use super::BOUNDARY;
-use super::hinged::{frictionless, setup, unit};
+use super::hinged::{frictionless, setup};
 use super::impulse::AT_REST;
 use super::rules::{EventInstant, HaltingImpulse};
 use crate::configuration::{Configuration, Velocity};
@@ -13,7 +15,7 @@ use crate::fault::Faults;
 use crate::motion::moving::energy::kinetic;
 use crate::motion::moving::equations::Equations;
 use crate::pattern::phase::sliding_joints;
-use crate::pattern::{HingePhase, JointPhase, Phase};
+use crate::pattern::{HingePhase, JointPhase, Phase, direction};
 use crate::standstill::{MotionState, motion_states, sticking_slack};
 use nalgebra::Vector2;
 
@@ -27,11 +29,13 @@ pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<Halting
     let known: Vec<Option<f64>> = signs.iter().map(|sign| Some(*sign).filter(|sign| *sign != 0.0)).collect();
     let setup = setup(mechanism, configuration, (&known, rounding))?;
     let velocities = relative_velocities(event, configuration);
-    for stops in (0..signs.len()).filter(|joint| signs[*joint] != 0.0) {
-        let impulses = setup.impulsive(stops, velocities[stops]);
+    let moving: Vec<usize> = (0..signs.len()).filter(|joint| signs[*joint] != 0.0).collect();
+    let everything = (moving.len() > 1).then(|| moving.clone());
+    for stopping in moving.iter().map(|joint| vec![*joint]).chain(everything) {
+        let impulses = setup.impulsive(stopping.iter().map(|joint| (*joint, velocities[*joint])));
         let (found, _) = motion_states(&impulses)?;
         for state in found {
-            let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| unit(*force)).collect();
+            let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
             let slack = sticking_slack(&impulses, &state.pattern, &directions);
             if slack.is_none_or(|slack| slack < -BOUNDARY) {
                 continue;

@@ -15,7 +15,7 @@ use crate::motion::moving::amounts::Amounts;
 use crate::motion::moving::equations::Equations;
 use crate::motion::moving::switching::Switching;
 use crate::motion::moving::watch::{Watch, Watched};
-use crate::pattern::{HingePhase, JointPhase, Phase};
+use crate::pattern::{HingePhase, JointPhase, Phase, direction};
 use crate::report::Verdict;
 use crate::standstill::{MotionState, Pattern, Setup, motion_states, sticking_slack};
 
@@ -355,14 +355,8 @@ pub(super) fn sticking_margin(
         hinges: phase.hinges.iter().map(|hinge| hinge.state).collect(),
         contacts: phase.contacts.clone(),
     };
-    let directions: Vec<[f64; 2]> = phase.hinges.iter().map(|hinge| unit(hinge.force)).collect();
+    let directions: Vec<[f64; 2]> = phase.hinges.iter().map(|hinge| direction(hinge.force)).collect();
     Ok(sticking_slack(&setup, &pattern, &directions).unwrap_or(super::sticking::NONE))
-}
-
-/// The direction of a force; zero where there is none.
-pub(super) fn unit(force: [f64; 2]) -> [f64; 2] {
-    let length = force[0].hypot(force[1]);
-    if length > 0.0 { force.map(|component| component / length) } else { force }
 }
 
 /// Bodies that stand still under loads that do not change with time: nothing changes for them.

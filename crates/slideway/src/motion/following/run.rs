@@ -183,7 +183,8 @@ impl<'a, 'm> Run<'a, 'm> {
     fn balance(&mut self, total: f64) {
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let energy = self.energy();
-        let works = energy.friction.iter().chain(&energy.loads).chain(&energy.drives);
+        let friction = energy.friction.iter().chain(&energy.hinges);
+        let works = friction.chain(&energy.loads).chain(&energy.drives);
         let scale = works.fold(energy.kinetic, |scale, work| scale.max(work.abs()));
         self.history.energy_scale = self.history.energy_scale.max(scale);
         self.history.energy_error = self.history.energy_error.max((energy.total() - total).abs());
