@@ -85,7 +85,8 @@ export class MotionPanel {
     this.#film = film;
     this.#parts = film.shapes.map((markup) => shapes(markup));
     const exaggerated = film.is_exaggerated ? " The play in the guides is exaggerated." : "";
-    this.#notice.textContent = `${report.end?.words ?? ""} ${film.speed}.${exaggerated}`.trim();
+    const circles = film.friction_circles ? ` ${film.friction_circles}` : "";
+    this.#notice.textContent = `${report.end?.words ?? ""} ${film.speed}.${exaggerated}${circles}`.trim();
     this.#stage.setAttribute("viewBox", film.view_box);
     this.#time.max = film.frames.length - 1;
     this.#log.replaceChildren(

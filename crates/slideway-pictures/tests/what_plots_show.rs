@@ -201,6 +201,42 @@ fn what_coincides_is_one_line_with_both_names() {
     assert!(page.contains(">2 N</text></svg>") || page.contains(">2 N</text>\n</svg>"), "a scale of forces");
 }
 
+/// The numbers of an attribute of an SVG element.
+fn numbers(markup: &str, attribute: &str) -> Vec<f64> {
+    let value = markup.split(&format!(" {attribute}=\"")).nth(1).and_then(|rest| rest.split('"').next());
+    let numbers = value.expect("it has the attribute").split([' ', ',']);
+    numbers.map(|number| number.parse().expect("a number")).collect()
+}
+
+/// While hinges turn, the lines of their forces touch the friction circles, whose scale is told.
+#[test]
+fn moving_pictures_show_the_friction_circles_of_hinges() {
+    let crank = model("slider-crank-with-pins", &Settings::default());
+    let history = simulate(&crank, &SimulateOptions::new(0.02)).expect("a motion");
+    let moving = animation(&history, &AnimationOptions::default(), &LIGHT);
+    let film = moving.film().expect("finite places");
+    let words = film.friction_circles.expect("a scale");
+    assert!(words.starts_with("Friction circles are drawn"), "{words}");
+    assert!(moving.to_html().expect("finite places").contains(words));
+    let hinges = history.mechanism.friction_circles.len();
+    for frame in &film.frames {
+        let shapes: Vec<&str> = frame.shapes.iter().map(|&shape| &*film.shapes[shape]).collect();
+        let circles = shapes.iter().enumerate().filter(|(_, shape)| shape.contains("\"s-friction-circle\""));
+        let circles: Vec<usize> = circles.map(|(place, _)| place).collect();
+        assert_eq!(circles.len(), hinges);
+        for place in circles {
+            let circle = ["cx", "cy", "r"].map(|name| numbers(shapes[place], name)[0]);
+            assert!(shapes[place + 1].contains("s-action-line"), "{}", shapes[place + 1]);
+            assert!(shapes[place + 2].contains("s-pin-force"), "{}", shapes[place + 2]);
+            let [x, y, to_x, to_y] = numbers(shapes[place + 1], "points")[..] else { panic!("a line") };
+            let (along_x, along_y) = (to_x - x, to_y - y);
+            let distance = ((circle[0] - x) * along_y - (circle[1] - y) * along_x) / along_x.hypot(along_y);
+            // Places are written with two digits after the point.
+            assert!((distance.abs() - circle[2]).abs() < 0.05, "{distance} of {}", circle[2]);
+        }
+    }
+}
+
 /// P = Q / (1 - 2 mu a / L) = 20 N / (1 - 1.5 mu) as in the model, whose efficiency is 1 - 1.5 mu, and
 /// 20 N / (1 + 1.5 mu) in the opposite direction.
 #[test]

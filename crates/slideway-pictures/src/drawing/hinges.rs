@@ -4,7 +4,8 @@ use super::Painter;
 use super::outline::unit;
 use super::scene::{Class, Point, Shape};
 use nalgebra::Vector2;
-use slideway::mechanism::JointKind;
+use slideway::mechanism::{JointKind, Mechanism};
+use slideway::motion::Sample;
 use slideway::report::Solution;
 
 /// The radius that the greatest friction circle has at most where circles are magnified, and below which they are.
@@ -36,6 +37,30 @@ impl PinForce {
         };
         solution.hinges.iter().filter_map(one).collect()
     }
+
+    /// The hinges with friction at one time of a motion; no force where what sticks leaves it open.
+    pub(crate) fn in_motion(mechanism: &Mechanism, sample: &Sample) -> Vec<Self> {
+        let circles = mechanism.friction_circles.iter().zip(&sample.hinges);
+        let one =
+            |(circle, hinge): (&slideway::mechanism::FrictionCircle, &slideway::motion::HingeSample)| {
+                let joint = &mechanism.joints[circle.joint.index()];
+                let JointKind::Hinge([first, _]) = &joint.kind else { return None };
+                let on_first = if first.frame.body().is_some() { 1.0 } else { -1.0 };
+                let sign = if hinge.is_determined { on_first } else { 0.0 };
+                Some(Self {
+                    hinge: joint.name.to_string(),
+                    force: hinge.force.map(|component| sign * component),
+                    couple: sign * hinge.couple.unwrap_or(0.0),
+                    radius: circle.radius,
+                })
+            };
+        circles.filter_map(one).collect()
+    }
+
+    /// How great the force is (N).
+    pub(crate) fn size(&self) -> f64 {
+        self.force[0].hypot(self.force[1])
+    }
 }
 
 impl Painter<'_> {
@@ -61,8 +86,7 @@ impl Painter<'_> {
         let Some(JointKind::Hinge(ends)) = joint.map(|joint| &joint.kind) else { return };
         let centre = self.attached(&ends[0]);
         self.circle(Class::FrictionCircle, centre, pin.radius * scale);
-        let force = Vector2::from(pin.force);
-        let size = force.norm();
+        let (force, size) = (Vector2::from(pin.force), pin.size());
         if size == 0.0 {
             return;
         }

@@ -34,7 +34,7 @@ pub use sheet::{Caption, Panel, Sheet, Shown, pieces, sheet, title};
 pub use view::View;
 
 pub(crate) use forces::forces_on;
-pub(crate) use sheet::{EXAGGERATED, answer, nice};
+pub(crate) use sheet::{EXAGGERATED, answer, nice, scale_of_circles};
 
 use labels::Label;
 use looks::{Look, looks};

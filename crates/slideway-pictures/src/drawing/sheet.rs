@@ -46,7 +46,7 @@ fn scale_of_play(scene: &Scene) -> Option<String> {
 }
 
 /// How large friction circles are drawn, in words.
-fn scale_of_circles(magnification: f64) -> String {
+pub(crate) fn scale_of_circles(magnification: f64) -> String {
     if magnification == 1.0 {
         return "Friction circles are to scale.".to_owned();
     }

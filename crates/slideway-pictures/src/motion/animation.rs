@@ -1,8 +1,10 @@
 //! The mechanism moving: one drawing for each frame, contact modes exaggerated.
 
 use crate::drawing::svg::markup;
-use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
-use crate::drawing::{forces_on, signs};
+use crate::drawing::{
+    Bounds, ContactForces, ContactState, ContactStates, PinForce, Scene, SceneOptions, View,
+};
+use crate::drawing::{forces_on, scale_of_circles, scene, signs};
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample, phase_in_words};
@@ -57,6 +59,8 @@ pub struct Animation {
     pub(super) words: Vec<String>,
     /// Whether the play of guides is drawn greater than it is.
     pub(super) is_exaggerated: bool,
+    /// How large friction circles of hinges are drawn, in words; none without them.
+    pub(super) friction_circles: Option<String>,
     /// On what the forces of contacts act.
     pub(super) forces_on: &'static str,
     pub(super) theme: Theme,
@@ -91,7 +95,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         .collect();
     let painted = Painted::new(history, &samples);
     let force_scale = painted.force_scale;
-    let Painting { shapes, frames, bounds, words, is_exaggerated } = painted.frames();
+    let Painting { shapes, frames, bounds, words, is_exaggerated, friction_circles } = painted.frames();
     Animation {
         title: history.mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned()),
         bounds,
@@ -105,6 +109,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         force_unit: history.mechanism.units.of("N"),
         words,
         is_exaggerated,
+        friction_circles: friction_circles.map(scale_of_circles),
         forces_on: forces_on(&history.mechanism),
         theme: *theme,
     }
@@ -122,6 +127,8 @@ struct Painting {
     words: Vec<String>,
     /// Whether any frame shows more play than there is.
     is_exaggerated: bool,
+    /// By how much friction circles of hinges are magnified.
+    friction_circles: Option<f64>,
 }
 
 struct Painted<'h> {
@@ -139,7 +146,12 @@ impl<'h> Painted<'h> {
         let view = View::fitting(&history.mechanism, &configurations, SIZE);
         let mut forces: Vec<f64> = samples
             .iter()
-            .flat_map(|sample| sample.contacts.iter().map(|contact| contact.normal_force.abs()))
+            .flat_map(|sample| {
+                let contacts = sample.contacts.iter().map(|contact| contact.normal_force.abs());
+                contacts
+                    .chain(PinForce::in_motion(&history.mechanism, sample).iter().map(PinForce::size))
+                    .collect::<Vec<_>>()
+            })
             .collect();
         forces.sort_by(f64::total_cmp);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the length")]
@@ -158,10 +170,11 @@ impl<'h> Painted<'h> {
         let mut known = std::collections::HashMap::new();
         let mut frames = Vec::with_capacity(self.samples.len());
         let mut bounds: Option<Bounds> = None;
-        let mut is_exaggerated = false;
+        let (mut is_exaggerated, mut friction_circles) = (false, None);
         for sample in self.samples {
             let scene = self.scene(sample);
             is_exaggerated |= scene.is_exaggerated;
+            friction_circles = friction_circles.or(scene.friction_circles);
             bounds = bounds.into_iter().chain(scene.bounds()).reduce(Bounds::with);
             let mut indices = Vec::with_capacity(scene.elements.len());
             for element in &scene.elements {
@@ -183,7 +196,7 @@ impl<'h> Painted<'h> {
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
         let bounds = bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH);
-        Painting { shapes, frames, bounds, words, is_exaggerated }
+        Painting { shapes, frames, bounds, words, is_exaggerated, friction_circles }
     }
 
     fn words(&self, sample: &Sample) -> String {
@@ -217,7 +230,8 @@ impl<'h> Painted<'h> {
             ..ContactState::default()
         });
         let (contacts, efforts) = (contacts.collect(), sample.efforts.clone());
-        let states = ContactStates { contacts, efforts, ..ContactStates::default() };
+        let pins = PinForce::in_motion(&self.history.mechanism, sample);
+        let states = ContactStates { contacts, efforts, pins };
         scene(&self.history.mechanism, &sample.configuration, &states, &self.view, &self.options)
     }
 }

@@ -28,6 +28,9 @@ pub struct Film<'a> {
     pub force_scale: String,
     /// Whether the play of guides is drawn greater than it is.
     pub is_exaggerated: bool,
+    /// How large friction circles of hinges are drawn, in words; absent without them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_circles: Option<&'a str>,
 }
 
 /// One frame.
@@ -67,6 +70,7 @@ impl Animation {
             speed: speed(self),
             force_scale: finished(force_scale(self))?,
             is_exaggerated: self.is_exaggerated,
+            friction_circles: self.friction_circles.as_deref(),
         })
     }
 }

@@ -92,13 +92,14 @@ fn html(animation: &Animation) -> String {
          <button id=\"on\" aria-label=\"one frame on\">&#9654;</button> <input id=\"time\" type=\"range\" min=\"0\" \
          max=\"{}\" value=\"0\" aria-label=\"time\"> <span id=\"clock\"></span></p>\n\
          <p id=\"state\">Mode <span class=\"mode\" id=\"mode\"></span>: <span id=\"words\"></span></p>\n\
-         <p>{}.{} Arrows: normal reactions and friction on {}, \
+         <p>{}.{}{} Arrows: normal reactions and friction on {}, \
          loads, and sliding velocities. Keys: <kbd>space</kbd> plays and pauses, <kbd>&#8592;</kbd> and <kbd>&#8594;</kbd> go one \
          frame, <kbd>Home</kbd> and <kbd>End</kbd> to the ends.</p>\n\
          <ol id=\"log\"></ol>",
         animation.frames.len().saturating_sub(1),
         speed(animation),
         if animation.is_exaggerated { format!(" {EXAGGERATED}") } else { String::new() },
+        animation.friction_circles.as_ref().map_or_else(String::new, |words| format!(" {words}")),
         animation.forces_on,
     );
     out.push_str("<script>\n\"use strict\";\nconst shapes = [");
