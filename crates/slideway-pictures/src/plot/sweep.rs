@@ -418,6 +418,8 @@ fn in_words(breakpoint: Breakpoint) -> &'static str {
         Breakpoint::SideChange => "side change",
         Breakpoint::GapCloses => "gap closes",
         Breakpoint::Tipping => "tipping",
+        Breakpoint::Fold => "fold",
+        Breakpoint::HingeUnloaded => "no force in a hinge",
         Breakpoint::NotSolved => "cannot be solved",
     }
 }

@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 
 /// Ends that are nearer to each other than this part of the range are one.
 const SAME: f64 = 1e-12;
+/// A fold is entered by this part of the range, so that both solutions, which differ by its square root, exist and are told
+/// apart.
+const INSIDE: f64 = 1e-10;
 
 /// A point at which a mode begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -63,7 +66,8 @@ pub(super) fn between(model: &Model, axis: &Axis, callback: &mut Callback<'_>) -
             return Some(Breakpoints { inserted: Vec::new(), without: Some(faults.to_string()) });
         }
     };
-    let mut ends: Vec<(f64, Breakpoint)> = report.modes.iter().flat_map(ends).collect();
+    let mut ends: Vec<(f64, Breakpoint)> =
+        report.modes.iter().flat_map(|mode| ends(mode, INSIDE * (to - from))).collect();
     ends.sort_by(|one, other| one.0.total_cmp(&other.0));
     ends.dedup_by(|next, kept| next.0 - kept.0 <= SAME * (to - from));
     let mut inserted: Vec<Inserted> = Vec::with_capacity(ends.len());
@@ -81,17 +85,22 @@ pub(super) fn between(model: &Model, axis: &Axis, callback: &mut Callback<'_>) -
     Some(Breakpoints { inserted, without: None })
 }
 
-/// Both ends of a mode, unless they are those of the range.
-fn ends(mode: &ModeLimits) -> impl Iterator<Item = (f64, Breakpoint)> {
+/// Both ends of a mode, unless they are those of the range; of a fold the place so far inside.
+fn ends(mode: &ModeLimits, inside: f64) -> impl Iterator<Item = (f64, Breakpoint)> {
     let cause = |cause: ModeEndCause| match cause {
         ModeEndCause::Locking => Some(Breakpoint::Locking),
         ModeEndCause::WithoutBound => Some(Breakpoint::WithoutBound),
         ModeEndCause::SideChange => Some(Breakpoint::SideChange),
         ModeEndCause::GapCloses => Some(Breakpoint::GapCloses),
         ModeEndCause::Tipping => Some(Breakpoint::Tipping),
+        ModeEndCause::Fold => Some(Breakpoint::Fold),
+        ModeEndCause::HingeUnloaded => Some(Breakpoint::HingeUnloaded),
         ModeEndCause::Reversal | ModeEndCause::NoModeProblem => Some(Breakpoint::NotSolved),
         _ => None,
     };
-    let ends = [(mode.from, cause(mode.from_is)), (mode.to, cause(mode.to_is))];
-    ends.into_iter().filter_map(|(at, breakpoint)| Some((at?, breakpoint?)))
+    let ends = [(mode.from, cause(mode.from_is), inside), (mode.to, cause(mode.to_is), -inside)];
+    ends.into_iter().filter_map(|(at, breakpoint, inwards)| {
+        let breakpoint = breakpoint?;
+        Some((at? + if breakpoint == Breakpoint::Fold { inwards } else { 0.0 }, breakpoint))
+    })
 }

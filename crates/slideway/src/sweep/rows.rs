@@ -120,19 +120,25 @@ pub enum Breakpoint {
     GapCloses,
     /// A guided slider tips.
     Tipping,
+    /// Two solutions with friction in hinges merge and end; the point lies 1e-10 of the range inside, where both exist.
+    Fold,
+    /// The force of a hinge with friction vanishes.
+    HingeUnloaded,
     /// Beyond it there is no position, or a value that is not allowed; the point has no states itself.
     NotSolved,
 }
 
 impl Breakpoint {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::No,
         Self::Locking,
         Self::WithoutBound,
         Self::SideChange,
         Self::GapCloses,
         Self::Tipping,
+        Self::Fold,
+        Self::HingeUnloaded,
         Self::NotSolved,
     ];
 
@@ -145,6 +151,8 @@ impl Breakpoint {
             Self::SideChange => "side_change",
             Self::GapCloses => "gap_closes",
             Self::Tipping => "tipping",
+            Self::Fold => "fold",
+            Self::HingeUnloaded => "hinge_unloaded",
             Self::NotSolved => "not_solved",
         }
     }

@@ -5,7 +5,7 @@ use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map};
 use slideway::report::{Proof, Style};
-use slideway::sweep::{PointStatus, RowKind, Rows, Sweep, SweepOptions};
+use slideway::sweep::{Breakpoint, PointStatus, RowKind, Rows, Sweep, SweepOptions};
 use slideway::{DriveOptions, Model, Report, Settings, drive, gallery, solve};
 use std::ops::ControlFlow;
 
@@ -55,6 +55,37 @@ fn magnitudes(r: f64, [fx, fy]: [f64; 2]) -> Vec<f64> {
     roots.retain(|root| *root > 0.0);
     roots.sort_by(f64::total_cmp);
     roots
+}
+
+/// The quadratic equation has a double root where `q^2 = (x^2 + p^2) / x^2`: there both branches have a point, and end.
+#[test]
+fn a_sweep_has_the_point_at_which_two_solutions_merge() {
+    let load = [1.5, -4.0];
+    let (c, about_hinge) = (0.5, 1.25);
+    let (x, p): (f64, f64) = (-c - load[0], c * c * load[1] / about_hinge - load[1]);
+    let fold = x.hypot(p) / x.abs() * about_hinge / c;
+    let options = SweepOptions::grid(["r=0.05..6:24".parse().unwrap()]);
+    let sweep = Sweep::new(&bar(0.1, load), &options).unwrap();
+    assert_eq!(sweep.without_breakpoints(), None);
+    let force = column(&sweep, "hinge_force_x.pin");
+    let mut found = 0;
+    let mut last: Vec<u32> = Vec::new();
+    for rows in rows(&sweep) {
+        let folds = (0..rows.len()).filter(|&row| rows.heads[row].breakpoint == Breakpoint::Fold);
+        let folds: Vec<usize> = folds.collect();
+        if let [one, other] = folds[..] {
+            found += 1;
+            let [near, far] = [one, other].map(|row| (rows.numbers(row)[0], rows.numbers(row)[force]));
+            assert!((near.0 - fold).abs() <= 1e-9 * fold, "{} instead of {fold}", near.0);
+            assert!((near.1 - far.1).abs() <= 1e-3 * near.1.abs(), "{near:?} {far:?}");
+            assert_ne!(rows.heads[one].negative_determinant, rows.heads[other].negative_determinant);
+            last = [one, other].map(|row| rows.heads[row].branch).to_vec();
+        }
+        for head in rows.heads.iter().filter(|head| head.solutions == 0) {
+            assert!(!last.contains(&head.branch));
+        }
+    }
+    assert_eq!(found, 1);
 }
 
 /// Over the radius: one solution, two in one mode beyond the centre of percussion, none beyond the fold. The branches of
