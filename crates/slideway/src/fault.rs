@@ -545,7 +545,7 @@ impl FaultKind {
                     .to_owned(),
             ),
             Self::FrictionInHinges { .. } => Some(
-                "leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge; `slideway solve`, `sweep`, `map`, `drive` and `hold` take it into account, but not a common factor of all friction"
+                "leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge"
                     .to_owned(),
             ),
             Self::RigidAtRest { .. } => Some(

@@ -1,12 +1,25 @@
 //! One solution, followed to where it ends.
 
 use super::branch::BranchEnd;
+use super::conditions::{are_met, conditions};
 use super::curve::{Curve, Way};
-use super::family::Family;
+use super::family::{Family, Instance};
 use super::place::Place;
 use super::samples::Found;
 use crate::blocks::BlockSolution;
 use crate::existence::EndCause;
+
+/// Whether a solution of a problem keeps the bounds of its outputs.
+pub fn keeps_bounds(instance: &Instance, solution: &BlockSolution) -> bool {
+    let found = Found::of(solution, 0.0, instance, unit_of(instance));
+    are_met(&conditions(&found.equations, instance, &found.place, None))
+}
+
+/// A unit of the forces of a problem.
+fn unit_of(instance: &Instance) -> f64 {
+    let load = instance.problem.load().centre().amax();
+    if load > 0.0 { load } else { 1.0 }
+}
 
 /// Where a solution that is known at a value ends towards a goal, which it may reach ([`EndCause::Range`]); the way is
 /// followed in parts that are at most so long. None if there is no problem at the value.
@@ -17,8 +30,7 @@ pub fn end_of(
     part: f64,
 ) -> Option<BranchEnd> {
     let instance = family(at).ok()?;
-    let load = instance.problem.load().centre().amax();
-    let found = Found::of(solution, at, &instance, if load > 0.0 { load } else { 1.0 });
+    let found = Found::of(solution, at, &instance, unit_of(&instance));
     let curve = Curve { family, equations: found.equations, greatest: None, orientation: found.orientation };
     let mut place = found.place;
     while place.at != goal {

@@ -34,5 +34,5 @@ mod samples;
 pub use branch::{Branch, BranchEnd, BranchForces, Branches, Gap};
 pub use family::{Family, Instance, NoInstance, Outputs};
 pub use find::{BranchOptions, branches};
-pub use follow::end_of;
+pub use follow::{end_of, keeps_bounds};
 pub use radius::over_radius;

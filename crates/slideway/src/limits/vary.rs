@@ -3,7 +3,7 @@
 use super::varied::Varied;
 use crate::expression::{TO, ends_of_range};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
-use crate::mechanism::{MAGNITUDES, Mechanism};
+use crate::mechanism::MAGNITUDES;
 use crate::model::{Model, Value};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
@@ -81,17 +81,6 @@ impl Vary {
     /// As [`Varied::new`].
     pub(crate) fn of(&self, model: &Model) -> Result<Varied, Faults> {
         self.placed(Varied::new(model, &self.name))
-    }
-
-    /// [`Self::of`] for questions that do not take friction in hinges into account.
-    ///
-    /// # Errors
-    /// As [`Varied::new`]; friction in hinges.
-    pub(crate) fn of_frictionless(&self, model: &Model) -> Result<Varied, Faults> {
-        if let Ok(mechanism) = Mechanism::new(model) {
-            mechanism.check_frictionless_hinges()?;
-        }
-        self.of(model)
     }
 
     /// It in a model that is asked about rest.

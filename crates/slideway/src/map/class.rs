@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 
 /// Bounds of the classes of margins.
-const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
+pub(super) const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
 /// The most patterns for which margins are computed.
 const PATTERNS: u64 = 1 << 12;
 
@@ -114,6 +114,8 @@ pub(super) struct States {
     pub(super) undecided: bool,
     /// With friction in hinges and for `Motion`: what becomes of the speeds in each solution.
     pub(super) changes: Vec<Vec<SpeedChange>>,
+    /// With friction in hinges and for `Margin`: that of an only solution, if it is decided.
+    pub(super) margin: Option<ClassMeaning>,
 }
 
 /// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone.
@@ -153,6 +155,9 @@ pub(super) fn class(
     match (colour_by, answer) {
         (ColourBy::Margin, Answer::Problem(point)) if states.solutions.len() == 1 => {
             margin(&point.parts).unwrap_or(ClassMeaning::TooLarge)
+        }
+        (ColourBy::Margin, Answer::States(_)) if states.solutions.len() == 1 => {
+            states.margin.clone().unwrap_or(undecided)
         }
         (ColourBy::Motion, Answer::Problem(point))
             if !(point.free.is_empty() || states.solutions.is_empty()) =>
@@ -235,9 +240,13 @@ fn margin(parts: &Parts) -> Option<ClassMeaning> {
     let counts = counts(&line, &existence, range);
     let changes = counts.iter().find(|count| count.to > 1.0 + AT_ONCE && count.solutions != 1);
     let factor = changes.map_or(f64::INFINITY, |count| count.from.max(1.0));
-    let above = MARGINS.iter().position(|&bound| factor < bound).unwrap_or(MARGINS.len() - 1);
-    let [from, to] = [MARGINS[above.max(1) - 1], MARGINS[above.max(1)]];
-    Some(ClassMeaning::Margin { from, to: to.is_finite().then_some(to) })
+    Some(margin_up_to(MARGINS.iter().position(|&bound| factor < bound).unwrap_or(MARGINS.len() - 1)))
+}
+
+/// The margin that reaches beyond so many of the bounds.
+pub(super) fn margin_up_to(bounds: usize) -> ClassMeaning {
+    let [from, to] = [MARGINS[bounds.max(1) - 1], MARGINS[bounds.max(1)]];
+    ClassMeaning::Margin { from, to: to.is_finite().then_some(to) }
 }
 
 /// Why there is no mode problem, in few words, so that neighbouring points agree.

@@ -38,15 +38,14 @@ struct Source {
     /// Between these mode problems are interpolated; if there are none, they are made from the model at every
     /// point, from the states of the points before it.
     corners: Option<Corners>,
-    /// Whether mode problems have the accelerations of the coordinates as outputs.
-    with_accelerations: bool,
+    colour_by: ColourBy,
 }
 
 impl<'a> Evaluator<'a> {
     /// # Errors
     /// A quantity on which nothing depends; a model that cannot be turned round.
     pub(super) fn new(model: &'a Model, axes: &'a [Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
-        let source = |model: Model| Source::new(model, axes, colour_by == ColourBy::Motion).map(Some);
+        let source = |model: Model| Source::new(model, axes, colour_by).map(Some);
         let forwards = if colour_by == ColourBy::Hold { None } else { source(model.clone())? };
         let opposite = if colour_by == ColourBy::Jam { source(model.reversed())? } else { None };
         Ok(Self { axes, colour_by, model, forwards, opposite })
@@ -106,11 +105,11 @@ impl<'a> Evaluator<'a> {
 }
 
 impl Source {
-    fn new(model: Model, axes: &[Axis; 2], with_accelerations: bool) -> Result<Self, Faults> {
+    fn new(model: Model, axes: &[Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
         let at = |[u, v]: [f64; 2]| {
             let (model, friction) = model_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)])?;
             let stages = Stages::new(&model)?;
-            let parts = parts(&stages, friction, with_accelerations)?;
+            let parts = parts(&stages, friction, colour_by)?;
             Ok::<_, Faults>((parts, stages.accuracy, free(&stages)))
         };
         let [x, y] = axes.each_ref().map(|axis| axis.varied.dependence().problem);
@@ -128,7 +127,7 @@ impl Source {
         } else {
             None
         };
-        Ok(Self { model, corners, with_accelerations })
+        Ok(Self { model, corners, colour_by })
     }
 
     fn point(
@@ -147,12 +146,12 @@ impl Source {
             let stages = Stages::along(&mut before.trail, mechanism)?;
             if stages.mechanism.rough_hinges().next().is_some() && friction > 0.0 {
                 let model = || Ok(model_at(&self.model, axes, values)?.0);
-                let careful = self.with_accelerations || self.model.has_guided_sliders();
-                let found =
-                    hinges::states(stages.rougher(friction), &model, careful, &mut before.last, work)?;
+                let careful = self.colour_by == ColourBy::Motion || self.model.has_guided_sliders();
+                let asked = (self.colour_by, careful);
+                let found = hinges::states(stages.rougher(friction), &model, asked, &mut before.last, work)?;
                 return Ok(Answer::States(found));
             }
-            let parts = parts(&stages, friction, self.with_accelerations)?;
+            let parts = parts(&stages, friction, self.colour_by)?;
             (parts, stages.accuracy, free(&stages), Some(stages))
         };
         if parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy) {
@@ -176,8 +175,12 @@ struct Before {
 }
 
 /// The mode problem of stages, with the accelerations of the coordinates as outputs if these are asked.
-fn parts(stages: &Stages, friction: f64, with_accelerations: bool) -> Result<Parts, Faults> {
-    if with_accelerations { stages.parts_with_accelerations(friction) } else { stages.parts(friction) }
+fn parts(stages: &Stages, friction: f64, colour_by: ColourBy) -> Result<Parts, Faults> {
+    if colour_by == ColourBy::Motion {
+        stages.parts_with_accelerations(friction)
+    } else {
+        stages.parts(friction)
+    }
 }
 
 /// The coordinates that no drive moves, with their rates.
@@ -257,9 +260,8 @@ mod tests {
         let walking = |step: usize| [(step as f64 + 0.5) / 32.0, 0.1 + 0.02 * step as f64];
         for (name, x, y) in planes {
             let model = Model::parse(gallery::find(name).expect("in the gallery").text).expect("sound");
-            let axes = [x, y].map(|axis| {
-                Axis::new(&model, &axis.parse().expect("a range"), ColourBy::Modes).expect("an axis")
-            });
+            let axes =
+                [x, y].map(|axis| Axis::new(&model, &axis.parse().expect("a range")).expect("an axis"));
             for colour_by in [ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
                 let evaluator = Evaluator::new(&model, &axes, colour_by).expect("something varies");
                 assert!(!evaluator.is_bilinear(), "{name}");

@@ -156,11 +156,8 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(model: &Model, vary: &Vary, colour_by: ColourBy) -> Result<Self, Faults> {
-        let mut varied = vary.at_rest(model)?;
-        if colour_by == ColourBy::Margin {
-            varied = vary.of_frictionless(model)?;
-        }
+    fn new(model: &Model, vary: &Vary) -> Result<Self, Faults> {
+        let varied = vary.at_rest(model)?;
         let range = vary.ends(&varied, || Err(varied.range_needed()))?;
         Ok(Self { varied, range })
     }
@@ -222,8 +219,7 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {
     let mut faults = Faults::default();
-    let mut axis =
-        |vary: &Vary| Axis::new(model, vary, options.colour_by).map_err(|found| faults.append(found)).ok();
+    let mut axis = |vary: &Vary| Axis::new(model, vary).map_err(|found| faults.append(found)).ok();
     let both = (axis(&options.x), axis(&options.y));
     let (Some(x), Some(y)) = both else { return Err(faults) };
     if x.varied.name == y.varied.name {

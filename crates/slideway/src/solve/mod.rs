@@ -45,7 +45,8 @@ pub(crate) use friction::friction;
 pub use hinges::exact_block_problem;
 pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states, never_turning};
 pub(crate) use hinges::{
-    block_instance, directions, friction_of_contacts, locking_factor, turning_hinges, unknowns_of,
+    block_instance, directions, factors_with_one_solution, friction_of_contacts, locking_factor,
+    turning_hinges, unknowns_of,
 };
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{

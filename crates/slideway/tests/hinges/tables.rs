@@ -2,9 +2,9 @@
 
 use crate::dead_centre::dead_centres;
 use rstest::rstest;
-use slideway::fault::FaultKind;
-use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map};
-use slideway::report::{Proof, Style};
+use slideway::limits::Vary;
+use slideway::map::{ClassMeaning, ColourBy, MapAxis, MapOptions, MapReport, map};
+use slideway::report::{ModeEndCause, Proof, Style};
 use slideway::sweep::{Breakpoint, PointStatus, RowKind, Rows, Sweep, SweepOptions};
 use slideway::{DriveOptions, Model, Report, Settings, drive, gallery, solve};
 use std::ops::ControlFlow;
@@ -154,12 +154,13 @@ fn a_map_has_the_numbers_of_solutions_of_the_quadratic_equation() {
     assert!(seen.iter().all(|pixels| *pixels > 20), "{seen:?}");
 }
 
-/// Every colour that does not follow friction to a margin has an answer.
+/// Every colour has an answer.
 #[rstest]
 #[case(ColourBy::Modes)]
 #[case(ColourBy::Jam)]
 #[case(ColourBy::Motion)]
 #[case(ColourBy::Hold)]
+#[case(ColourBy::Margin)]
 fn maps_answer(#[case] colour_by: ColourBy) {
     let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
     let options = MapOptions::new("phi=-170 deg..150 deg".parse().unwrap(), "mu_pin=0..0.5".parse().unwrap());
@@ -168,13 +169,78 @@ fn maps_answer(#[case] colour_by: ColourBy) {
     assert!(report.classes.iter().all(|class| answered(&class.meaning)), "{:?}", report.classes);
 }
 
+/// The finite bounds of the margins of a class; beyond 5 they are one class.
+fn margin(meaning: &ClassMeaning) -> [f64; 2] {
+    let ClassMeaning::Margin { from, to } = *meaning else { panic!("no margin: {meaning:?}") };
+    [from, to.unwrap_or(f64::INFINITY)]
+}
+
+/// Up to the distance of the centre of percussion, `2.5 = 1.25 / 0.5`, there is one solution whatever the load, then there are two or none.
 #[test]
-fn a_map_by_margin_is_refused_and_the_hinges_named() {
-    let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
-    let margins = MapOptions::new("phi=0..1".parse().unwrap(), "mu=0..1".parse().unwrap());
-    let faults = map(&model, &margins.colour_by(ColourBy::Margin)).unwrap_err();
-    let FaultKind::FrictionInHinges { hinges } = &faults.sorted()[0].kind else { panic!("{faults:?}") };
-    assert_eq!(*hinges, ["O", "A", "B"]);
+fn a_bar_has_the_margin_of_its_centre_of_percussion() {
+    let options = MapOptions::new("r=0.2..2.6".parse().unwrap(), "F=-8..8".parse().unwrap());
+    let map = map(&bar(0.1, [1.5, -4.0]), &options.size(24, 6).probe(1).colour_by(ColourBy::Margin)).unwrap();
+    for (row, pixel) in (0..6).flat_map(|row| (0..24).map(move |pixel| (row, pixel))) {
+        let factor = 2.5 / (0.25 + 0.1 * pixel as f64);
+        let meaning = &map.classes[map.class_at(pixel, row)].meaning;
+        if factor < 1.0 {
+            assert!(!matches!(meaning, ClassMeaning::Margin { .. }), "{factor}: {meaning:?}");
+            continue;
+        }
+        let [from, to] = margin(meaning);
+        assert!(from <= factor + 1e-9 && factor <= to + 1e-9, "{factor}: {meaning:?}");
+    }
+    assert!(map.classes.len() >= 7, "{:?}", map.classes);
+}
+
+/// The numbers of solutions with multiplied friction are those of a table over the factor; the margins that `solve` gives are of an only solution
+/// that locks. The factors of the table are 0.01 apart.
+#[rstest]
+#[case("slider-crank-with-pins", "phi=10 deg..170 deg", "mu_pin=0.05..0.5", false)]
+#[case("toggle-press", "alpha=1 deg..25 deg", "mu=0.05..0.5", true)]
+#[case("four-bar", "phi=120 deg..180 deg", "mu_pin=0.05..0.5", true)]
+fn maps_by_margin_have_the_numbers_of_solutions_of_tables(
+    #[case] name: &str,
+    #[case] x: &str,
+    #[case] y: &str,
+    #[case] locks: bool,
+) {
+    let model = Model::parse(gallery::find(name).unwrap().text).unwrap();
+    let (x, y): (Vary, Vary) = (x.parse().unwrap(), y.parse().unwrap());
+    let options = MapOptions::new(x.clone(), y.clone()).size(5, 4).probe(1).colour_by(ColourBy::Margin);
+    let map = map(&model, &options).unwrap();
+    let value = |axis: &MapAxis, pixel: usize, pixels: f64| {
+        axis.from + (axis.to - axis.from) * (pixel as f64 + 0.5) / pixels
+    };
+    let (mut compared, mut locking) = (0, 0);
+    for (row, pixel) in (0..4).flat_map(|row| (0..5).map(move |pixel| (row, pixel))) {
+        let meaning = &map.classes[map.class_at(pixel, row)].meaning;
+        let settings = Settings::default().position(&x.name, value(&map.x, pixel, 5.0));
+        let settings = settings.parameter(&y.name, value(&map.y, row, 4.0));
+        let there = model.with(&settings).unwrap();
+        let table = SweepOptions::grid(["friction=1..5:401".parse().unwrap()]).breakpoints(false);
+        let sweep = Sweep::new(&there, &table).unwrap();
+        let rows = rows(&sweep);
+        let counts = rows
+            .iter()
+            .flat_map(|rows| (0..rows.len()).map(|row| (rows.numbers(row)[0], rows.heads[row].solutions)));
+        let other = counts.filter(|(_, solutions)| *solutions != 1).map(|(factor, _)| factor);
+        let factor = other.reduce(f64::min).unwrap_or(f64::INFINITY);
+        if factor == 1.0 {
+            assert!(!matches!(meaning, ClassMeaning::Margin { .. }), "{settings:?}: {meaning:?}");
+            continue;
+        }
+        let [from, to] = margin(meaning);
+        assert!(from <= factor && factor <= to + 0.01, "{settings:?}: {factor}, {meaning:?}");
+        compared += 1;
+        let solved = solve(&there).unwrap();
+        let of_solution = solved.solutions[0].margin.as_ref().expect("a margin");
+        if let (ModeEndCause::Locking, Some(end)) = (of_solution.ends_with, of_solution.factor) {
+            assert!(from <= end, "{settings:?}: {end}, {meaning:?}");
+            locking += usize::from(end < 5.0);
+        }
+    }
+    assert!(compared > 8 && (locking > 0) == locks, "{compared} compared, {locking} lock");
 }
 
 /// The factor of all friction multiplies the radius of a friction circle that is given; with none there is one solution.

@@ -2,12 +2,13 @@
 
 use super::super::stages::Stages;
 use super::branches::GrowingFriction;
+use super::spin::{Spins, spins};
 use crate::enclosure::TurningHinge;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::modes::SearchOptions;
-use crate::modes::blocks::{self, BlockSolution};
-use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of};
+use crate::modes::blocks::{self, BlockSolution, unique_for_every_load};
+use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
 use crate::progress::Work;
 use crate::report::{ModeEndCause, ModeMargin, Proof};
@@ -19,12 +20,22 @@ const INFINITY: f64 = 1e6;
 const PART: f64 = 0.5;
 /// How far beyond an end it is asked whether any solution is left, as a logarithm.
 const BEYOND: f64 = 1e-6;
+/// Steps of this length aside from where all solutions are sought, such as exactly at an end.
+const ASIDE: [f64; 3] = [0.0, 1.0, 30.0];
 /// The most nodes of the search there.
 const NODES: u64 = 2_000;
 /// The most ends of branches that are passed on the way to locking.
 const BRANCHES: usize = 64;
 /// Even steps of friction that falls.
 const FALLING: usize = 40;
+
+/// A number of solutions.
+enum Number {
+    /// One.
+    One(Box<BlockSolution>),
+    /// None, or several.
+    Another,
+}
 
 /// The branches of a mechanism as all its friction grows.
 pub(super) struct Growth<'a> {
@@ -78,6 +89,58 @@ impl<'a> Growth<'a> {
         (result.complete == Proof::Proven).then_some(result.solutions)
     }
 
+    /// How many solutions there are with this logarithm of the factor, or a little aside where that is not decided; none
+    /// if it is not decided there either.
+    fn number(&self, logarithm: f64, aside: f64) -> Option<Number> {
+        ASIDE.iter().find_map(|steps| self.number_at(logarithm + aside * steps))
+    }
+
+    fn number_at(&self, logarithm: f64) -> Option<Number> {
+        let mut solutions = self.solutions(logarithm)?;
+        let instance = self.at(logarithm).ok()?;
+        solutions.retain(|solution| solution.gaps.is_empty() && keeps_bounds(&instance, solution));
+        let last = solutions.pop().filter(|_| solutions.is_empty());
+        Some(last.map_or(Number::Another, |last| Number::One(Box::new(last))))
+    }
+
+    /// Whether every load has exactly one solution up to this logarithm of the factor: what proves it grows with
+    /// friction.
+    fn is_unique(&self, logarithm: f64) -> bool {
+        self.at(logarithm).is_ok_and(|instance| {
+            instance.bounds.is_empty() && unique_for_every_load(&instance.problem).is_some()
+        })
+    }
+
+    /// The number of solutions at the second of two logarithms of the factor, or in between if it is another one there,
+    /// reached from the only one at the first; none if that is not decided.
+    fn number_beyond(&self, mut only: Box<BlockSolution>, [from, to]: [f64; 2]) -> Option<Number> {
+        let mut at = from;
+        for _ in 0..BRANCHES {
+            at = end_of(&|at| self.at(at), (&only, at), to, PART)?.end.at + BEYOND;
+            if at >= to {
+                return self.number(to, -BEYOND);
+            }
+            match self.number(at, BEYOND)? {
+                Number::One(next) => only = next,
+                Number::Another => return Some(Number::Another),
+            }
+        }
+        None
+    }
+
+    /// How many of these growing factors come before another number of solutions than one; none if that is not
+    /// decided.
+    fn with_one_solution(&self, factors: &[f64]) -> Option<usize> {
+        let at: Vec<f64> = factors.iter().map(|factor| factor.ln()).collect();
+        let first = at.iter().rposition(|&at| self.is_unique(at)).unwrap_or(0);
+        let mut number = self.number(at[first], -BEYOND)?;
+        for next in first + 1..at.len() {
+            let Number::One(only) = number else { return Some(next - 1) };
+            number = self.number_beyond(only, [at[next - 1], at[next]])?;
+        }
+        Some(if matches!(number, Number::One(_)) { at.len() } else { at.len() - 1 })
+    }
+
     /// The factor by which friction may grow before there is neither a solution nor a preload-gap state, infinite if
     /// there always is one; where there is none as it is, the factor to which friction has to fall.
     fn locking(&self, work: Work<'_>) -> Option<f64> {
@@ -113,6 +176,19 @@ impl<'a> Growth<'a> {
         let found = branches(&family, &options, work).branches;
         found.iter().map(|branch| branch.to.end.at).fold(0.0, f64::max)
     }
+}
+
+/// How many of these growing factors of all friction come before another number of solutions than one: the only solution is
+/// followed, and all are sought at the factors. None if that is not decided, or a hinge never turns.
+///
+/// # Errors
+/// Hinges with friction that do not turn now; guides that share a load.
+pub(crate) fn factors_with_one_solution(stages: &Stages, factors: &[f64]) -> Result<Option<usize>, Faults> {
+    let Spins { turning, standing } = spins(stages.hinged())?;
+    if !standing.is_empty() {
+        return Ok(None);
+    }
+    Ok(Growth::new(stages, &turning)?.with_one_solution(factors))
 }
 
 /// The factor by which all friction may grow before there is neither a solution nor a preload-gap state, infinite if

@@ -31,7 +31,7 @@ use crate::report::SolveReport;
 pub(crate) use found::directions;
 use found::{BlocksFound, HingedAnswer};
 use margins::Growth;
-pub(crate) use margins::locking_factor;
+pub(crate) use margins::{factors_with_one_solution, locking_factor};
 use nalgebra::{DMatrix, DVector};
 pub(crate) use spin::never_turning;
 use spin::{Spins, never_turn, spins};
