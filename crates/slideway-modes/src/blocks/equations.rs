@@ -40,7 +40,7 @@ pub(crate) struct Slopes<T> {
 
 /// An entry of the data.
 pub(super) fn entry<T: Real>(matrix: &IntervalMatrix, row: usize, column: usize) -> T {
-    T::written(matrix.centre()[(row, column)], matrix.entry(row, column))
+    T::around(matrix.centre()[(row, column)], matrix.radius()[(row, column)])
 }
 
 /// The matrix of slopes of the equations: `I - H D`; of an open contact

@@ -89,6 +89,20 @@ impl BlockProblem {
         Ok(Self { has_jump: has_jump.collect(), response, jumps, load })
     }
 
+    /// The problem with the column of each block of `H` multiplied by its factor, where the numbers are exact.
+    ///
+    /// # Errors
+    /// Entries that are not finite then.
+    pub fn with_response_times(&self, factors: &[f64]) -> Result<Self, ModeProblemError> {
+        let scaled = |side: Side| {
+            let matrix = IntervalMatrix::exact(times(self.response.get(side).centre().clone(), factors));
+            check(ProblemPart::Columns(side), &matrix, matrix.shape()).map(|()| matrix)
+        };
+        let response = BySide { positive: scaled(Side::Positive)?, negative: scaled(Side::Negative)? };
+        let (jumps, load, has_jump) = (self.jumps.clone(), self.load.clone(), self.has_jump.clone());
+        Ok(Self { response, jumps, load, has_jump })
+    }
+
     /// The number `s` of contacts.
     pub fn contacts(&self) -> usize {
         self.has_jump.len()
@@ -180,6 +194,14 @@ impl BlockProblem {
     }
 }
 
+/// A matrix with each column multiplied by its factor.
+pub(crate) fn times(mut matrix: DMatrix<f64>, factors: &[f64]) -> DMatrix<f64> {
+    for (mut column, factor) in matrix.column_iter_mut().zip(factors) {
+        column.scale_mut(*factor);
+    }
+    matrix
+}
+
 fn check(
     part: ProblemPart,
     matrix: &IntervalMatrix,
@@ -188,13 +210,11 @@ fn check(
     if matrix.shape() != expected {
         return Err(ModeProblemError::Shape { part, expected, found: matrix.shape() });
     }
-    for column in 0..expected.1 {
-        for row in 0..expected.0 {
-            let value = matrix.centre()[(row, column)];
-            if !value.is_finite() {
-                return Err(ModeProblemError::NotFinite { part, row, column, value });
-            }
+    match matrix.centre().iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        Some((place, &value)) => {
+            let (row, column) = (place % expected.0, place / expected.0);
+            Err(ModeProblemError::NotFinite { part, row, column, value })
         }
+        None => Ok(()),
     }
-    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::conditions::{self, Condition, are_met, conditions, slack};
+use super::conditions::{self, are_met, conditions, slack};
 use super::family::{Family, Instance};
 use super::place::{Equations, Place};
 use crate::existence::EndCause;
@@ -12,6 +12,8 @@ use crate::interval::Sign;
 const NEWTON: usize = 25;
 /// A step of this length is the last one.
 const LAST: f64 = 4.0 * f64::EPSILON;
+/// On the way to an end a step of this length is the last one.
+const ROUGH: f64 = 1e-9;
 /// Steps that no longer shrink have reached rounding, if they are below this.
 const SMALL: f64 = 1e-10;
 /// The longest step along the arc, of unit vectors `z` and of the way to the goal.
@@ -20,14 +22,18 @@ const LONGEST: f64 = 0.2;
 const SHORTEST: f64 = 1e-9;
 /// Steps along an arc.
 const STEPS: usize = 2000;
-/// Halvings of a step that leads beyond an end.
-const HALVINGS: usize = 70;
+/// Ends are located to this share of the step that leads beyond them, in at most one evaluation more than halving it
+/// so many times takes.
+const LOCATED: f64 = f64::EPSILON;
+const HALVINGS: i32 = 51;
+/// By how much an estimate of an end is shifted towards the middle of the bracket, as a share of its squared width.
+const SHIFT: f64 = 0.2;
 /// Places this near to the goal, as a share of the way, are there.
 const AT_GOAL: f64 = 1e-7;
 /// A corrected step that is this much longer or shorter than the predicted one is too long.
 const FAR: f64 = 0.5;
 /// Differences of the parameter for derivatives, as a share of the way to the goal.
-const DIFFERENCE: f64 = 1e-3;
+const DIFFERENCE: f64 = 1e-4;
 /// Below this `lambda` the determinant vanishes together with it.
 const NEAR_INFINITY: f64 = 1e-7;
 /// Hinge forces below this share of the largest unknown vanish.
@@ -53,6 +59,21 @@ pub(super) struct Curve<'c> {
 
 /// A direction along a curve: of `z`, and of the parameter in units of the way to the goal.
 type Tangent = DVector<f64>;
+
+/// The direction of a step, with the derivative of the equations at fixed `z` by the parameter: that of a place nearby
+/// does, as Newton's method corrects what it misses.
+struct Along {
+    tangent: Tangent,
+    slope: DVector<f64>,
+}
+
+/// A place this far along a step.
+struct Probe {
+    length: f64,
+    place: Place,
+    /// By how much each condition, and the orientation, is met.
+    room: Vec<f64>,
+}
 
 /// A walk along a curve, whose parameter counts from its start in units of the way to its goal.
 struct Walk<'c> {
@@ -120,26 +141,28 @@ impl Walk<'_> {
         towards[start.z.len()] = 1.0;
         let mut length = LONGEST;
         for _ in 0..STEPS {
-            let Some(tangent) = self.tangent(&place, &towards) else { return self.lost(place) };
-            if let Some(end) = self.goal_within(&place, &tangent, length) {
+            let Some(along) = self.along(&place, &towards) else { return self.lost(place) };
+            if let Some(end) = self.goal_within(&place, &along.tangent, length) {
                 return Way::Reaches(end);
             }
             let next = loop {
-                match self.step(&place, &tangent, length, None) {
+                match self.step(&place, &along, length, None) {
                     Some(next) => break next,
                     None if length < SHORTEST => return self.lost(place),
                     None => length *= 0.5,
                 }
             };
-            if self.is_within(&next) && !self.is_beyond(&next) {
-                (place, towards) = (next, tangent);
+            let room = self.room(&next);
+            let is_within = all_met(&room);
+            if is_within && !self.is_beyond(&next) {
+                (place, towards) = (next, along.tangent);
                 length = (1.5 * length).min(LONGEST);
                 continue;
             }
-            if self.is_within(&next) {
+            if is_within {
                 return self.at_goal(&next, place);
             }
-            let (inside, outside) = self.bisected(&place, &tangent, length, next);
+            let (inside, outside) = self.bracketed(&place, along, Probe { length, place: next, room });
             if self.is_beyond(&inside) {
                 return self.at_goal(&inside, place);
             }
@@ -193,32 +216,59 @@ impl Walk<'_> {
 
     /// Whether nothing has ended before a place of the curve.
     fn is_within(&self, place: &Place) -> bool {
-        let Ok(instance) = (self.curve.family)(place.at) else { return false };
-        let curve = self.curve;
-        let all = conditions(&curve.equations, &instance, place, curve.greatest);
-        let is_met = |(condition, slack): (&Condition, &f64)| condition.value >= -slack;
-        all.iter().zip(&self.slack).all(is_met)
-            && (place.load() < NEAR_INFINITY
-                || self.curve.equations.orientation(&instance, &place.z) == self.curve.orientation)
+        all_met(&self.room(place))
     }
 
-    /// Neighbouring places on a step, of which the second is beyond the end.
-    fn bisected(&self, start: &Place, tangent: &Tangent, length: f64, beyond: Place) -> (Place, Place) {
-        let (mut inside, mut outside) = ((0.0, start.clone()), (length, beyond));
-        let slope = self.slope(&outside.1);
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(inside.0, outside.0);
-            if middle <= inside.0 || middle >= outside.0 {
+    /// By how much each condition, and last the orientation, is met at a place: what has ended is below zero. Nothing
+    /// is met where there is no problem.
+    fn room(&self, place: &Place) -> Vec<f64> {
+        let curve = self.curve;
+        let Ok(instance) = (curve.family)(place.at) else { return vec![f64::NAN; self.slack.len() + 1] };
+        let all = conditions(&curve.equations, &instance, place, curve.greatest);
+        let rooms = all.iter().zip(&self.slack).map(|(condition, slack)| condition.value + slack);
+        let oriented = if place.load() < NEAR_INFINITY {
+            f64::INFINITY
+        } else {
+            let sign = if curve.orientation == Sign::Negative { -1.0 } else { 1.0 };
+            sign * curve.equations.determinant(&instance, &place.z)
+        };
+        rooms.chain([oriented]).collect()
+    }
+
+    /// Neighbouring places on a step, of which the second is beyond the end: where the least of what is not met there
+    /// vanishes, by the method of interpolating, truncating and projecting (Oliveira and Takahashi, 2020).
+    fn bracketed(&self, start: &Place, mut along: Along, beyond: Probe) -> (Place, Place) {
+        let whole = beyond.length;
+        let mut inside = Probe { length: 0.0, place: start.clone(), room: self.room(start) };
+        let mut outside = beyond;
+        if let Some(there) = self.along(&outside.place, &along.tangent) {
+            along.slope = there.slope;
+        }
+        for step in 0..=HALVINGS {
+            let width = outside.length - inside.length;
+            if width <= 2.0 * LOCATED * whole {
                 break;
             }
-            let Some(place) = self.step(start, tangent, middle, slope.as_ref()) else { break };
-            if self.is_within(&place) {
-                inside = (middle, place);
+            let reach = LOCATED * whole * 2.0_f64.powi(HALVINGS + 1 - step) - 0.5 * width;
+            let length = between(&inside, &outside, whole, reach);
+            if length <= inside.length || length >= outside.length {
+                break;
+            }
+            let share = (length - inside.length) / width;
+            let mix = |one: f64, other: f64| one + share * (other - one);
+            let near = Place {
+                at: mix(inside.place.at, outside.place.at),
+                z: inside.place.z.zip_map(&outside.place.z, mix),
+            };
+            let Some(place) = self.step(start, &along, length, Some(near)) else { break };
+            let probe = Probe { length, room: self.room(&place), place };
+            if all_met(&probe.room) {
+                inside = probe;
             } else {
-                outside = (middle, place);
+                outside = probe;
             }
         }
-        (inside.1, outside.1)
+        (inside.place, outside.place)
     }
 
     fn cause(&self, inside: &Place, outside: &Place) -> EndCause {
@@ -233,26 +283,18 @@ impl Walk<'_> {
         conditions::cause(&here, &beyond).unwrap_or(EndCause::Fold)
     }
 
-    /// The place this far along a tangent: the solution on the plane across it; none if there is none nearby. The
-    /// derivative by the parameter may be one from nearby.
-    fn step(
-        &self,
-        place: &Place,
-        tangent: &Tangent,
-        length: f64,
-        slope: Option<&DVector<f64>>,
-    ) -> Option<Place> {
+    /// The place this far along a tangent: the solution on the plane across it; none if there is none nearby. To
+    /// rounding if one is given that is near.
+    fn step(&self, place: &Place, along: &Along, length: f64, near: Option<Place>) -> Option<Place> {
+        let Along { tangent, slope } = along;
         let size = place.z.len();
         let rows = size - 1;
         let guess = Place {
             at: place.at + length * tangent[size] * self.way,
             z: &place.z + tangent.rows(0, size) * length,
         };
-        let slope = match slope {
-            Some(slope) => slope.clone(),
-            None => self.slope(&guess)?,
-        };
-        let (mut z, mut at) = (guess.z.clone(), guess.at);
+        let enough = if near.is_some() { LAST } else { ROUGH };
+        let Place { mut z, mut at } = near.unwrap_or_else(|| guess.clone());
         let mut last = f64::INFINITY;
         for _ in 0..NEWTON {
             let instance = (self.curve.family)(at).ok()?;
@@ -263,14 +305,14 @@ impl Walk<'_> {
             right[rows] = 1.0 - guess.z.dot(&z) / guess.z.norm();
             right[size] =
                 -(tangent.rows(0, size).dot(&(&z - &guess.z)) + tangent[size] * (at - guess.at) / self.way);
-            let step = bordered(matrix, &slope, &guess.z, tangent).lu().solve(&right)?;
+            let step = bordered(&matrix, slope, &guess.z, tangent).lu().solve(&right)?;
             z += step.rows(0, size);
             at += step[size] * self.way;
             let moved = step.amax();
             if !moved.is_finite() {
                 return None;
             }
-            if moved <= LAST || moved <= SMALL && moved >= last {
+            if moved <= enough || moved <= SMALL && moved >= last {
                 let found = Place { at, z: z.normalize() };
                 let way = (&found.z - &place.z).norm().hypot((at - place.at) / self.way);
                 let turns = self.turns_back(place, &found);
@@ -293,43 +335,55 @@ impl Walk<'_> {
         })
     }
 
-    /// The unit tangent at a place that continues a direction.
-    fn tangent(&self, place: &Place, towards: &Tangent) -> Option<Tangent> {
+    /// The unit tangent at a place that continues a direction, with the derivative by the parameter, by differences.
+    fn along(&self, place: &Place, towards: &Tangent) -> Option<Along> {
+        let equations = &self.curve.equations;
         let instance = (self.curve.family)(place.at).ok()?;
-        let matrix = self.curve.equations.matrix(&instance, &place.z);
-        let slope = self.slope(place)?;
+        let matrix = equations.matrix(&instance, &place.z);
+        let here = &matrix * &place.z;
+        let slope = [DIFFERENCE, -DIFFERENCE].into_iter().find_map(|difference| {
+            let beside = (self.curve.family)(place.at + difference * self.way).ok()?;
+            Some((equations.matrix(&beside, &place.z) * &place.z - &here) / difference)
+        })?;
         let mut right = DVector::zeros(place.z.len() + 1);
         right[place.z.len()] = 1.0;
-        let tangent = bordered(matrix, &slope, &place.z, towards).lu().solve(&right)?;
+        let tangent = bordered(&matrix, &slope, &place.z, towards).lu().solve(&right)?;
         let length = tangent.norm();
-        (length.is_finite() && length > 0.0).then(|| tangent / length)
+        (length.is_finite() && length > 0.0).then(|| Along { tangent: tangent / length, slope })
     }
+}
 
-    /// The derivative of the equations at fixed `z` by the parameter, by differences.
-    fn slope(&self, place: &Place) -> Option<DVector<f64>> {
-        let difference = DIFFERENCE * self.way;
-        let at = |offset: f64| {
-            let instance = (self.curve.family)(place.at + offset).ok()?;
-            Some(self.curve.equations.matrix(&instance, &place.z) * &place.z)
-        };
-        match (at(-difference), at(difference)) {
-            (Some(before), Some(after)) => Some((after - before) / (2.0 * DIFFERENCE)),
-            (Some(before), None) => Some((at(0.0)? - before) / DIFFERENCE),
-            (None, Some(after)) => Some((after - at(0.0)?) / DIFFERENCE),
-            (None, None) => None,
-        }
+fn all_met(room: &[f64]) -> bool {
+    room.iter().all(|value| *value >= 0.0)
+}
+
+/// A place between two of a step, of the whole of which `whole` is the length: where the least of what is not met at the
+/// second would vanish linearly, a little towards the middle, and no farther than `reach` from that.
+fn between(inside: &Probe, outside: &Probe, whole: f64, reach: f64) -> f64 {
+    let left = inside.room.iter().zip(&outside.room).filter(|(_, beyond)| **beyond < 0.0);
+    let least = |pair: [f64; 2], (here, beyond): (&f64, &f64)| [pair[0].min(*here), pair[1].min(*beyond)];
+    let [here, beyond] = left.fold([f64::INFINITY; 2], least);
+    let width = outside.length - inside.length;
+    let middle = inside.length + 0.5 * width;
+    let estimate = inside.length + width * here / (here - beyond);
+    if !estimate.is_finite() {
+        return middle;
     }
+    let (towards, away) = ((middle - estimate).signum(), (middle - estimate).abs());
+    let shifted = (away - SHIFT / whole * width * width).max(0.0);
+    middle - towards * shifted.min(reach.max(0.0))
 }
 
 /// The equations with the derivative by the parameter, and the rows of both planes.
 fn bordered(
-    matrix: DMatrix<f64>,
+    matrix: &DMatrix<f64>,
     slope: &DVector<f64>,
     normal: &DVector<f64>,
     tangent: &Tangent,
 ) -> DMatrix<f64> {
     let size = normal.len();
-    let mut whole = matrix.insert_rows(size - 1, 2, 0.0).insert_column(size, 0.0);
+    let mut whole = DMatrix::zeros(size + 1, size + 1);
+    whole.view_mut((0, 0), (size - 1, size)).copy_from(matrix);
     whole.view_mut((0, size), (size - 1, 1)).copy_from(slope);
     whole.view_mut((size - 1, 0), (1, size)).copy_from(&(normal.transpose() / normal.norm()));
     whole.set_row(size, &tangent.transpose());

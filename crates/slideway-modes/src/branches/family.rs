@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::blocks::BlockProblem;
+use crate::blocks::{BlockProblem, times};
 use crate::existence::OutputBound;
-use crate::problem::{BySide, Side};
+use crate::problem::{BySide, ModeProblemError, Side};
 
 /// The block problem at each value of a parameter, or why there is none. All of them have the same contacts and
 /// hinges.
@@ -24,31 +24,19 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// The same with what the hinges add multiplied by a factor.
-    pub(super) fn with_hinges_times(&self, factor: f64) -> Self {
-        let contacts = self.problem.contacts();
-        let scaled = |matrix: &DMatrix<f64>| {
-            let mut matrix = matrix.clone();
-            matrix.columns_range_mut(contacts..).scale_mut(factor);
-            matrix
-        };
-        let of_sides = |response: &BySide<DMatrix<f64>>| BySide {
-            positive: scaled(&response.positive),
-            negative: scaled(&response.negative),
-        };
-        let centre = |side: Side| self.problem.response(side).centre().clone();
-        let jumps = |side: Side| self.problem.jumps(side).centre().clone();
-        let both = |part: &dyn Fn(Side) -> DMatrix<f64>| BySide {
-            positive: part(Side::Positive),
-            negative: part(Side::Negative),
-        };
-        let load = self.problem.load().centre().column(0).into_owned();
-        let problem = BlockProblem::new(of_sides(&both(&centre)), both(&jumps), load);
-        Self {
-            problem: problem.unwrap_or_else(|_| self.problem.clone()),
-            outputs: Outputs { response: of_sides(&self.outputs.response), ..self.outputs.clone() },
-            ..self.clone()
-        }
+    /// The same with what each block adds multiplied by its factor, where the numbers are exact.
+    ///
+    /// # Errors
+    /// Entries that are not finite then.
+    pub fn with_response_times(&self, factors: &[f64]) -> Result<Self, ModeProblemError> {
+        let scaled = |side: Side| times(self.outputs.response.get(side).clone(), factors);
+        let response = BySide { positive: scaled(Side::Positive), negative: scaled(Side::Negative) };
+        Ok(Self {
+            problem: self.problem.with_response_times(factors)?,
+            outputs: Outputs { response, jumps: self.outputs.jumps.clone(), load: self.outputs.load.clone() },
+            bounds: self.bounds.clone(),
+            senses: self.senses.clone(),
+        })
     }
 }
 

@@ -75,9 +75,13 @@ impl Equations {
 
     /// The sign of `det(I - H D)`.
     pub(super) fn orientation(&self, instance: &Instance, z: &DVector<f64>) -> Sign {
+        if self.determinant(instance, z) < 0.0 { Sign::Negative } else { Sign::Positive }
+    }
+
+    /// `det(I - H D)`.
+    pub(super) fn determinant(&self, instance: &Instance, z: &DVector<f64>) -> f64 {
         let whole = self.matrix(instance, z);
-        let square = whole.columns(0, whole.nrows()).into_owned();
-        if square.determinant() < 0.0 { Sign::Negative } else { Sign::Positive }
+        whole.columns(0, whole.nrows()).into_owned().determinant()
     }
 }
 

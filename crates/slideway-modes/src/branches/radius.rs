@@ -234,7 +234,11 @@ impl<'i> Mode<'i> {
         greatest: Option<f64>,
     ) -> Branch {
         let orientation = if (self.determinant > 0.0) == part.grows { 1 } else { -1 };
-        let family = |radius: f64| Ok::<_, NoInstance>(self.instance.with_hinges_times(radius / self.radius));
+        let family = |radius: f64| {
+            let mut factors = vec![1.0; self.states.len()];
+            factors.push(radius / self.radius);
+            self.instance.with_response_times(&factors).map_err(|_| NoInstance::Other)
+        };
         let curve = Curve {
             family: &family,
             equations: self.equations.clone(),

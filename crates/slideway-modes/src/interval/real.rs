@@ -41,6 +41,11 @@ pub trait Real:
     /// A number as written by a user: nearest to `value`, and somewhere in `enclosure`.
     fn written(value: f64, enclosure: Interval) -> Self;
 
+    /// A number at a distance of at most `radius` from `centre`.
+    fn around(centre: f64, radius: f64) -> Self {
+        Self::written(centre, Interval::around(centre, radius))
+    }
+
     /// Its least possible value.
     fn lower(self) -> f64;
 
@@ -142,6 +147,10 @@ impl Real for f64 {
 
     fn written(value: f64, _: Interval) -> Self {
         value
+    }
+
+    fn around(centre: f64, _: f64) -> Self {
+        centre
     }
 
     fn lower(self) -> f64 {

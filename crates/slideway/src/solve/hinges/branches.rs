@@ -6,10 +6,9 @@ use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::found::hinge_states;
 use super::spin::{does_not_turn, sense};
-use super::{answers, block_coefficients, check_determinate, coefficients_of};
-use crate::enclosure::{BlockCoefficients, TurningHinge};
+use super::{answers, block_problem, check_determinate, coefficients_of};
+use crate::enclosure::TurningHinge;
 use crate::fault::Faults;
-use crate::modes::blocks::BlockProblem;
 use crate::modes::branches::{BranchForces, Instance, Outputs};
 use crate::modes::existence::OutputBound;
 use crate::modes::{BySide, ContactState};
@@ -47,15 +46,13 @@ pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result
 pub(crate) struct GrowingFriction<'a> {
     stages: &'a Stages,
     hinges: &'a [TurningHinge],
-    blocks: BlockCoefficients<f64>,
-    /// Of the couples of guided sliders.
-    outputs: BlockCoefficients<f64>,
-    bounds: Vec<OutputBound>,
+    /// As it is, with the couples of guided sliders as outputs.
+    now: Instance,
 }
 
 impl<'a> GrowingFriction<'a> {
     /// # Errors
-    /// Guides that share a load.
+    /// Guides that share a load; numbers beyond the range of floating point.
     pub(crate) fn new(stages: &'a Stages, hinges: &'a [TurningHinge]) -> Result<Self, Faults> {
         check_determinate(&stages.mechanism)?;
         let (bounds, rows): (Vec<OutputBound>, Vec<usize>) =
@@ -63,7 +60,13 @@ impl<'a> GrowingFriction<'a> {
         let data = stages.hinged();
         let [positive, negative] = answers(data, &rows);
         let outputs = coefficients_of(data, hinges, &rows, BySide { positive, negative });
-        Ok(Self { stages, hinges, blocks: block_coefficients(data, hinges), outputs, bounds })
+        let outputs =
+            Outputs { response: outputs.response(), jumps: outputs.jumps(), load: outputs.frictionless };
+        let turning = hinges.iter().map(|hinge| hinge.sense);
+        let sense = |sign: f64| i8::from(sign > 0.0) - i8::from(sign < 0.0);
+        let senses = stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
+        let now = Instance { problem: block_problem(data, hinges)?, outputs, bounds, senses };
+        is_finite(&now.outputs).then_some(Self { stages, hinges, now }).ok_or_else(overflow)
     }
 
     /// With this factor.
@@ -71,33 +74,20 @@ impl<'a> GrowingFriction<'a> {
     /// # Errors
     /// Numbers beyond the range of floating point.
     pub(crate) fn at(&self, factor: f64) -> Result<Instance, Faults> {
-        let [blocks, outputs] = [&self.blocks, &self.outputs].map(|part| self.rougher(part, factor));
-        let problem = BlockProblem::new(blocks.response(), blocks.jumps(), blocks.frictionless.clone())
-            .map_err(|_| overflow())?;
-        let outputs =
-            Outputs { response: outputs.response(), jumps: outputs.jumps(), load: outputs.frictionless };
-        let sides = [&outputs.response, &outputs.jumps];
-        let entries = sides.into_iter().flat_map(|both| both.positive.iter().chain(&both.negative));
-        if entries.chain(&outputs.load).any(|entry| !entry.is_finite()) {
-            return Err(overflow());
-        }
-        let turning = self.hinges.iter().map(|hinge| hinge.sense);
-        let sense = |sign: f64| i8::from(sign > 0.0) - i8::from(sign < 0.0);
-        let senses = self.stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
-        Ok(Instance { problem, outputs, bounds: self.bounds.clone(), senses })
+        let mut factors = vec![factor; self.stages.mechanism.contacts.len()];
+        factors.extend(self.hinges.iter().map(|hinge| {
+            let circle = &self.stages.mechanism.friction_circles[hinge.circle];
+            if circle.radius == 0.0 { 0.0 } else { circle.rougher(factor).radius / circle.radius }
+        }));
+        let instance = self.now.with_response_times(&factors).map_err(|_| overflow())?;
+        is_finite(&instance.outputs).then_some(instance).ok_or_else(overflow)
     }
+}
 
-    fn rougher(&self, part: &BlockCoefficients<f64>, factor: f64) -> BlockCoefficients<f64> {
-        let radius = |hinge: &TurningHinge| {
-            self.stages.mechanism.friction_circles[hinge.circle].rougher(factor).radius
-        };
-        let leverage = self.hinges.iter().map(|hinge| -radius(hinge) * hinge.sense);
-        BlockCoefficients {
-            mu: BySide { positive: &part.mu.positive * factor, negative: &part.mu.negative * factor },
-            leverage: DVector::from_iterator(self.hinges.len(), leverage),
-            ..part.clone()
-        }
-    }
+fn is_finite(outputs: &Outputs) -> bool {
+    let sides = [&outputs.response, &outputs.jumps];
+    let entries = sides.into_iter().flat_map(|both| both.positive.iter().chain(&both.negative));
+    entries.chain(&outputs.load).all(|entry| entry.is_finite())
 }
 
 /// All unknowns of a solution with these states of the contacts.
