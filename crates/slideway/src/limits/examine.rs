@@ -20,6 +20,8 @@ const NODES: u64 = 64;
 const GREATEST_NODES: u64 = 100_000;
 /// A part whose ends differ by more than this factor is cut at their geometric mean.
 const WIDE: f64 = 8.0;
+/// Where in a cell it is tried how long a part can be proven: its middle may be singular, such as a dead centre.
+const PLACES: [f64; 3] = [0.5, 0.21, 0.83];
 /// Where in a part that stays open the number of solutions is asked for.
 const CHECKED: [f64; 8] = [0.5, 0.05, 0.95, 0.27, 0.73, 0.003, 0.997, 0.61];
 
@@ -140,13 +142,16 @@ impl<'v> Examiner<'v> {
         }
     }
 
-    /// Whether parts as long as can be proven in the middle of a cell cover it with the searches that are
-    /// left.
+    /// Whether parts as long as can be proven somewhere in a cell cover it with the searches that are left.
     fn is_within_reach(&mut self, [from, to]: [f64; 2]) -> bool {
-        let at = middle([from, to]);
-        let (mut reach, mut parts) = ((at - from).min(to - at), 1);
+        let (mut reach, mut parts) = (0.5 * (to - from), 1);
         while parts <= 2 * self.left {
-            if self.counts([at - reach, at + reach]).is_some() {
+            let tried = if parts == 1 { &PLACES[..1] } else { &PLACES[..] };
+            let part = |place: &f64| {
+                let at = if parts == 1 { middle([from, to]) } else { from + place * (to - from) };
+                [(at - reach).max(from), (at + reach).min(to)]
+            };
+            if tried.iter().any(|place| self.counts(part(place)).is_some()) {
                 return true;
             }
             (reach, parts) = (0.25 * reach, 4 * parts);

@@ -128,6 +128,17 @@ fn branches_over_the_radius_are_those_of_the_reference() {
     }
 }
 
+/// About its dead centre a treadle is locked: proven on both sides of the dead centre itself, where the problem is singular.
+#[test]
+fn where_a_treadle_is_locked_is_proven_but_for_its_dead_centre() {
+    let treadle = Model::parse(gallery::find("four-bar").unwrap().text).unwrap();
+    let report = limits(&treadle, &LimitsOptions::new("phi=155 deg..180 deg".parse().unwrap())).unwrap();
+    let locked: Vec<_> = report.counts.iter().filter(|count| count.solutions == 0).collect();
+    let [locked] = locked[..] else { panic!("{:?}", report.counts) };
+    let proven: f64 = locked.proven.iter().map(|[from, to]| to - from).sum();
+    assert!(locked.proven.len() > 1 && proven > 0.5 * (locked.to - locked.from), "{locked:?}");
+}
+
 /// A parameter on which more depends is sampled: the ends are the same to machine precision.
 #[test]
 fn sampled_branches_end_where_the_closed_form_says() {
