@@ -88,13 +88,15 @@ pub fn search_turned(
 }
 
 /// [`search`], which ends at the first piece that cannot be decided: its answer is complete, or of no use. For problems
-/// with wide bounds, of which nothing may be provable, it takes a fraction of the nodes.
+/// with wide bounds, of which nothing may be provable, it takes a fraction of the nodes. `unique` is what
+/// [`unique_for_every_load`] says.
 pub fn search_all_or_nothing(
     problem: &BlockProblem,
+    unique: Option<UniqueForEveryLoad>,
     options: &SearchOptions,
     progress: &mut Callback<'_>,
 ) -> BlockResult {
-    searched(problem, options, progress, Manner { all_or_nothing: true, ..Manner::default() })
+    searched_knowing(problem, unique, options, progress, Manner { all_or_nothing: true, ..Manner::default() })
 }
 
 fn searched(
@@ -103,7 +105,16 @@ fn searched(
     progress: &mut Callback<'_>,
     manner: Manner,
 ) -> BlockResult {
-    let unique = uniqueness::unique_for_every_load(problem);
+    searched_knowing(problem, unique_for_every_load(problem), options, progress, manner)
+}
+
+fn searched_knowing(
+    problem: &BlockProblem,
+    unique: Option<UniqueForEveryLoad>,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+    manner: Manner,
+) -> BlockResult {
     let unloaded = unloaded::unloaded_blocks(problem);
     let mut nodes = 0;
     if (1..problem.blocks()).contains(&unloaded.len()) {

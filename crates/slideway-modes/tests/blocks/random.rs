@@ -1,7 +1,9 @@
 //! Random problems.
 
 use nalgebra::{DMatrix, DVector};
-use slideway_modes::blocks::{BlockProblem, only_solution, search, search_all_or_nothing};
+use slideway_modes::blocks::{
+    BlockProblem, only_solution, search, search_all_or_nothing, unique_for_every_load,
+};
 use slideway_modes::certificate::{IntervalMatrix, Sign};
 use slideway_modes::{BySide, Proof, SearchOptions};
 use std::ops::ControlFlow;
@@ -139,7 +141,8 @@ fn all_or_nothing_is_what_the_search_proves() {
             let options = SearchOptions { nodes: 1500, ..SearchOptions::default() };
             let mut goes_on = |_: &_| ControlFlow::Continue(());
             let all = search(&problem, &options, &mut goes_on);
-            let or_nothing = search_all_or_nothing(&problem, &options, &mut goes_on);
+            let or_nothing =
+                search_all_or_nothing(&problem, unique_for_every_load(&problem), &options, &mut goes_on);
             assert!(or_nothing.nodes <= all.nodes);
             if or_nothing.complete == Proof::Proven {
                 assert_eq!(all.complete, Proof::Proven);

@@ -209,11 +209,12 @@ impl Varied {
             enclosed_block_problem(model, uncertain, state, &hinges).ok()
         });
         let Some(problem) = problem else { return (None, 1) };
-        if greatest.is_none() && blocks::unique_for_every_load(&problem).is_some() {
+        let unique = blocks::unique_for_every_load(&problem);
+        if greatest.is_none() && unique.is_some() {
             return (Some([1, 0]), 1);
         }
         let mut goes_on = |_: &Progress| work.flow();
-        let result = blocks::search_all_or_nothing(&problem, &options.search, &mut goes_on);
+        let result = blocks::search_all_or_nothing(&problem, unique, &options.search, &mut goes_on);
         (certain_block_counts(&problem, &result, greatest), result.nodes)
     }
 
