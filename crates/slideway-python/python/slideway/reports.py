@@ -1664,7 +1664,7 @@ class HoldReport(_mixins.HoldReport, Report):
     load: LoadReport | None
     """The load that is varied, if one is."""
     at_rest: AtRest | None
-    """The states of rest, if there is one."""
+    """The states of rest, if there is one of which the reactions were decided."""
     releases: tuple[Release, ...]
     """Every state in which it begins to move; empty also where motions without inertia kept them from being
     sought."""
