@@ -1,8 +1,7 @@
 //! Pictures of pixels, if the program was built with them (feature `png`).
 
 use crate::failure::Failure;
-use crate::output::Output;
-use crate::watch::Watch;
+use slideway::progress::Callback;
 use slideway_pictures::motion::Animation;
 
 /// Whether there are any, asked before the work begins.
@@ -20,12 +19,9 @@ pub(crate) use without_pixels::{gif, png};
 
 #[cfg(feature = "png")]
 mod with_pixels {
-    use super::{Animation, Failure, Output, Watch};
-    use crate::halt::Halt;
-    use slideway::progress::Progress;
+    use super::{Animation, Callback, Failure};
     use slideway_pictures::motion::GifFault;
     use slideway_pictures::raster;
-    use std::ops::ControlFlow;
 
     /// A picture that was made as SVG, with so many pixels for each of its units, as PNG.
     ///
@@ -35,38 +31,31 @@ mod with_pixels {
         raster::png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })
     }
 
-    /// A moving picture as GIF. What was simulated until the time was up is shown whole, unless someone
-    /// interrupts.
+    /// A moving picture as GIF; nothing if it was ended.
     ///
     /// # Errors
-    /// If it was interrupted, or would stand for too long.
-    pub(crate) fn gif(animation: &Animation, watch: &mut Watch, output: &Output) -> Result<Vec<u8>, Failure> {
-        let time_was_up = watch.halt().is_some();
-        let mut progress = |progress: &Progress| match watch.look(progress) {
-            ControlFlow::Break(()) if time_was_up && watch.halt() != Some(Halt::Interrupted) => {
-                ControlFlow::Continue(())
-            }
-            flow => flow,
-        };
-        let bytes = animation.to_gif(&mut progress);
-        bytes.map_err(|fault| match fault {
-            GifFault::Ended => {
-                Failure::Halted { halt: watch.halt().unwrap_or(Halt::Interrupted), path: output.path() }
-            }
-            fault => Failure::Picture { reason: fault.to_string() },
-        })
+    /// If it would stand for too long.
+    pub(crate) fn gif(
+        animation: &Animation,
+        callback: &mut Callback<'_>,
+    ) -> Result<Option<Vec<u8>>, Failure> {
+        match animation.to_gif(callback) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(GifFault::Ended) => Ok(None),
+            Err(fault) => Err(Failure::Picture { reason: fault.to_string() }),
+        }
     }
 }
 
 #[cfg(not(feature = "png"))]
 mod without_pixels {
-    use super::{Animation, Failure, Output, Watch};
+    use super::{Animation, Callback, Failure};
 
     pub(crate) fn png(_: &str, _: f64) -> Result<Vec<u8>, Failure> {
         Err(Failure::WithoutPixels)
     }
 
-    pub(crate) fn gif(_: &Animation, _: &mut Watch, _: &Output) -> Result<Vec<u8>, Failure> {
+    pub(crate) fn gif(_: &Animation, _: &mut Callback<'_>) -> Result<Option<Vec<u8>>, Failure> {
         Err(Failure::WithoutPixels)
     }
 }

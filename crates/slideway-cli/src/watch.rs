@@ -115,6 +115,18 @@ impl Watch {
         if self.halt.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
+    /// [`Self::look`] while a picture of the answer is made: what there was when the time was up is drawn whole, unless
+    /// someone interrupts.
+    pub(crate) fn drawing(&mut self) -> impl FnMut(&Progress) -> ControlFlow<()> + Send + '_ {
+        let time_was_up = self.halt.is_some();
+        move |progress| match self.look(progress) {
+            ControlFlow::Break(()) if time_was_up && self.halt != Some(Halt::Interrupted) => {
+                ControlFlow::Continue(())
+            }
+            flow => flow,
+        }
+    }
+
     /// What else tells that the work is to end.
     pub(crate) fn alarm(&self) -> Alarm {
         Alarm { start: self.start, limit: self.limit }

@@ -93,7 +93,7 @@ fn an_interruption_ends_every_long_command_soon() {
     }
 }
 
-/// 400 frames of a millisecond: the motion takes no time, its picture minutes with this build.
+/// 400 frames of a millisecond: the motion takes no time, its picture half a minute with this build.
 #[test]
 fn a_gif_ends_between_frames_and_is_not_written() {
     let folder = tempfile::tempdir().unwrap();

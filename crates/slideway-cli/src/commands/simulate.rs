@@ -19,10 +19,11 @@ use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
-use slideway::progress::Progress;
+use slideway::progress::{Callback, Progress};
 use slideway::report::finite;
-use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway_pictures::motion::{AnimationOptions, animation_with, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
+use slideway_pictures::theme::Theme;
 use slideway_tables::{TableError, unfinished};
 use std::path::{Path, PathBuf};
 
@@ -271,11 +272,9 @@ impl<'a> Files<'a> {
         }
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
-            let animation = animation(history, &options, theme);
-            let bytes = match format {
-                AnimationFormat::Html => animation.to_html()?.into_bytes(),
-                AnimationFormat::Svg => animation.to_svg()?.into_bytes(),
-                AnimationFormat::Gif => pixels::gif(&animation, watch, output)?,
+            let Some(bytes) = format.bytes(history, (&options, theme), &mut watch.drawing())? else {
+                let halt = watch.halt().unwrap_or(Halt::Interrupted);
+                return Err(Failure::Halted { halt, path: output.path() });
             };
             output.write_bytes(&bytes)?;
         }
@@ -298,6 +297,21 @@ impl AnimationFormat {
             Some("svg") => Ok(Self::Svg),
             Some("gif") => pixels::are_there().map(|()| Self::Gif),
             _ => Err(Failure::FileFormat { path: path.to_owned(), known: &[".html", ".svg", ".gif"] }),
+        }
+    }
+
+    /// The file; nothing if the work was ended.
+    fn bytes(
+        self,
+        history: &History,
+        (options, theme): (&AnimationOptions, &Theme),
+        callback: &mut Callback<'_>,
+    ) -> Result<Option<Vec<u8>>, Failure> {
+        let Some(animation) = animation_with(history, options, theme, callback) else { return Ok(None) };
+        match self {
+            Self::Html => Ok(Some(animation.to_html()?.into_bytes())),
+            Self::Svg => Ok(Some(animation.to_svg()?.into_bytes())),
+            Self::Gif => pixels::gif(&animation, callback),
         }
     }
 }

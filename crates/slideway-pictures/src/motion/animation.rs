@@ -8,7 +8,9 @@ use crate::drawing::{forces_on, scale_of_circles, scene, signs};
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample, phase_in_words};
+use slideway::progress::{Callback, Progress};
 use slideway::units::Unit;
+use std::ops::ControlFlow;
 
 /// Frames for a second on the clock.
 const FRAMES_PER_SECOND: f64 = 25.0;
@@ -81,6 +83,16 @@ pub(super) struct FrameOf {
 
 /// A motion as a moving picture.
 pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -> Animation {
+    animation_with(history, options, theme, &mut |_| ControlFlow::Continue(())).expect("nothing ends it")
+}
+
+/// A motion as a moving picture; nothing if the callback, which is told how many frames are drawn, ended the work.
+pub fn animation_with(
+    history: &History,
+    options: &AnimationOptions,
+    theme: &Theme,
+    callback: &mut Callback<'_>,
+) -> Option<Animation> {
     let times = [history.start(), history.stop()];
     let duration = times[1] - times[0];
     let slow_motion = options.slow_motion.unwrap_or_else(|| {
@@ -95,8 +107,9 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         .collect();
     let painted = Painted::new(history, &samples);
     let force_scale = painted.force_scale;
-    let Painting { shapes, frames, bounds, words, is_exaggerated, friction_circles } = painted.frames();
-    Animation {
+    let Painting { shapes, frames, bounds, words, is_exaggerated, friction_circles } =
+        painted.frames(callback)?;
+    Some(Animation {
         title: history.mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned()),
         bounds,
         shapes,
@@ -112,7 +125,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         friction_circles: friction_circles.map(scale_of_circles),
         forces_on: forces_on(&history.mechanism),
         theme: *theme,
-    }
+    })
 }
 
 /// All that is painted of a motion.
@@ -164,14 +177,17 @@ impl<'h> Painted<'h> {
         Self { history, samples, view, options, force_scale }
     }
 
-    fn frames(&self) -> Painting {
+    fn frames(&self, callback: &mut Callback<'_>) -> Option<Painting> {
         let mut words: Vec<String> = Vec::new();
         let mut shapes: Vec<String> = Vec::new();
         let mut known = std::collections::HashMap::new();
         let mut frames = Vec::with_capacity(self.samples.len());
         let mut bounds: Option<Bounds> = None;
         let (mut is_exaggerated, mut friction_circles) = (false, None);
-        for sample in self.samples {
+        for (done, sample) in self.samples.iter().enumerate() {
+            if callback(&Progress::of("drawings", done as u64, self.samples.len() as u64)).is_break() {
+                return None;
+            }
             let scene = self.scene(sample);
             is_exaggerated |= scene.is_exaggerated;
             friction_circles = friction_circles.or(scene.friction_circles);
@@ -196,7 +212,7 @@ impl<'h> Painted<'h> {
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
         let bounds = bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH);
-        Painting { shapes, frames, bounds, words, is_exaggerated, friction_circles }
+        Some(Painting { shapes, frames, bounds, words, is_exaggerated, friction_circles })
     }
 
     fn words(&self, sample: &Sample) -> String {

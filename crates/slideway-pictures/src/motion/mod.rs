@@ -14,7 +14,7 @@ mod page;
 #[cfg(feature = "png")]
 mod palette;
 
-pub use animation::{Animation, AnimationOptions, animation};
+pub use animation::{Animation, AnimationOptions, animation, animation_with};
 pub use figure::{motion_figure, portrait_figure};
 pub use film::{Film, FilmFrame};
 #[cfg(feature = "png")]

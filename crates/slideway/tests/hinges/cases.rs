@@ -106,7 +106,12 @@ impl View {
 
 /// What a type takes of the reference.
 pub(crate) fn reference<T: DeserializeOwned>() -> T {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/hinges.toml");
+    read("hinges.toml")
+}
+
+/// What a type takes of a file of references.
+pub(crate) fn read<T: DeserializeOwned>(name: &str) -> T {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference").join(name);
     toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 

@@ -1,8 +1,9 @@
 //! Against the reference cases, which two independent prototypes have computed.
 
-use super::cases::{Case, View, moving};
+use super::cases::{self, Case, View, moving, read};
+use serde::Deserialize;
 use slideway::modes::Side;
-use slideway::report::{Proof, Solution, Status, Verdict};
+use slideway::report::{Proof, Solution, SolveReport, Status, Verdict};
 use slideway::solve::exact_block_problem;
 use slideway::{DriveOptions, drive, solve};
 
@@ -60,17 +61,52 @@ fn all_solutions_of_the_reference_are_found() {
         let expected = [Status::None, Status::One, Status::Several][report.solutions.len().min(2)];
         assert_eq!(report.status, expected, "{name}");
         for reference in &case.solution {
-            let distance = |solution: &Solution| {
-                let parts = solution.hinges.iter().zip(&reference.hinge);
-                parts.map(|(hinge, [x, y])| (hinge.force[0] - x).hypot(hinge.force[1] - y)).sum::<f64>()
-            };
-            let nearest = report.solutions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            compare(&case, nearest.unwrap(), reference);
+            compare(&case, nearest(&report, reference), reference);
         }
     }
 }
 
-fn compare(case: &Case, solution: &Solution, reference: &super::cases::Solution) {
+/// The solution with the hinge forces of one of the reference.
+fn nearest<'r>(report: &'r SolveReport, reference: &cases::Solution) -> &'r Solution {
+    let distance = |solution: &Solution| {
+        let parts = solution.hinges.iter().zip(&reference.hinge);
+        parts.map(|(hinge, [x, y])| (hinge.force[0] - x).hypot(hinge.force[1] - y)).sum::<f64>()
+    };
+    report.solutions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+}
+
+/// A mechanism whose hinges and guides are stiff springs settles on attainable solutions, and leaves the others
+/// (`elastic_hinges.py`, begun a hundredth below and above each).
+#[test]
+fn stiff_springs_settle_on_the_attainable_solutions() {
+    #[derive(Deserialize)]
+    struct File {
+        case: Vec<Simulated>,
+    }
+    #[derive(Deserialize)]
+    struct Simulated {
+        name: String,
+        settles_on: Vec<[String; 2]>,
+    }
+
+    let cases = moving();
+    for Simulated { name, settles_on } in read::<File>("elastic-hinges.toml").case {
+        let case = cases.iter().find(|case| case.name == name).unwrap();
+        let report = solve(&case.model(1.0)).unwrap();
+        assert_eq!(settles_on.len(), case.solution.len(), "{name}");
+        for (number, (reference, ends)) in (1..).zip(case.solution.iter().zip(&settles_on)) {
+            let attainability = &nearest(&report, reference).attainability;
+            let expected = if ends.iter().all(|end| *end == number.to_string()) {
+                Verdict::Attainable
+            } else {
+                Verdict::Unattainable
+            };
+            assert_eq!(attainability.verdict, expected, "{name}, solution {number}: {attainability:?}");
+        }
+    }
+}
+
+fn compare(case: &Case, solution: &Solution, reference: &cases::Solution) {
     let name = &case.name;
     let lengths = reference.hinge.iter().map(|[x, y]| x.hypot(*y));
     let force = reference.normal.iter().map(|n| n.abs()).chain(lengths).fold(0.0, f64::max);
