@@ -1,7 +1,7 @@
 //! The numbers of the block mode problem of a mechanism with friction in hinges, rounded or within intervals.
 
 use super::coefficients::Coefficients;
-use super::{NotEnclosed, UncertainParameters, with_coefficients};
+use super::{EnclosedOutputs, NotEnclosed, UncertainParameters, with_coefficients};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::{Interval, Real, Sign};
@@ -22,6 +22,24 @@ pub(crate) struct TurningHinge {
     pub(crate) joint: JointId,
     /// Sense in which its first body turns against the second: 1 or -1.
     pub(crate) sense: f64,
+}
+
+/// A hinge that turns with friction, within bounds.
+pub(super) struct RubbingHinge {
+    /// The column of the answers to a unit couple on its first body among all unknowns.
+    pub(super) column: usize,
+    /// The couple on its first body by its force: -r sgn(omega).
+    pub(super) leverage: Interval,
+    /// The angular velocity of its first body against the second (rad/s).
+    pub(super) spin: Interval,
+}
+
+/// What is known of the block mode problem of an exact mechanism, or of one with uncertain parameters.
+pub(crate) struct EnclosedBlockProblem {
+    /// Its numbers.
+    pub(crate) problem: BlockProblem,
+    /// What follows from the forces.
+    pub(crate) outputs: EnclosedOutputs,
 }
 
 /// What the block mode problem `x = b + d^sigma + H^sigma w` is made of: rows are the normal forces, then both
@@ -87,9 +105,12 @@ pub(crate) fn enclosed_block_problem(
     uncertain: &UncertainParameters,
     (mechanism, configuration): (&Mechanism, &Configuration),
     hinges: &[TurningHinge],
-) -> Result<BlockProblem, NotEnclosed> {
+) -> Result<EnclosedBlockProblem, NotEnclosed> {
     with_coefficients(model, uncertain, mechanism, configuration, |coefficients| {
-        let numbers = coefficients.block_coefficients(hinges)?;
+        let rubbing = coefficients.rubbing(hinges)?;
+        let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
+        let influence = coefficients.influence(&unknowns)?;
+        let numbers = coefficients.block_coefficients(&unknowns, &influence, (hinges, &rubbing))?;
         let bounded =
             |matrix: &DMatrix<Interval>| IntervalMatrix::from_intervals(matrix).ok_or(NotEnclosed::Equations);
         let both = |sides: BySide<DMatrix<Interval>>| {
@@ -99,22 +120,23 @@ pub(crate) fn enclosed_block_problem(
             })
         };
         let load = DMatrix::from_column_slice(numbers.frictionless.len(), 1, numbers.frictionless.as_slice());
-        BlockProblem::within_bounds(both(numbers.response())?, both(numbers.jumps())?, bounded(&load)?)
-            .map_err(|_| NotEnclosed::Equations)
+        let [response, jumps] = [both(numbers.response())?, both(numbers.jumps())?];
+        let problem = BlockProblem::within_bounds(response, jumps, bounded(&load)?)
+            .map_err(|_| NotEnclosed::Equations)?;
+        Ok(EnclosedBlockProblem { problem, outputs: coefficients.outputs(influence, &unknowns, &rubbing) })
     })
 }
 
 impl Coefficients<'_> {
     fn block_coefficients(
         &self,
-        hinges: &[TurningHinge],
+        unknowns: &DMatrix<Interval>,
+        influence: &IntervalInfluence,
+        (hinges, rubbing): (&[TurningHinge], &[RubbingHinge]),
     ) -> Result<BlockCoefficients<Interval>, NotEnclosed> {
-        let unknowns = self.unknowns().ok_or(NotEnclosed::Equations)?;
-        let influence = self.influence(&unknowns)?;
-        let without = self.without_shared_jumps(&influence)?;
+        let without = self.without_shared_jumps(influence)?;
         let contacts = self.mechanism.contacts.len();
         let rows = self.hinge_rows(hinges);
-        let first_couple = 1 + contacts + self.equations.layout.cut().len();
         // Rows of hinge forces: a couple between both faces of a contact changes no other joint.
         let extended = |of_contacts: &IntervalMatrix| {
             DMatrix::from_fn(contacts + rows.len(), contacts, |row, k| match row.checked_sub(contacts) {
@@ -130,7 +152,7 @@ impl Coefficients<'_> {
             None => without.frictionless.entry(row, 0),
             Some(hinge) => {
                 let answers = |k: usize| unknowns[(rows[hinge], 1 + k)];
-                unknowns[(rows[hinge], 0)] + shared_jumps([&influence, &without], &answers)
+                unknowns[(rows[hinge], 0)] + shared_jumps([influence, &without], &answers)
             }
         });
         Ok(BlockCoefficients {
@@ -148,10 +170,10 @@ impl Coefficients<'_> {
                 negative: column(&without.preload.negative),
             },
             velocity_signs: influence.velocity_signs.clone(),
-            couples: DMatrix::from_fn(all.len(), hinges.len(), |row, hinge| {
-                unknowns[(all[row], first_couple + hinges[hinge].circle)]
+            couples: DMatrix::from_fn(all.len(), rubbing.len(), |row, hinge| {
+                unknowns[(all[row], rubbing[hinge].column)]
             }),
-            leverage: self.leverage(hinges)?,
+            leverage: DVector::from_fn(rubbing.len(), |hinge, _| rubbing[hinge].leverage),
             frictionless,
         })
     }
@@ -163,19 +185,22 @@ impl Coefficients<'_> {
         hinges.iter().flat_map(components).flatten().collect()
     }
 
-    /// `-r sgn(omega)`, with a certain sense of every hinge.
-    fn leverage(&self, hinges: &[TurningHinge]) -> Result<DVector<Interval>, NotEnclosed> {
+    /// The hinges, with a certain sense of every one.
+    fn rubbing(&self, hinges: &[TurningHinge]) -> Result<Vec<RubbingHinge>, NotEnclosed> {
+        let first_couple = 1 + self.mechanism.contacts.len() + self.equations.layout.cut().len();
         let one = |hinge: &TurningHinge| {
             let spin = spin(self.mechanism, self.configuration, hinge.joint);
             let wanted = if hinge.sense > 0.0 { Sign::Positive } else { Sign::Negative };
             if spin.sign() == Some(wanted) {
-                Ok(-self.mechanism.friction_circles[hinge.circle].radius * Interval::point(hinge.sense))
+                let radius = self.mechanism.friction_circles[hinge.circle].radius;
+                let leverage = -radius * Interval::point(hinge.sense);
+                Ok(RubbingHinge { column: first_couple + hinge.circle, leverage, spin })
             } else {
                 let hinge = self.mechanism.joints[hinge.joint.index()].name.to_string();
                 Err(NotEnclosed::SenseOfRotation { hinge, spin })
             }
         };
-        Ok(DVector::from_vec(hinges.iter().map(one).collect::<Result<_, _>>()?))
+        hinges.iter().map(one).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! From kinetic equations within intervals to bounds of the influence coefficients.
 
-use super::{EnclosedCouple, EnclosedOutput, NotEnclosed, solution};
+use super::blocks::RubbingHinge;
+use super::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, NotEnclosed, solution};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
@@ -106,8 +107,23 @@ impl Coefficients<'_> {
         if is_rounding { Interval::around(0.0, value.magnitude()) } else { value }
     }
 
+    /// What follows from the forces.
+    pub(super) fn outputs(
+        &self,
+        influence: IntervalInfluence,
+        unknowns: &DMatrix<Interval>,
+        hinges: &[RubbingHinge],
+    ) -> EnclosedOutputs {
+        EnclosedOutputs {
+            influence,
+            couples: self.couples(unknowns, hinges),
+            accelerations: self.accelerations(unknowns, hinges),
+            power: self.power(hinges),
+        }
+    }
+
     /// The couples of the guided sliders.
-    pub(super) fn couples(&self, unknowns: &DMatrix<Interval>) -> Vec<EnclosedCouple> {
+    fn couples(&self, unknowns: &DMatrix<Interval>, hinges: &[RubbingHinge]) -> Vec<EnclosedCouple> {
         let joints = self.mechanism.joints.iter().enumerate();
         let couple = |(index, _)| {
             let joint = JointId(index);
@@ -139,6 +155,7 @@ impl Coefficients<'_> {
                     influence_preload: self.couple_of_preload(&influence),
                     influence,
                     self_stress,
+                    hinges: hinges.iter().map(|hinge| row_of[hinge.column] * hinge.leverage).collect(),
                 },
             })
         };
@@ -147,28 +164,30 @@ impl Coefficients<'_> {
 
     /// The accelerations of the coordinates. A couple between the two faces of a joint changes none, as
     /// [`Self::negative_versions`] says.
-    pub(super) fn accelerations(&self, unknowns: &DMatrix<Interval>) -> Vec<EnclosedOutput> {
+    fn accelerations(&self, unknowns: &DMatrix<Interval>, hinges: &[RubbingHinge]) -> Vec<EnclosedOutput> {
         let output = |row: &ConstraintRow<Interval>| {
             let times = |column: usize| {
                 let terms = row.entries.iter().map(|&(index, value)| value * unknowns[(index, column)]);
                 terms.fold(Interval::ZERO, |sum, term| sum + term)
             };
             let influence = (1..=self.mechanism.contacts.len()).map(times).collect();
-            EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence)
+            let hinges = hinges.iter().map(|hinge| times(hinge.column) * hinge.leverage).collect();
+            EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence, hinges)
         };
         self.equations.coordinate_rows.iter().map(output).collect()
     }
 
     /// The power of loads and weights, from which each friction force takes its own times the sliding
-    /// velocity.
-    pub(super) fn power(&self) -> EnclosedOutput {
+    /// velocity, and each friction couple its own times the angular velocity of its hinge.
+    fn power(&self, hinges: &[RubbingHinge]) -> EnclosedOutput {
         let of_load = |wrench: &Wrench<Interval>| {
             let velocity = self.configuration.velocity_at(wrench.frame, wrench.place);
             wrench.force.dot(&velocity) + wrench.couple * self.configuration.angular_velocity(wrench.frame)
         };
         let loads = self.equations.applied.iter().map(of_load).fold(Interval::ZERO, |sum, power| sum + power);
         let friction = self.equations.contacts.iter().map(|contact| -contact.sliding_velocity).collect();
-        EnclosedOutput::of_either_face(loads, friction)
+        let hinges = hinges.iter().map(|hinge| hinge.spin * hinge.leverage).collect();
+        EnclosedOutput::of_either_face(loads, friction, hinges)
     }
 
     /// The influence of the preload's friction on a couple: at the pressed face, or in the middle between

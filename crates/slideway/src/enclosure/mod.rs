@@ -34,7 +34,7 @@ mod motion;
 mod outputs;
 
 pub(crate) use blocks::{BlockCoefficients, TurningHinge, enclosed_block_problem, spin};
-pub use outputs::{EnclosedCouple, EnclosedOutput, Tipping};
+pub use outputs::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, Tipping};
 
 use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
@@ -43,7 +43,7 @@ use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
 use crate::modes::certificate::{
-    IntervalInfluence, IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
+    IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
 };
 use crate::modes::{OpenContacts, SharedLoad};
 use crate::sharing::shared_load;
@@ -149,9 +149,8 @@ impl UncertainParameters {
 /// What is known of the mode problem of an exact mechanism, or of one with uncertain parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnclosedModeProblem {
-    /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a
-    /// column have the same bounds where theory says that they are equal.
-    pub influence: IntervalInfluence,
+    /// Bounds of the influence coefficients, and of what follows from the forces.
+    pub outputs: EnclosedOutputs,
     /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are
     /// moved to the right-hand side, so that they do not look like a jump.
     pub problem: IntervalModeProblem,
@@ -159,12 +158,6 @@ pub struct EnclosedModeProblem {
     pub open: OpenContacts,
     /// Bounds of how redundant guides share their load; none if nothing is in excess.
     pub shared: Option<SharedLoad<Interval>>,
-    /// Bounds of the couples of guided sliders, in the order of the joints.
-    pub couples: Vec<EnclosedCouple>,
-    /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
-    pub accelerations: Vec<EnclosedOutput>,
-    /// Bounds of the power of all loads and weights, and with friction, of both together (W).
-    pub power: EnclosedOutput,
 }
 
 /// Why the numbers of a mechanism could not be enclosed.
@@ -264,11 +257,8 @@ pub fn enclosure(
         Ok(EnclosedModeProblem {
             open: coefficients.mechanism.excess.open.clone(),
             shared,
-            influence,
+            outputs: coefficients.outputs(influence, &unknowns, &[]),
             problem,
-            couples: coefficients.couples(&unknowns),
-            accelerations: coefficients.accelerations(&unknowns),
-            power: coefficients.power(),
         })
     })
 }

@@ -1,11 +1,26 @@
 //! Bounds of what else follows from the friction forces: the couples of guided sliders, to prove whether they
 //! tip, accelerations and power.
 
-use super::EnclosedModeProblem;
 use crate::interval::Interval;
+use crate::modes::certificate::IntervalInfluence;
 use crate::modes::{BySide, ContactState, Side};
 
-/// Bounds of what an output is made of that is affine in the friction forces: `C = C(0) + sum_k gamma_k F_k`.
+/// Bounds of what follows from the forces of a state of the mode problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnclosedOutputs {
+    /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a
+    /// column have the same bounds where theory says that they are equal.
+    pub influence: IntervalInfluence,
+    /// Bounds of the couples of guided sliders, in the order of the joints.
+    pub couples: Vec<EnclosedCouple>,
+    /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
+    pub accelerations: Vec<EnclosedOutput>,
+    /// Bounds of the power of all loads and weights, and with friction, of both together (W).
+    pub power: EnclosedOutput,
+}
+
+/// Bounds of what an output is made of that is affine in the friction forces and couples:
+/// `C = C(0) + sum_k gamma_k F_k + sum_j gamma_j |R_j|`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnclosedOutput {
     /// `C(0)`, its value without friction.
@@ -16,6 +31,8 @@ pub struct EnclosedOutput {
     pub influence_preload: BySide<Vec<Interval>>,
     /// What a unit normal force of each cut contact adds, with the contact: of redundant guides.
     pub self_stress: Vec<(usize, Interval)>,
+    /// What a unit force of each hinge that turns with friction adds by its couple.
+    pub hinges: Vec<Interval>,
 }
 
 /// Bounds of the couple of a guided slider.
@@ -31,9 +48,14 @@ pub struct EnclosedCouple {
 
 impl EnclosedOutput {
     /// An output to which friction at both faces of a contact adds the same.
-    pub(super) fn of_either_face(frictionless: Interval, influence: Vec<Interval>) -> Self {
+    pub(super) fn of_either_face(
+        frictionless: Interval,
+        influence: Vec<Interval>,
+        hinges: Vec<Interval>,
+    ) -> Self {
         let both = BySide { positive: influence.clone(), negative: influence };
-        Self { frictionless, influence_preload: both.clone(), influence: both, self_stress: Vec::new() }
+        let influence_preload = both.clone();
+        Self { frictionless, influence_preload, influence: both, self_stress: Vec::new(), hinges }
     }
 }
 
@@ -48,12 +70,12 @@ pub enum Tipping {
     Always,
 }
 
-impl EnclosedModeProblem {
+impl EnclosedOutputs {
     /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|`, or of the share of a
-    /// contact in its gap (theory, section 1).
+    /// contact in its gap (theory, section 1), then of `|R_j|` of the hinges that turn with friction.
     ///
     /// # Panics
-    /// If `pattern` and `y` do not have one entry for each contact.
+    /// If `pattern` does not have one entry for each contact, or `y` one for each contact and hinge.
     pub fn tipping(&self, pattern: &[ContactState], y: &[Interval]) -> Tipping {
         let worst = self.couples.iter().map(|couple| self.tipping_of(couple, pattern, y));
         worst.max().unwrap_or(Tipping::Never)
@@ -74,17 +96,19 @@ impl EnclosedModeProblem {
     }
 
     /// Bounds of an output in a state with these bounds of `y_k = |N_k|`, or of the share of a contact in its
-    /// gap: `C(0) + sum_k gamma_k F_k`, and what the normal forces of cut contacts add.
+    /// gap, then of `|R_j|`: `C(0) + sum_k gamma_k F_k + sum_j gamma_j |R_j|`, and what the normal forces of cut
+    /// contacts add.
     ///
     /// # Panics
-    /// If `pattern` and `y` do not have one entry for each contact.
+    /// As [`Self::tipping`].
     pub fn output(&self, output: &EnclosedOutput, pattern: &[ContactState], y: &[Interval]) -> Interval {
         let terms = (0..pattern.len()).map(|k| self.of_friction(output, k, pattern[k], y[k]));
         let of_normal_force = |&(k, stress): &(usize, Interval)| {
             pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))
         };
         let stresses = output.self_stress.iter().map(of_normal_force);
-        terms.chain(stresses).fold(output.frictionless, |sum, term| sum + term)
+        let hinges = output.hinges.iter().enumerate().map(|(hinge, unit)| *unit * y[pattern.len() + hinge]);
+        terms.chain(stresses).chain(hinges).fold(output.frictionless, |sum, term| sum + term)
     }
 
     /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.

@@ -206,7 +206,7 @@ impl Varied {
         let problem = self.enclosed(bounds, |model, uncertain, stages| {
             let hinges = turning_hinges(stages, circles).ok()?;
             let state = (&stages.mechanism, &stages.configuration);
-            enclosed_block_problem(model, uncertain, state, &hinges).ok()
+            Some(enclosed_block_problem(model, uncertain, state, &hinges).ok()?.problem)
         });
         let Some(problem) = problem else { return (None, 1) };
         let unique = blocks::unique_for_every_load(&problem);

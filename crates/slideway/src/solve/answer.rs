@@ -9,7 +9,7 @@ use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
-use crate::enclosure::{EnclosedModeProblem, Tipping, spin};
+use crate::enclosure::{EnclosedOutputs, Tipping, spin};
 use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
@@ -33,6 +33,13 @@ pub(super) struct Tipped {
     unproven: Vec<String>,
 }
 
+impl Tipped {
+    /// What is open of it.
+    pub(super) fn unproven(&self) -> impl Iterator<Item = String> {
+        self.unproven.iter().map(|joint| format!("that {joint} tips is not proven"))
+    }
+}
+
 /// Solutions, and states of preload gaps.
 #[derive(Default)]
 struct States {
@@ -52,8 +59,8 @@ pub(super) struct Answer<'a> {
     /// How redundant guides share their load, and what is taken for their elasticity.
     pub(super) shared: Option<SharedLoad>,
     pub(super) elasticity: Option<Elasticity>,
-    /// Bounds of the exact numbers, if they could be enclosed.
-    pub(super) enclosed: Option<&'a EnclosedModeProblem>,
+    /// Bounds of what follows from the forces in the exact mechanism, if they could be enclosed.
+    pub(super) enclosed: Option<&'a EnclosedOutputs>,
 }
 
 impl<'a> Answer<'a> {
@@ -81,7 +88,7 @@ impl<'a> Answer<'a> {
         }
         let [count, gap_state_count] = found.counts(&lists, [solutions.len(), gaps.len()]);
         let mut open = found.open();
-        open.extend(tipping.unproven.iter().map(|joint| format!("that {joint} tips is not proven")));
+        open.extend(tipping.unproven());
         let undecided = !lists.undecided.is_empty() || found.is_partial();
         let outcomes = found.result.outcomes();
         Ok(SolveReport {
@@ -217,8 +224,17 @@ impl<'a> Answer<'a> {
     /// Whether bounds of the exact numbers prove that a guided slider tips; where there are none it is not
     /// their fault.
     fn certainly_tips(&self, state: &State<'_>) -> bool {
-        let bounds = self.enclosed.zip(state.certificate.unknowns());
-        bounds.is_none_or(|(enclosed, unknowns)| enclosed.tipping(state.pattern, unknowns) == Tipping::Always)
+        let always = |(enclosed, unknowns): (&EnclosedOutputs, &[Interval])| {
+            enclosed.tipping(state.pattern, unknowns) == Tipping::Always
+        };
+        self.enclosed_state(state).map_or(self.enclosed.is_none() || state.hinges.is_empty(), always)
+    }
+
+    /// What the exact mechanism has of a state: bounds of what follows from forces, and of the forces. With friction in
+    /// hinges none where the side of a contact is not certain, of which what follows may be another one.
+    fn enclosed_state<'s>(&self, state: &'s State<'_>) -> Option<(&'a EnclosedOutputs, &'s [Interval])> {
+        let is_certain = state.hinges.is_empty() || !state.on_boundary;
+        self.enclosed.filter(|_| is_certain).zip(state.certificate.unknowns())
     }
 
     /// The groups of contacts that admit nothing, where several groups were searched one by one.
@@ -485,15 +501,15 @@ impl<'a> Answer<'a> {
 
     /// Proven bounds of the acceleration of a coordinate.
     fn acceleration_bounds(&self, state: &State<'_>, coordinate: usize) -> Option<[f64; 2]> {
-        let (enclosed, unknowns) = self.enclosed.zip(state.certificate.unknowns())?;
+        let (enclosed, unknowns) = self.enclosed_state(state)?;
         let bounds = enclosed.output(&enclosed.accelerations[coordinate], state.pattern, unknowns);
         bounds.magnitude().is_finite().then_some([bounds.lower(), bounds.upper()])
     }
 
     /// Whether bounds prove that the power of the loads is positive and less than that of friction.
     fn friction_exceeds_loads(&self, state: &State<'_>) -> bool {
-        let bounds = self.enclosed.zip(state.certificate.unknowns());
-        let exceeds = |(enclosed, unknowns): (&EnclosedModeProblem, &[Interval])| {
+        let bounds = self.enclosed_state(state);
+        let exceeds = |(enclosed, unknowns): (&EnclosedOutputs, &[Interval])| {
             let power = &enclosed.power;
             let left = enclosed.output(power, state.pattern, unknowns);
             power.frictionless.lower() > 0.0 && left.upper() < 0.0

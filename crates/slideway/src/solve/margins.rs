@@ -105,7 +105,8 @@ fn first_locking(
     shared: Option<&SharedLoad<Interval>>,
 ) -> Option<f64> {
     let sign_at = |factor: f64, pattern: &[ContactState]| {
-        let problem = IntervalModeProblem::from_influence(&rougher(&enclosed.influence, factor)?).ok()?;
+        let problem =
+            IntervalModeProblem::from_influence(&rougher(&enclosed.outputs.influence, factor)?).ok()?;
         match shared {
             Some(shared) => proven_determinant_sign(&problem.with_shared_load(shared).ok()?, pattern),
             None => proven_determinant_sign(&problem, pattern),

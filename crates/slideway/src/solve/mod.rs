@@ -156,6 +156,9 @@ pub fn solve_with(
             progress,
         )?;
         report.rates_not_given = rates_not_given(model);
+        if options.margins {
+            from_rest::add(&mut report, model, progress);
+        }
         report.suit_units();
         return finite(report);
     }
@@ -171,7 +174,7 @@ pub fn solve_with(
         jumps,
         elasticity: stages.elasticity()?,
         shared: stages.shared_load()?,
-        enclosed: enclosed.as_ref().ok(),
+        enclosed: enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs),
     };
     let mut report = answer.report(&found::SearchFound {
         result: &result,

@@ -76,7 +76,7 @@ impl Answer<'_> {
         let mut add = |mode: Vec<ContactState>, certificate: &Certificate| {
             let unknowns = certificate.unknowns().map(<[Interval]>::to_vec);
             let tipping = match &unknowns {
-                Some(unknowns) => enclosed.tipping(&mode, unknowns),
+                Some(unknowns) => enclosed.outputs.tipping(&mode, unknowns),
                 None => Tipping::Open,
             };
             let proven = matches!(certificate, Certificate::Proven { .. });
@@ -113,13 +113,13 @@ impl Answer<'_> {
         mut mode: Vec<ContactState>,
         mut bounds: Vec<Interval>,
     ) -> Option<(Vec<ContactState>, Vec<Interval>)> {
-        for k in enclosed.couples.iter().map(|couple| couple.contact) {
+        for k in enclosed.outputs.couples.iter().map(|couple| couple.contact) {
             if mode[k] != ContactState::Gap && bounds[k].contains(0.0) && self.free_face(k).is_some() {
                 mode[k] = ContactState::Gap;
                 bounds[k] = Interval::ZERO.hull(Interval::ONE);
             }
         }
-        (enclosed.tipping(&mode, &bounds) != Tipping::Always).then_some((mode, bounds))
+        (enclosed.outputs.tipping(&mode, &bounds) != Tipping::Always).then_some((mode, bounds))
     }
 
     fn summary(&self, ranges: &[ParameterRange], searched: &[Searched]) -> report::Uncertainty {
@@ -225,12 +225,12 @@ pub(crate) fn certain_counts(
     let mut counts = [0; 2];
     for (mode, certificate) in solutions.chain(gaps) {
         let Certificate::Proven { unknowns } = certificate else { return None };
-        match enclosed.tipping(&mode, unknowns) {
+        match enclosed.outputs.tipping(&mode, unknowns) {
             Tipping::Never => {}
             Tipping::Open => return None,
             // Without normal force it may rest in its preload gap instead.
             Tipping::Always
-                if enclosed.couples.iter().any(|couple| unknowns[couple.contact].contains(0.0)) =>
+                if enclosed.outputs.couples.iter().any(|couple| unknowns[couple.contact].contains(0.0)) =>
             {
                 return None;
             }

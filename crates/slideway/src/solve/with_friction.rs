@@ -48,7 +48,7 @@ pub(crate) fn solve_with_friction(
         jumps,
         elasticity: stages.elasticity()?,
         shared: stages.shared_load()?,
-        enclosed: enclosed.as_ref().ok(),
+        enclosed: enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs),
     };
     let found = SearchFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
     finite(answer.report(&found)?)

@@ -127,7 +127,7 @@ impl HoldOptions {
 /// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is
 /// zero, a parameter on which more than friction depends, and more states than are tried.
 pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> {
-    undisturbed(|work| hold_within(model, options, MOST_STATES, work))
+    undisturbed(|work| hold_within(model, options, work))
 }
 
 /// [`hold`] with a callback that is called now and then; nothing if it breaks.
@@ -139,39 +139,18 @@ pub fn hold_with(
     options: &HoldOptions,
     callback: &mut Callback<'_>,
 ) -> Result<Option<HoldReport>, Faults> {
-    watched(callback, |work| hold_within(model, options, MOST_STATES, work))
+    watched(callback, |work| hold_within(model, options, work))
 }
 
-/// [`hold`], refused if there are more states of joints and contacts than these.
-///
-/// # Errors
-/// As [`hold`].
-pub(crate) fn hold_within(
-    model: &Model,
-    options: &HoldOptions,
-    most_states: u64,
-    work: Work<'_>,
-) -> Result<HoldReport, Faults> {
+fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
     let options = &with_load(model, options)?;
     let setup = Setup::new(model, options)?;
-    let rest_patterns = check_states(&setup, most_states)?;
-    let motions = held_motions(&setup);
+    let rest_patterns = check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let (rest, is_held) = rest::at_rest(&setup, nominal, work.part(0, 4));
     let load = load_report(model, options, &setup, work.part(1, 4).part(0, 2))?;
     let wedging = threshold::wedging(model, options, &setup, work.part(1, 4).part(1, 2))?;
-    let motions_without_inertia = undriven_without_inertia(&setup, &motions);
-    let has_inertia = motions_without_inertia.is_empty();
-    let directions = if has_inertia { directions(&setup, &motions, false) } else { Vec::new() };
-    let release = release::releases(&setup, &directions, is_held, work.part(2, 4));
-    let verdict = if has_inertia {
-        let moves = !release.found.is_empty();
-        verdict(is_held, moves, || slips_against_static_friction(&setup, &directions, work.part(3, 4)))
-    } else if is_held {
-        HoldVerdict::MayHold
-    } else {
-        HoldVerdict::DoesNotHold
-    };
+    let beginning = Beginning::new(&setup, is_held, work.part(1, 2));
     let original = Mechanism::new(model)?;
     let undecided =
         [load.as_ref().map(|load| load.undecided), wedging.as_ref().map(|wedging| wedging.undecided)];
@@ -179,14 +158,16 @@ pub(crate) fn hold_within(
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
         units: model.units.clone(),
-        verdict,
-        holds: verdict.holds(),
+        verdict: beginning.verdict,
+        holds: beginning.verdict.holds(),
         state: state(&setup),
         steps_from_drawing: setup.configuration.steps_from_drawing(),
         rates_ignored: original.coordinates.iter().any(|coordinate| coordinate.rate != 0.0),
         released_drives: drives(&original, options, false),
         holding_drives: drives(&original, options, true),
-        undecided: rest.undecided + release.undecided + undecided.into_iter().flatten().sum::<usize>(),
+        undecided: rest.undecided
+            + beginning.releases.undecided
+            + undecided.into_iter().flatten().sum::<usize>(),
         sharing: match &setup.shared {
             Some(shared) => load_sharing(&setup.mechanism, &shared.self_stress)?,
             None => None,
@@ -194,13 +175,65 @@ pub(crate) fn hold_within(
         wedging: wedging.map(|wedging| told_wedging(wedging.found)),
         load: load.map(|load| load.found),
         at_rest: rest.found,
-        releases: release.found,
-        release_patterns: directions.len() * rest_patterns,
-        motions_without_inertia,
+        releases: beginning.releases.found,
+        release_patterns: beginning.directions * rest_patterns,
+        motions_without_inertia: beginning.motions_without_inertia,
         rest_patterns,
     };
     report.suit_units();
     finite(report)
+}
+
+/// What a mechanism does from rest.
+pub(crate) struct Beginning {
+    /// Whether it holds or moves.
+    pub(crate) verdict: HoldVerdict,
+    /// In which states it begins to move, and how many patterns were not decided.
+    releases: Over<Vec<Release>>,
+    /// In how many directions joints may begin to move.
+    directions: usize,
+    motions_without_inertia: Vec<String>,
+}
+
+impl Beginning {
+    fn new(setup: &Setup, is_held: bool, work: Work<'_>) -> Self {
+        let motions = held_motions(setup);
+        let motions_without_inertia = undriven_without_inertia(setup, &motions);
+        let has_inertia = motions_without_inertia.is_empty();
+        let directions = if has_inertia { directions(setup, &motions, false) } else { Vec::new() };
+        let releases = release::releases(setup, &directions, is_held, work.part(0, 2));
+        let verdict = if has_inertia {
+            let moves = !releases.found.is_empty();
+            verdict(is_held, moves, || slips_against_static_friction(setup, &directions, work.part(1, 2)))
+        } else if is_held {
+            HoldVerdict::MayHold
+        } else {
+            HoldVerdict::DoesNotHold
+        };
+        Self { verdict, releases, directions: directions.len(), motions_without_inertia }
+    }
+
+    /// For each state in which it begins to move, the accelerations of the coordinates.
+    pub(crate) fn accelerations(&self) -> impl Iterator<Item = &[CoordinateRange]> {
+        self.releases.found.iter().map(|release| release.coordinates.as_slice())
+    }
+}
+
+/// What a mechanism does from rest under its loads, refused if there are more states of joints and contacts than these;
+/// none where that is not decided. The ranges of reactions at rest, which take most of the time, are not asked for.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn beginning_within(
+    model: &Model,
+    most_states: u64,
+    work: Work<'_>,
+) -> Result<Option<Beginning>, Faults> {
+    let setup = Setup::new(model, &HoldOptions::default())?;
+    check_states(&setup, most_states)?;
+    let Some(is_held) = rest::is_possible(&setup, 1.0, work.part(0, 2)) else { return Ok(None) };
+    let beginning = Beginning::new(&setup, is_held, work.part(1, 2));
+    Ok((beginning.releases.undecided == 0).then_some(beginning))
 }
 
 /// Whether a mechanism with so many times the friction can stay at rest in its position; none where that could

@@ -5,6 +5,7 @@
 mod cases;
 mod closed_forms;
 mod dead_centre;
+mod from_rest;
 mod gallery;
 mod limits;
 mod motion;

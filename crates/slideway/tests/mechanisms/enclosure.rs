@@ -75,7 +75,7 @@ fn relative_width(bounds: &IntervalMatrix) -> f64 {
 fn influence_outside(enclosed: &EnclosedModeProblem, rounded: &Influence) -> f64 {
     let normal = rounded.normal_forces();
     let normal = DMatrix::from_column_slice(normal.len(), 1, normal.as_slice());
-    let found = &enclosed.influence;
+    let found = &enclosed.outputs.influence;
     outside(&found.eta.positive, &rounded.eta(0))
         .max(outside(&found.eta.negative, &rounded.eta(1)))
         .max(outside(&found.frictionless, &normal))
@@ -100,7 +100,7 @@ fn the_gallery_is_enclosed_to_many_digits() {
         // The tubes of the boom overlap by little beside their length, so that reactions are large
         // differences.
         let narrow = if entry.name == "telescopic-boom" { 1e-10 } else { WIDTH };
-        let influence = &found.influence;
+        let influence = &found.outputs.influence;
         for bounds in [&influence.eta.positive, &influence.eta.negative, &influence.frictionless] {
             assert!(relative_width(bounds) < narrow, "{}: {:e}", entry.name, relative_width(bounds));
         }
@@ -114,7 +114,7 @@ fn the_gallery_is_enclosed_to_many_digits() {
 /// ```
 #[test]
 fn the_example_of_the_paper_is_enclosed_exactly() {
-    let found = enclosed(&model("klepp-2002")).influence;
+    let found = enclosed(&model("klepp-2002")).outputs.influence;
     let tangent = decimal("5671281819617709530994418439863964421625378260689750", 51);
     let part = |numerator: i32, denominator: i32| {
         RBig::from(IBig::from(numerator)) / RBig::from(IBig::from(denominator))
@@ -196,13 +196,13 @@ fn versions_are_equal_where_theory_says_so() {
     let model = model("klepp-2002").with(&settings).unwrap();
     let found = enclosed_within(&model, &[("F_10", 1.0, 2.0)]).unwrap();
     // The pin has no height; friction at the block changes no other contact than those of the block.
-    let eta = &found.influence.eta;
+    let eta = &found.outputs.influence.eta;
     assert!((0..3).all(|row| eta.positive.entry(row, 0) == eta.negative.entry(row, 0)));
     assert!((0..3).all(|column| eta.positive.entry(0, column) == eta.negative.entry(0, column)));
     assert!(!found.problem.centre().has_jump(0), "its preload acts on both sides alike");
     let flat = model.with(&parameters(&[("h", "0 m"), ("F_20", "m*g")])).unwrap();
     let found = enclosed(&flat);
-    assert_eq!(found.influence.eta.positive, found.influence.eta.negative);
+    assert_eq!(found.outputs.influence.eta.positive, found.outputs.influence.eta.negative);
     assert!((0..3).all(|contact| !found.problem.centre().has_jump(contact)));
 }
 

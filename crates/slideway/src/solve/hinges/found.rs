@@ -8,7 +8,7 @@ use crate::attainability::ElasticHinges;
 use crate::enclosure::{NotEnclosed, TurningHinge};
 use crate::ids::JointId;
 use crate::influence::HingeState;
-use crate::interval::Interval;
+use crate::interval::{Interval, Real};
 use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState};
@@ -114,10 +114,7 @@ impl HingedAnswer<'_> {
             solutions.push(kept);
         }
         let mut open = found.open();
-        open.extend(self.answer.guided_sliders().map(|(joint, _)| {
-            let name = &self.answer.mechanism.joints[joint.index()].name;
-            format!("whether {name} tips is computed, not proven")
-        }));
+        open.extend(tipping.unproven());
         let undecided = !found.result.open.is_empty() || found.result.stopped.is_some();
         let found_solutions = found.result.solutions.len();
         let left_out = found_solutions - found_solutions.min(found.most);
@@ -177,14 +174,15 @@ pub(super) fn hinge_states(
     hinges.iter().zip(forces).map(one).collect()
 }
 
-/// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps.
+/// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps, then of `|R_j|`.
 fn certificate(solution: &BlockSolution) -> Certificate {
     let bounds = solution.states.iter().zip(&solution.enclosure);
     let unknowns = bounds.map(|(state, bounds)| match state {
         ContactState::Gap => *bounds,
         ContactState::Positive | ContactState::Negative => bounds.abs(),
     });
-    let unknowns: Vec<Interval> = unknowns.collect();
+    let (forces, _) = solution.enclosure[solution.states.len()..].as_chunks();
+    let unknowns: Vec<Interval> = unknowns.chain(forces.iter().map(|[x, y]| x.hypot(*y))).collect();
     if solution.on_boundary.is_empty() {
         Certificate::Proven { unknowns }
     } else {

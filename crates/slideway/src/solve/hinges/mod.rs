@@ -51,7 +51,7 @@ pub(super) fn solve(
 ) -> Result<SolveReport, Faults> {
     let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
     let contacts = mechanism.contacts.len();
-    let answer = Answer {
+    let mut answer = Answer {
         mechanism,
         configuration,
         equations,
@@ -70,7 +70,9 @@ pub(super) fn solve(
     never_turn(mechanism, &standing)?;
     let problem = block_problem(stages.hinged(), &turning)?;
     let enclosed = enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning);
-    let result = blocks::search(enclosed.as_ref().unwrap_or(&problem), &options.search, progress);
+    answer.enclosed = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
+    let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
+    let result = blocks::search(searched, &options.search, progress);
     let found =
         BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most, has_ranges };
     let growth = options.margins.then(|| Growth::new(stages, &turning)).transpose()?;
