@@ -1,15 +1,16 @@
 //! One state of the sliding joints and contacts as linear equations and inequalities: those of statics, or of
-//! the first instant of a motion.
+//! the first instant of a motion (the inequalities in `inequalities.rs`).
 
-use super::setup::{Setup, SlidingJoint};
+mod inequalities;
+
+pub(super) use inequalities::{StaticFriction, side_options, sides};
+
+use super::setup::Setup;
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Effort, FrictionCircle};
 use crate::modes::SharedLoad;
-use crate::pattern::{
-    Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING, Pin, Region,
-    without_tipping,
-};
+use crate::pattern::{Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING};
 use nalgebra::{DMatrix, DVector};
 
 /// What every joint and contact does.
@@ -21,14 +22,6 @@ pub(crate) struct Pattern {
     pub(crate) hinges: Vec<JointPhase>,
     /// The contacts.
     pub(crate) contacts: Vec<ContactPhase>,
-}
-
-/// Static friction of contacts and hinges.
-pub(super) struct StaticFriction {
-    /// Coefficients of each contact and side.
-    pub(super) mu: Vec<[f64; 2]>,
-    /// Radii of the friction circles (m).
-    pub(super) radii: Vec<f64>,
 }
 
 /// What is asked of a state.
@@ -434,93 +427,4 @@ impl State<'_> {
         }
         expression
     }
-}
-
-/// Inequalities of a state.
-impl State<'_> {
-    /// What the equations leave open within every inequality of the state, with this static friction.
-    pub(super) fn region(&self, static_friction: &StaticFriction) -> Region {
-        let mut slacks = Vec::new();
-        for (friction, mu_static) in self.friction.iter().zip(&static_friction.mu) {
-            slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
-        }
-        for (k, place) in self.between.iter().enumerate() {
-            let Some(place) = place.filter(|place| self.friction[k].share != Some(*place)) else { continue };
-            slacks.push(AffineExpression::unknown(place, 1.0));
-            if self.setup.mechanism.contacts[k].face.is_none() {
-                slacks.push(AffineExpression::unknown(place, -1.0).shifted(1.0));
-            }
-        }
-        for slider in &self.setup.sliders {
-            if let SlidingJoint { couple: Some(couple), contacts, .. } = slider
-                && let [k] = contacts[..]
-            {
-                let half = couple.half_length / self.setup.units.length;
-                slacks.extend(without_tipping(
-                    &self.friction[k].pressure,
-                    &self.reaction(couple.unknown),
-                    half,
-                ));
-            }
-        }
-        slacks.extend(self.beginning());
-        let functions = slacks.iter().map(|slack| self.function(slack)).collect();
-        Region::new(self.solutions.dimension(), functions).with_pins(self.pins(&static_friction.radii))
-    }
-
-    /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do.
-    pub(super) fn beginning(&self) -> Vec<AffineExpression> {
-        let sliders = self.pattern.joints.iter().enumerate();
-        let sliders = sliders.map(|(index, joint)| (index, *joint, self.sliding_acceleration(index)));
-        let hinges = self.pattern.hinges.iter().enumerate().map(|(index, hinge)| {
-            (self.setup.sliders.len() + index, *hinge, self.turning_acceleration(index))
-        });
-        let begins = sliders.chain(hinges).filter(|(index, ..)| self.setup.known[*index].sign.is_none());
-        let moving = begins.filter(|(_, joint, _)| *joint != JointPhase::Sticking);
-        moving.map(|(_, joint, acceleration)| acceleration.times(joint.sign())).collect()
-    }
-
-    /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones.
-    fn pins(&self, static_radii: &[f64]) -> Vec<Pin> {
-        let circles = self.setup.mechanism.friction_circles.iter().zip(static_radii).enumerate();
-        let pin = |(index, (circle, static_radius)): (usize, (&FrictionCircle, &f64))| {
-            let (turning, radius) = match self.pattern.hinges[index] {
-                JointPhase::Sticking => (None, *static_radius),
-                JointPhase::Sliding(sign) => (Some(sign), circle.radius),
-            };
-            let reaction = [0, 1].map(|axis| self.function(&self.reaction(self.hinge_place(circle, axis))));
-            Pin {
-                reaction,
-                couple: self.function(&self.friction_couple(index)),
-                radius: radius / self.setup.units.length,
-                turning,
-                allowance: 0.0,
-            }
-        };
-        circles.map(pin).collect()
-    }
-}
-
-/// All combinations of sides of the contacts.
-pub(super) fn sides(setup: &Setup) -> Vec<Vec<ContactPhase>> {
-    let mut all = vec![Vec::new()];
-    for options in side_options(setup) {
-        let extended = |sides: Vec<ContactPhase>| {
-            options.iter().map(move |side| sides.iter().copied().chain([*side]).collect::<Vec<_>>())
-        };
-        all = all.into_iter().flat_map(extended).collect();
-    }
-    all
-}
-
-/// The sides that each contact may take.
-pub(super) fn side_options(setup: &Setup) -> Vec<&'static [ContactPhase]> {
-    let may_be_open = |k: usize| setup.shared.as_ref().is_some_and(|shared| shared.may_be_open(k));
-    let contacts = 0..setup.mechanism.contacts.len();
-    contacts
-        .map(|k| match setup.mechanism.contacts[k].face {
-            Some(face) => ContactPhase::options_of_face(face.is_positive),
-            None => ContactPhase::options(setup.mechanism.preload_jumps(ContactId(k)) || may_be_open(k)),
-        })
-        .collect()
 }
