@@ -311,10 +311,10 @@ pub enum FaultKind {
     LoadsWithoutBounds,
     #[error("the impact of {} on the stops can have several outcomes", joints.join(" and "))]
     SeveralImpacts { joints: Vec<String> },
-    #[error("the impact of {} on the stops could not be decided: a linear program was not solved", joints.join(" and "))]
+    #[error("the impact of {} on the stops could not be decided: not all possible impulses were found", joints.join(" and "))]
     UnsolvedImpact { joints: Vec<String> },
     #[error(
-        "the impact of {} on the stop has no possible impulse: friction wedges the moving block in its guide first",
+        "the impact of {} on the stop has no possible impulse: friction wedges what moves first",
         joints.join(" and ")
     )]
     ImpactWedges { joints: Vec<String> },
@@ -382,8 +382,6 @@ pub enum FaultKind {
     RigidAtRest { contacts: Vec<String> },
     #[error("this question is not answered for hinges with friction: {}", listed(hinges))]
     FrictionInHinges { hinges: Vec<String> },
-    #[error("impulses at end stops are not computed beside hinges with friction: {}", listed(joints))]
-    StopsBesideHinges { joints: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
     SharedLoad { question: &'static str, joints: Vec<String> },
     #[error(
@@ -594,9 +592,6 @@ impl FaultKind {
             }
             Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
             Self::HingeDoesNotTurn { why, .. } => Some(why.hint_of_hinge()),
-            Self::StopsBesideHinges { .. } => {
-                Some("pads, with `stiffness` in place of `restitution`, act without impulses".to_owned())
-            }
             Self::FrictionInHingesOfRedundant { .. } => {
                 Some("leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge".to_owned())
             }
@@ -650,7 +645,7 @@ impl FaultKind {
             Self::StaticRadiusBelowKinetic { .. } => {
                 Some("omit `static_friction_radius` to make it equal to `friction_radius`")
             }
-            Self::SeveralImpacts { .. } => {
+            Self::SeveralImpacts { joints } if joints.len() > 1 => {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),

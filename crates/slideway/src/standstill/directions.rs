@@ -39,13 +39,16 @@ pub(super) fn most_directions(motions: usize, joints: usize) -> u64 {
 /// moves at once may begin in either direction.
 pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>, later: bool) -> Vec<Pattern> {
     let rows = rows(setup);
-    let start = acceleration_of_velocities(setup);
-    let mut branches = vec![Branch { signs: Vec::new(), start, motions: motions.clone(), later: Vec::new() }];
+    let pushed = (0..rows.len()).filter(|joint| setup.known[*joint].pushed);
+    let all = (acceleration_of_velocities(setup), motions.clone());
+    let (start, motions) = pushed.fold(all, |(start, motions), joint| rows[joint].held(&start, &motions));
+    let mut branches = vec![Branch { signs: Vec::new(), start, motions, later: Vec::new() }];
     for joint in 0..rows.len() {
         let mut next = Vec::new();
         for branch in branches {
             next.extend(extended(&rows, joint, (&branch, later)));
         }
+        next.retain(|branch: &Branch| !rows[joint].is_into_stop(branch.signs[joint]));
         branches = next;
     }
     let phase = |sign: &f64| JointPhase::of_sign(*sign);
@@ -67,11 +70,29 @@ struct Row {
     of_velocities: f64,
     /// The sign of the velocity, 0 where it has to stick; nothing where the acceleration decides.
     sign: Option<f64>,
+    /// The end stop that a sliding joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.
+    stop: f64,
 }
 
 impl Row {
     fn at(&self, motion: &DVector<f64>) -> f64 {
         (&self.of_motion * motion)[0] + self.of_velocities
+    }
+
+    /// Whether it would begin to slide into its stop.
+    fn is_into_stop(&self, sign: f64) -> bool {
+        self.sign.is_none() && self.stop != 0.0 && sign == self.stop
+    }
+
+    /// Those of the motions that leave it at rest, or prescribe its acceleration: where they begin, and what may be added.
+    /// All of them if none moves it.
+    fn held(&self, start: &DVector<f64>, motions: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let moves = &self.of_motion * motions;
+        if moves.amax() <= TOLERANCE * self.of_motion.amax() * motions.amax() {
+            return (start.clone(), motions.clone());
+        }
+        let start = start - motions * moves.transpose() * (self.at(start) / moves.norm_squared());
+        (start, motions * null_space(&DMatrix::from_rows(&[moves])))
     }
 }
 
@@ -84,6 +105,7 @@ fn rows(setup: &Setup) -> Vec<Row> {
             of_motion: setup.row(joint) / length,
             of_velocities: known.acceleration / unit,
             sign: known.sign,
+            stop: setup.stops.get(joint).copied().unwrap_or(0.0),
         }
     };
     (0..setup.known.len()).map(row).collect()
@@ -126,8 +148,8 @@ fn extended(rows: &[Row], joint: usize, (branch, later): (&Branch, bool)) -> Vec
         }
         return next;
     }
-    let start = &branch.start - &branch.motions * moves.transpose() * (begins / moves.norm_squared());
-    let still = with(0.0, start, &branch.motions * null_space(&DMatrix::from_rows(&[moves])));
+    let (start, motions) = rows[joint].held(&branch.start, &branch.motions);
+    let still = with(0.0, start, motions);
     if known.is_some() {
         return vec![still];
     }

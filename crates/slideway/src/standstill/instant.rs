@@ -20,6 +20,8 @@ pub(crate) struct MotionState {
     pub(crate) accelerations: Vec<f64>,
     /// The force of each hinge with friction on its first body (N).
     pub(crate) forces: Vec<[f64; 2]>,
+    /// The force with which the stop of each sliding joint pushes it while it slides (N), else zero.
+    pub(crate) pushes: Vec<f64>,
 }
 
 const QUESTION: StateQuestion = StateQuestion { moving: true, factor: Some(0.0), wedged: false };
@@ -70,7 +72,12 @@ fn state_of(setup: &Setup, pattern: &Pattern) -> Result<Option<MotionState>, Uns
     let Some(region) = really_beginning(&state, region)? else { return Ok(None) };
     let (_, point) = region.highest()?;
     let at = |function: &AffineExpression| state.function(function).at(&point);
+    let push = |(slider, push): (usize, Option<AffineExpression>)| {
+        let push = push.filter(|_| setup.known[slider].pushed);
+        push.map_or(0.0, |push| setup.units.force * at(&push))
+    };
     Ok(Some(MotionState {
+        pushes: state.pushes().into_iter().enumerate().map(push).collect(),
         pattern: pattern.clone(),
         accelerations: state.accelerations().iter().map(at).collect(),
         forces: state.hinge_forces().iter().map(|force| force.each_ref().map(at)).collect(),

@@ -73,7 +73,7 @@ use directions::{directions, most_directions};
 pub(crate) use instant::{MotionState, motion_states, sticking_slack};
 use nalgebra::DMatrix;
 use rest::Over;
-pub(crate) use setup::Setup;
+pub(crate) use setup::{KnownMotion, Setup};
 pub(crate) use state::Pattern;
 use state::side_options;
 

@@ -70,6 +70,9 @@ pub(crate) struct Setup {
     pub(super) shared: Option<SharedLoad>,
     /// Of the sliding joints, then of the hinges with friction, what is known.
     pub(super) known: Vec<KnownMotion>,
+    /// The end stop that each sliding joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0. Whatever
+    /// sticks there may be pushed, too.
+    pub(crate) stops: Vec<f64>,
 }
 
 /// What is known of the motion of a sliding joint or hinge.
@@ -79,6 +82,8 @@ pub(crate) struct KnownMotion {
     pub(crate) sign: Option<f64>,
     /// What velocities add to its acceleration (m/s^2 or rad/s^2).
     pub(crate) acceleration: f64,
+    /// Whether its stop pushes it while it slides, so that its whole acceleration is zero as if it stuck.
+    pub(crate) pushed: bool,
 }
 
 impl Setup {
@@ -111,7 +116,8 @@ impl Setup {
         let mut units = units(&mechanism, &given, load.as_ref());
         units.force = shared.as_ref().map_or(units.force, |shared| units.force.max(misfit(shared)));
         let known = vec![KnownMotion::default(); sliders.len() + mechanism.friction_circles.len()];
-        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared, known })
+        let stops = vec![0.0; sliders.len()];
+        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared, known, stops })
     }
 
     /// A mechanism that moves, with the signs of the velocities of its sliding joints and hinges with friction, 0 where
@@ -139,7 +145,9 @@ impl Setup {
         });
         let accelerations = of_velocities.chain(mechanism.friction_circles.iter().map(|_| 0.0));
         let known = accelerations.zip(signs);
-        let known = known.map(|(acceleration, sign)| KnownMotion { sign: *sign, acceleration }).collect();
+        let known =
+            known.map(|(acceleration, sign)| KnownMotion { sign: *sign, acceleration, pushed: false });
+        let (known, stops) = (known.collect(), vec![0.0; sliders.len()]);
         let configuration = configuration.clone();
         Ok(Self {
             mechanism,
@@ -151,21 +159,26 @@ impl Setup {
             units,
             shared: None,
             known,
+            stops,
         })
     }
 
-    /// The same for impulses, without loads and preloads, by which these joints and hinges, each with its velocity, come to
-    /// rest; jumps of velocities stand in place of accelerations.
-    pub(crate) fn impulsive(&self, stopping: impl Iterator<Item = (usize, f64)>) -> Self {
+    /// What is known of the velocities of the sliding joints and hinges with friction alone.
+    pub(crate) fn signs(&self) -> Vec<KnownMotion> {
+        self.known.iter().map(|known| KnownMotion { acceleration: 0.0, ..*known }).collect()
+    }
+
+    /// The same for impulses, without loads and preloads; jumps of velocities stand in place of accelerations. Of the joints
+    /// and hinges this is known: what is held or pushed jumps by the opposite of its acceleration.
+    pub(crate) fn impulsive(&self, known: Vec<KnownMotion>) -> Self {
         let mut impulsive = self.alone(DVector::zeros(self.given.len()));
         impulsive.assembled.load.fill(0.0);
-        impulsive.known.iter_mut().for_each(|known| known.acceleration = 0.0);
         let mut speed = 0.0_f64;
-        for (stops, velocity) in stopping {
-            impulsive.known[stops] = KnownMotion { sign: Some(0.0), acceleration: velocity };
-            let is_hinge = stops >= self.sliders.len();
-            speed = speed.max(velocity.abs() * if is_hinge { self.units.length } else { 1.0 });
+        for (joint, known) in known.iter().enumerate() {
+            let is_hinge = joint >= self.sliders.len();
+            speed = speed.max(known.acceleration.abs() * if is_hinge { self.units.length } else { 1.0 });
         }
+        impulsive.known = known;
         impulsive.units.force = self.units.force / self.units.acceleration * speed;
         impulsive.units.acceleration = speed;
         impulsive
@@ -216,7 +229,7 @@ impl Setup {
 
     /// The acceleration of a sliding joint or hinge with friction, by its number among these, as a row of those of the
     /// bodies.
-    pub(super) fn row(&self, joint: usize) -> RowDVector<f64> {
+    pub(crate) fn row(&self, joint: usize) -> RowDVector<f64> {
         let mut row = RowDVector::zeros(self.equations_of_motion());
         match joint.checked_sub(self.sliders.len()) {
             None => {
@@ -246,6 +259,12 @@ impl Setup {
             circle.static_radius = circle.static_radius_with(factor * circle.static_friction());
         }
         self
+    }
+
+    /// Whether friction can act at a sliding joint, by its number among these.
+    pub(crate) fn rubs(&self, slider: usize) -> bool {
+        let contacts = self.sliders[slider].contacts.iter().map(|&k| &self.mechanism.contacts[k]);
+        contacts.into_iter().any(|contact| !contact.is_frictionless() || contact.mu_static != [0.0; 2])
     }
 
     /// Number of equations of motion: three for each body.

@@ -7,17 +7,15 @@
 //! freedom, in which everything stops together anyway, that is possible wherever some of it can wedge.
 
 use super::BOUNDARY;
-use super::hinged::{frictionless, setup};
-use super::impulse::AT_REST;
+use super::hinged::{frictionless, relative_velocities, setup};
+use super::impulse::jumped;
 use super::rules::{EventInstant, HaltingImpulse};
-use crate::configuration::{Configuration, Velocity};
+use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::motion::moving::energy::kinetic;
 use crate::motion::moving::equations::Equations;
-use crate::pattern::phase::sliding_joints;
 use crate::pattern::{HingePhase, JointPhase, Phase, direction};
-use crate::standstill::{MotionState, motion_states, sticking_slack};
-use nalgebra::Vector2;
+use crate::standstill::{KnownMotion, MotionState, motion_states, sticking_slack};
 
 /// The first impulse that can act; `None` if there is none.
 ///
@@ -28,11 +26,15 @@ pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<Halting
     let signs: Vec<f64> = event.signs.iter().chain(event.spins).copied().collect();
     let known: Vec<Option<f64>> = signs.iter().map(|sign| Some(*sign).filter(|sign| *sign != 0.0)).collect();
     let setup = setup(mechanism, configuration, (&known, rounding))?;
-    let velocities = relative_velocities(event, configuration);
+    let velocities = relative_velocities(mechanism, configuration);
     let moving: Vec<usize> = (0..signs.len()).filter(|joint| signs[*joint] != 0.0).collect();
     let everything = (moving.len() > 1).then(|| moving.clone());
     for stopping in moving.iter().map(|joint| vec![*joint]).chain(everything) {
-        let impulses = setup.impulsive(stopping.iter().map(|joint| (*joint, velocities[*joint])));
+        let mut jumps = setup.signs();
+        for &joint in &stopping {
+            jumps[joint] = KnownMotion { sign: Some(0.0), acceleration: velocities[joint], pushed: false };
+        }
+        let impulses = setup.impulsive(jumps);
         let (found, _) = motion_states(&impulses)?;
         for state in found {
             let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
@@ -49,19 +51,6 @@ pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<Halting
     Ok(None)
 }
 
-/// The velocities of the sliding joints, then of the hinges with friction (m/s, rad/s).
-fn relative_velocities(event: &EventInstant<'_>, configuration: &Configuration) -> Vec<f64> {
-    let mechanism = event.mechanism;
-    let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
-    let sliding = sliders.map(|slider| configuration.sliding(mechanism, slider).1);
-    let turning = mechanism.friction_circles.iter().map(|circle| {
-        mechanism.hinge(circle.joint).map_or(0.0, |[first, second]| {
-            configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame)
-        })
-    });
-    sliding.chain(turning).collect()
-}
-
 /// The mechanism after as much of the jumps of a state as takes the first velocity to zero; `None` where something at rest
 /// would begin to move against its friction.
 fn stopped(
@@ -76,7 +65,7 @@ fn stopped(
         let (jump, sign) = (after - before, phase.sign());
         if sign * jump < 0.0 && sign * after < 0.0 { before.abs() / jump.abs() } else { f64::INFINITY }
     };
-    let jumps = velocities.iter().zip(relative_velocities(event, &whole)).zip(&pattern);
+    let jumps = velocities.iter().zip(relative_velocities(event.mechanism, &whole)).zip(&pattern);
     let zeros: Vec<f64> = jumps.map(reverses).collect();
     let part = zeros.iter().copied().fold(1.0, f64::min);
     let ends = |joint: usize| {
@@ -112,18 +101,4 @@ fn settled(
     equations.project(&mut values);
     equations.place(after.time, &values);
     equations.configuration.clone()
-}
-
-/// The configuration with a part of the jumps of the velocities; what rounding leaves of one is zero.
-fn jumped(configuration: &Configuration, jumps: &[f64], part: f64) -> Configuration {
-    let mut after = configuration.clone();
-    let sum = |velocity: f64, jump: f64| {
-        let sum = velocity + part * jump;
-        if sum.abs() <= AT_REST * velocity.abs() { 0.0 } else { sum }
-    };
-    for (Velocity { linear, angular }, jump) in after.velocities.iter_mut().zip(jumps.chunks_exact(3)) {
-        *linear = Vector2::new(sum(linear.x, jump[0]), sum(linear.y, jump[1]));
-        *angular = sum(*angular, jump[2]);
-    }
-    after
 }

@@ -5,22 +5,25 @@
 //! the motions of the mechanism, with all sides of the contacts, by the same programs as at rest; their solutions are
 //! those in which the motion can go on. The solution that is followed is one of them, known by the forces of its hinges.
 
+use super::joints::touched_stop;
 use super::rules::{Continuation, Continuations, EventInstant, Hold, Outlook, Resting};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::ContactId;
-use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Mechanism};
+use crate::kinetics::{KineticEquations, SlidingRow};
+use crate::mechanism::Mechanism;
 use crate::motion::moving::amounts::Amounts;
 use crate::motion::moving::equations::Equations;
 use crate::motion::moving::switching::Switching;
 use crate::motion::moving::watch::{Watch, Watched};
+use crate::pattern::phase::sliding_joints;
 use crate::pattern::{HingePhase, JointPhase, Phase, direction};
 use crate::report::Verdict;
 use crate::standstill::{MotionState, Pattern, Setup, motion_states, sticking_slack};
+use nalgebra::DVector;
 
 /// Accelerations that differ by less than this part of the greatest are the same.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 /// Forces of hinges that differ by less than this part of the greatest are the same.
 const SAME_FORCE: f64 = 1e-6;
 /// What is watched is at its boundary below this part of its unit.
@@ -52,7 +55,25 @@ pub(super) fn setup(
             mechanism.friction_of(ContactId(k), speed, configuration.pieces.as_deref())?;
     }
     let force = super::scale_of_forces(mechanism, configuration).max(rounding);
-    Setup::in_motion(at_speeds, configuration, (signs, force))
+    let mut setup = Setup::in_motion(at_speeds, configuration, (signs, force))?;
+    let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
+    setup.stops = sliders.map(|slider| touched_stop(mechanism, configuration, slider)).collect();
+    Ok(setup)
+}
+
+/// The velocities of the sliding joints, then of the hinges with friction (m/s, rad/s).
+pub(in crate::motion) fn relative_velocities(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Vec<f64> {
+    let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
+    let sliding = sliders.map(|slider| configuration.sliding(mechanism, slider).1);
+    let turning = mechanism.friction_circles.iter().map(|circle| {
+        mechanism.hinge(circle.joint).map_or(0.0, |[first, second]| {
+            configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame)
+        })
+    });
+    sliding.chain(turning).collect()
 }
 
 /// The phases that can follow at an instant, in order of preference: those in which more stays stuck, and more sticks; the
@@ -64,10 +85,11 @@ pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, F
     let EventInstant { mechanism, configuration, signs, spins, rounding, previous, .. } = *event;
     let signs = signs.iter().chain(spins).map(|sign| Some(*sign).filter(|sign| *sign != 0.0));
     let signs: Vec<Option<f64>> = signs.collect();
-    let (found, undecided) = motion_states(&setup(mechanism, configuration, (&signs, rounding))?)?;
+    let setup = setup(mechanism, configuration, (&signs, rounding))?;
+    let (found, undecided) = motion_states(&setup)?;
     let mut candidates: Vec<Candidate> = Vec::new();
     for state in found {
-        let phase = phase_of(mechanism, state);
+        let phase = phase_of(&setup, state);
         let Some(candidate) = Candidate::new(event, phase)? else { continue };
         if !candidates.iter().any(|other| other.is_same(&candidate, mechanism)) {
             candidates.push(candidate);
@@ -86,18 +108,15 @@ pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, F
     Ok(Continuations { list: candidates.into_iter().map(one).collect(), left_out: undecided > 0 })
 }
 
-/// The phase of a state. A joint without friction always slides.
-fn phase_of(mechanism: &Mechanism, state: MotionState) -> Phase {
-    let joints = crate::pattern::phase::sliding_joints(mechanism);
-    let is_smooth = |contact: &Contact| contact.is_frictionless() && contact.mu_static == [0.0; 2];
-    let slides = |(joint, phase): (&crate::ids::JointId, &JointPhase)| {
-        let slider = mechanism.slider(*joint).expect("sliding joints slide");
-        let smooth = slider.contacts.iter().all(|k| is_smooth(&mechanism.contacts[k.index()]));
-        if smooth && *phase == JointPhase::Sticking { JointPhase::Sliding(1.0) } else { *phase }
+/// The phase of a state. A joint without friction always slides, unless its stop holds it.
+fn phase_of(setup: &Setup, state: MotionState) -> Phase {
+    let slides = |(slider, phase): (usize, &JointPhase)| {
+        let is_free = !setup.rubs(slider) && setup.stops[slider] == 0.0;
+        if is_free && *phase == JointPhase::Sticking { JointPhase::Sliding(1.0) } else { *phase }
     };
     let hinges = state.pattern.hinges.iter().zip(state.forces);
     Phase {
-        joints: joints.iter().zip(&state.pattern.joints).map(slides).collect(),
+        joints: state.pattern.joints.iter().enumerate().map(slides).collect(),
         contacts: state.pattern.contacts,
         hinges: hinges.map(|(state, force)| HingePhase { state: *state, force }).collect(),
     }
@@ -167,7 +186,7 @@ impl Candidate {
     }
 }
 
-fn near(one: &[f64], other: &[f64], part: f64) -> bool {
+pub(super) fn near(one: &[f64], other: &[f64], part: f64) -> bool {
     let greatest = one.iter().chain(other).fold(0.0_f64, |greatest, value| greatest.max(value.abs()));
     one.iter().zip(other).all(|(one, other)| (one - other).abs() <= part * greatest)
 }
@@ -337,6 +356,19 @@ impl Units {
             _ => 1.0,
         }
     }
+}
+
+/// The sliding accelerations (m/s^2) in a phase; nothing where its equations have no solution.
+pub(super) fn sliding_accelerations(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Option<Vec<f64>> {
+    let equations = entered(mechanism, configuration, phase)?;
+    let accelerations = DVector::from_column_slice(equations.accelerations());
+    let sliders = equations.sliders.iter().filter_map(|joint| mechanism.slider(*joint));
+    let rows = sliders.map(|slider| SlidingRow::new(mechanism, configuration, slider));
+    Some(rows.map(|row| row.acceleration(&accelerations)).collect())
 }
 
 /// By how much what sticks in a phase stays within its bounds; -1 where it cannot stick, or where that was not decided.

@@ -150,20 +150,24 @@ impl<'s> Impulses<'s> {
     /// The configuration with these jumps of the velocities; what rounding leaves of a velocity is set to
     /// zero.
     pub(super) fn moved(&self, configuration: &Configuration, jumps: &DVector<f64>) -> Configuration {
-        let mut after = configuration.clone();
-        for (body, velocity) in after.velocities.iter_mut().enumerate() {
-            let [x, y, turn] = [0, 1, 2].map(|axis| jumps[3 * body + axis]);
-            *velocity = Velocity {
-                linear: Vector2::new(sum(velocity.linear.x, x), sum(velocity.linear.y, y)),
-                angular: sum(velocity.angular, turn),
-            };
-        }
+        let mut after = jumped(configuration, jumps.as_slice(), 1.0);
         let rates = self.instant.equations.coordinate_jumps(jumps);
         for (rate, jump) in after.rates.iter_mut().zip(rates) {
             *rate = sum(*rate, jump);
         }
         after
     }
+}
+
+/// The configuration with a part of the jumps of the bodies' velocities, its coordinates as before; what rounding leaves of a
+/// velocity is zero.
+pub(super) fn jumped(configuration: &Configuration, jumps: &[f64], part: f64) -> Configuration {
+    let mut after = configuration.clone();
+    for (Velocity { linear, angular }, jump) in after.velocities.iter_mut().zip(jumps.chunks_exact(3)) {
+        *linear = Vector2::new(sum(linear.x, part * jump[0]), sum(linear.y, part * jump[1]));
+        *angular = sum(*angular, part * jump[2]);
+    }
+    after
 }
 
 /// A sum that is exactly zero where its terms cancel within rounding.

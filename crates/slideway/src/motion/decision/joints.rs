@@ -68,7 +68,7 @@ pub(super) fn sliding_joints(
 }
 
 /// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.
-fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
+pub(super) fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
     let Some([least, greatest]) = slider.travel.filter(|_| slider.stops != [None; 2]) else {
         return 0.0;
     };

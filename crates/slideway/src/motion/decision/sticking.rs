@@ -78,6 +78,22 @@ pub fn sticking(
     Ok(Some(Sticking { margin: assessment.margin, phase: assessment.phase, state }))
 }
 
+/// The sliding acceleration of each joint in a phase (m/s^2); `None` as of [`phase_state`].
+///
+/// # Errors
+/// As [`sticking_margin`].
+pub(in crate::motion) fn sliding_accelerations(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<Option<Vec<f64>>, Faults> {
+    if !mechanism.friction_circles.is_empty() {
+        return Ok(super::hinged::sliding_accelerations(mechanism, configuration, phase));
+    }
+    let state = phase_state(mechanism, configuration, phase)?;
+    Ok(state.map(|state| state.sliding_accelerations))
+}
+
 /// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; `None` if its
 /// equations contradict each other (a mode with D = 0, or joints that cannot all stick at their velocities).
 ///

@@ -11,7 +11,7 @@ use super::options::SimulateOptions;
 use super::record::history::History;
 use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::mechanism::{FrictionCircle, Joint, JointKind, Mechanism};
+use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::Model;
 use crate::progress::Callback;
 use crate::solve::never_turning;
@@ -50,7 +50,7 @@ pub fn simulate_with(
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);
-    check_hinges(mechanism, configuration)?;
+    never_turning(mechanism, configuration)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
 }
 
@@ -61,24 +61,6 @@ fn with_rough_hinges_alone(mechanism: &Mechanism) -> Cow<'_, Mechanism> {
         mechanism.to_mut().friction_circles.retain(FrictionCircle::is_rough);
     }
     mechanism
-}
-
-/// Refuses hinges with friction that never turn, and end stops that are hit beside hinges with friction.
-///
-/// # Errors
-/// A fault that names the hinges or the joints with stops.
-fn check_hinges(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
-    never_turning(mechanism, configuration)?;
-    let is_hit = |joint: &&Joint| {
-        let JointKind::Slider(slider) = &joint.kind else { return false };
-        slider.stops.iter().flatten().any(|stop| stop.restitution().is_some())
-    };
-    let joints: Vec<String> =
-        mechanism.joints.iter().filter(is_hit).map(|joint| joint.name.to_string()).collect();
-    if mechanism.friction_circles.is_empty() || joints.is_empty() {
-        return Ok(());
-    }
-    Err(Fault::general(FaultKind::StopsBesideHinges { joints }).into())
 }
 
 /// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more

@@ -276,7 +276,10 @@ impl<'a, 'm> Run<'a, 'm> {
         let configuration = self.smooth.equations.configuration.clone();
         let impact = stop::impact_of(&hits, mechanism, &configuration, self.decisions)?;
         self.smooth.set_velocities(&impact.after.velocities);
-        causes.retain(|cause| !matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_)));
+        let is_over = |cause: &Cause| {
+            matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))
+        };
+        causes.retain(|cause| !is_over(cause));
         for Blow { stops, energy_lost } in impact.blows {
             self.note_impulse(energy_lost);
             for (index, (joint, _)) in stops.into_iter().enumerate() {

@@ -5,7 +5,7 @@ use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::rules::{Decisions, EventInstant};
-use crate::motion::decision::{Impact, TOUCHES, impact, phase_state};
+use crate::motion::decision::{Impact, TOUCHES, impact, relative_velocities, sliding_accelerations};
 use crate::motion::moving::cause::Cause;
 
 /// A joint that has reached an end stop.
@@ -72,22 +72,24 @@ fn flies(
     decisions: &mut dyn Decisions,
 ) -> Result<bool, Faults> {
     let joints = crate::motion::moving::equations::sliding_joints(mechanism);
-    let sliders = joints.iter().filter_map(|joint| mechanism.slider(*joint));
-    let velocities: Vec<f64> = sliders.map(|slider| after.sliding(mechanism, slider).1).collect();
+    let velocities = relative_velocities(mechanism, after);
     let Some(index) = joints.iter().position(|joint| *joint == hit.joint) else { return Ok(true) };
     let signs: Vec<f64> =
         velocities.iter().map(|velocity| if *velocity == 0.0 { 0.0 } else { velocity.signum() }).collect();
+    let (signs, spins) = signs.split_at(joints.len());
     let instant = EventInstant {
         mechanism,
         configuration: after,
-        signs: &signs,
-        spins: &[],
+        signs,
+        spins,
         zero: &[],
         rounding: 0.0,
         previous: None,
     };
     let Some(next) = decisions.successors(&instant)?.list.into_iter().next() else { return Ok(true) };
-    let Some(state) = phase_state(mechanism, after, &next.phase)? else { return Ok(true) };
-    let towards = state.sliding_accelerations[index] * if hit.greatest { 1.0 } else { -1.0 };
+    let Some(accelerations) = sliding_accelerations(mechanism, after, &next.phase)? else {
+        return Ok(true);
+    };
+    let towards = accelerations[index] * if hit.greatest { 1.0 } else { -1.0 };
     Ok(towards <= 0.0 || velocities[index].powi(2) > 2.0 * towards * TOUCHES * mechanism.size)
 }

@@ -14,7 +14,7 @@ fn run(text: &str, duration: f64) -> History {
 }
 
 /// The impact of joints, by their names, with these coefficients of restitution, in the state of a model.
-fn impact_of(text: &str, stops: &[(&str, f64)]) -> Impact {
+pub(super) fn impact_of(text: &str, stops: &[(&str, f64)]) -> Impact {
     let mechanism = mechanism_of(text);
     let configuration = Configuration::new(&mechanism).unwrap();
     let joint = |name: &str| mechanism.joints.iter().position(|joint| &*joint.name == name).map(JointId);
@@ -22,11 +22,11 @@ fn impact_of(text: &str, stops: &[(&str, f64)]) -> Impact {
     impact(&mechanism, &configuration, &stops).unwrap()
 }
 
-fn impulses(impact: &Impact) -> Vec<f64> {
+pub(super) fn impulses(impact: &Impact) -> Vec<f64> {
     impact.blows.iter().flat_map(|blow| blow.stops.iter().map(|(_, impulse)| *impulse)).collect()
 }
 
-fn close(found: &[f64], expected: &[f64], tolerance: f64) {
+pub(super) fn close(found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
     for (one, other) in found.iter().zip(expected) {
         assert!((one - other).abs() <= tolerance, "{found:?} {expected:?}");
@@ -152,7 +152,7 @@ rate = "2 m/s"
 }
 
 /// Two sliders joined by a massless rod, as in a trammel; more of the upright one.
-fn trammel(mu: f64, upright: &str) -> String {
+pub(super) fn trammel(mu: f64, upright: &str) -> String {
     format!(
         r#"
 [points]

@@ -9,6 +9,7 @@ mod fast_loads;
 mod friction_laws;
 mod gaps;
 mod impacts;
+mod impacts_with_hinges;
 mod layers;
 mod limits;
 mod mechanisms;

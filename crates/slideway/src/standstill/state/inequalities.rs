@@ -42,6 +42,7 @@ impl State<'_> {
                 ));
             }
         }
+        slacks.extend(self.pushes().into_iter().flatten());
         slacks.extend(self.beginning());
         let functions = slacks.iter().map(|slack| self.function(slack)).collect();
         Region::new(self.solutions.dimension(), functions).with_pins(self.pins(&static_friction.radii))

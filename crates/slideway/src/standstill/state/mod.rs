@@ -53,6 +53,8 @@ pub(super) struct State<'s> {
     between: Vec<Option<usize>>,
     /// The couple of each hinge with friction, an unknown.
     couples: Vec<usize>,
+    /// The force of the end stop of each sliding joint that sticks at it or is pushed by it, an unknown.
+    stops: Vec<Option<usize>>,
     columns: usize,
     solutions: AffineSet,
 }
@@ -67,6 +69,7 @@ impl<'s> State<'s> {
             friction: Vec::new(),
             between: Vec::new(),
             couples: Vec::new(),
+            stops: Vec::new(),
             columns: 0,
             solutions: AffineSet::empty(),
         };
@@ -76,6 +79,7 @@ impl<'s> State<'s> {
         let first_couple = state.columns;
         state.columns += setup.mechanism.friction_circles.len();
         state.couples = (first_couple..state.columns).collect();
+        state.stops = (0..setup.sliders.len()).map(|slider| state.new_stop(slider)).collect();
         state.columns += usize::from(question.factor.is_none());
         let (matrix, right_hand_side) = state.equations();
         state.solutions = AffineSet::of(matrix, right_hand_side)?;
@@ -111,6 +115,14 @@ impl<'s> State<'s> {
                 self.columns += 1;
                 self.columns - 1
             })
+        })
+    }
+
+    fn new_stop(&mut self, slider: usize) -> Option<usize> {
+        let is_bound = self.pattern.joints[slider] == JointPhase::Sticking || self.setup.known[slider].pushed;
+        (self.setup.stops[slider] != 0.0 && is_bound).then(|| {
+            self.columns += 1;
+            self.columns - 1
         })
     }
 
@@ -238,6 +250,12 @@ impl<'s> State<'s> {
                 matrix[(row, unknown)] -= sign * unit * setup.units.length;
             }
         }
+        for (slider, &unknown) in self.stops.iter().enumerate() {
+            if let Some(unknown) = unknown {
+                let away = setup.row(slider).transpose() * -setup.stops[slider];
+                matrix.column_mut(unknown).axpy(-unit, &away, 1.0);
+            }
+        }
         if let Some(load) = &setup.load {
             if let Some(factor) = self.question.factor {
                 right_hand_side += &load.forces * factor;
@@ -249,8 +267,8 @@ impl<'s> State<'s> {
         (matrix, right_hand_side)
     }
 
-    /// G a = gamma, C a = prescribed and, for joints and hinges that stick, S_j a + sigma_j = 0; what does not depend on
-    /// accelerations is zero at rest.
+    /// G a = gamma, C a = prescribed and, for joints and hinges that stick or are pushed by their stops, S_j a + sigma_j = 0;
+    /// what does not depend on accelerations is zero at rest.
     fn kinematics(&self) -> Vec<(DVector<f64>, f64)> {
         let setup = self.setup;
         let rows = setup.equations_of_motion();
@@ -263,7 +281,7 @@ impl<'s> State<'s> {
         }
         let sticks = |acceleration: AffineExpression| (self.dense(&acceleration), -acceleration.constant);
         for (index, joint) in self.pattern.joints.iter().enumerate() {
-            if *joint == JointPhase::Sticking {
+            if *joint == JointPhase::Sticking || setup.known[index].pushed {
                 found.push(sticks(self.sliding_acceleration(index)));
             }
         }
@@ -385,6 +403,11 @@ impl State<'_> {
     /// The couple of a hinge with friction, on its first body.
     pub(super) fn friction_couple(&self, hinge: usize) -> AffineExpression {
         AffineExpression::unknown(self.couples[hinge], 1.0)
+    }
+
+    /// The force of the end stop of each sliding joint that sticks at it or is pushed by it; nothing of the others.
+    pub(super) fn pushes(&self) -> Vec<Option<AffineExpression>> {
+        self.stops.iter().map(|stop| stop.map(|unknown| AffineExpression::unknown(unknown, 1.0))).collect()
     }
 
     /// The force of each hinge with friction on its first body (N).

@@ -1,0 +1,274 @@
+//! Impacts on end stops: the impulses of the stops, with friction impulses at all sliding joints and turning hinges.
+//!
+//! What a stop does, and the course of an impact, are here; which impulses are possible is in `sliders.rs`, and with friction
+//! in hinges in `hinges.rs`.
+
+mod hinges;
+mod sliders;
+
+use super::MOST_STATES;
+use super::impulse::AT_REST;
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::JointId;
+use crate::mechanism::Mechanism;
+use nalgebra::DVector;
+
+/// The effect of an impact on end stops.
+#[derive(Debug, Clone)]
+pub struct Impact {
+    /// The mechanism afterwards: the same positions, new velocities.
+    pub after: Configuration,
+    /// The blows, one for each set of joints that act on one another; they are independent. With friction in hinges one for
+    /// all.
+    pub blows: Vec<Blow>,
+}
+
+/// The impact of joints that act on one another.
+#[derive(Debug, Clone)]
+pub struct Blow {
+    /// The joints, each with the impulse with which its stop pushes (N s).
+    pub stops: Vec<(JointId, f64)>,
+    /// Kinetic energy before minus kinetic energy afterwards (J).
+    pub energy_lost: f64,
+}
+
+/// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution
+/// `e`: its sliding velocity changes from `v` to `-e v`.
+///
+/// A stop pushes along the centre line of the guide, between block and guide, with an impulse `P` that grows
+/// during the impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary Part, chapter IV). Loads
+/// and preloads are negligible; meanwhile velocities change according to
+///
+/// ```text
+/// M v' - G^T Lambda' - B U' - sum_k W_k Phi_k' - sum_j e_j K_j' = sum_i W_stop,i P_i'      G v' = 0      C v' = 0      P_i' >= 0
+/// Phi_k' = mu_k |Lambda_k'| s_k of joints that slide,    |Phi_k'| <= mu_static_k |Lambda_k'| of those at rest that stay so
+/// K_j' = -r_j |R_j'| sgn(omega_j) of hinges that turn,   |K_j'| <= r_static_j |R_j'| of those at rest that stay so
+/// ```
+///
+/// which is the mode problem of impulses. It is constant until a sliding or angular velocity reaches zero, and is then
+/// decided anew. A joint slides first against its stop and then away from it, so its friction reverses within
+/// the impact. If there are several possible answers, the one with the greatest margin is used; with friction in hinges that in
+/// which more of what is at rest stays so. Coefficients of friction are those at the velocities before the impact.
+///
+/// Stops that are reached together act together: the velocities `v_i` towards them change to `-e_i v_i` in
+/// proportion. A stop may also exert no impulse, if the others move its joint away from it at least as fast:
+/// `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau).
+/// Without friction this is a linear complementarity problem with a unique outcome, which removes a kinetic
+/// energy of `sum_i P_i (1 - e_i) v_i/2`. All choices of the stops that push are tried.
+///
+/// # Errors
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are
+/// tried, an impact in which friction leaves the stops no impulse, and one with several possible outcomes.
+pub fn impact(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    stops: &[(JointId, f64)],
+) -> Result<Impact, Faults> {
+    if mechanism.friction_circles.is_empty() {
+        sliders::impact(mechanism, configuration, stops)
+    } else {
+        hinges::impact(mechanism, configuration, stops)
+    }
+}
+
+/// A joint that has reached its stop.
+#[derive(Debug, Clone, Copy)]
+struct Hit {
+    id: JointId,
+    /// Its number among the sliding joints.
+    joint: usize,
+    restitution: f64,
+}
+
+/// Those of the joints with stops that move; one that rests at its stop stays or leaves like any joint at rest.
+fn hits(stops: &[(JointId, f64)], joints: &[JointId], velocities: &[f64]) -> Vec<Hit> {
+    let hit = |&(id, restitution): &(JointId, f64)| {
+        let joint = joints.iter().position(|joint| *joint == id)?;
+        (velocities[joint] != 0.0).then_some(Hit { id, joint, restitution })
+    };
+    stops.iter().filter_map(hit).collect()
+}
+
+/// The progress of an impact.
+#[derive(Debug, Clone)]
+struct AfterImpact {
+    /// The velocities (m/s), exactly zero where a joint or hinge has stopped.
+    velocities: Vec<f64>,
+    /// The jumps of all velocities of the bodies.
+    jumps: DVector<f64>,
+    /// Of the stops (N s).
+    impulses: Vec<f64>,
+}
+
+/// By how much everything changes while the velocities of some joints go to their targets.
+struct Change {
+    /// The velocities (m/s); exactly zero where something sticks.
+    velocities: Vec<f64>,
+    /// The velocities of the bodies.
+    jumps: DVector<f64>,
+    /// The impulses of the stops of those joints (N s).
+    impulses: Vec<f64>,
+}
+
+/// The impulses that are possible in a mechanism some of whose joints are pushed by their stops.
+trait Pushed {
+    /// Whether friction or a stop acts while a velocity is zero.
+    fn rubs(&self, joint: usize) -> bool;
+
+    /// The whole change from these velocities to the targets of the joints that are pushed; `None` if none is admissible. What
+    /// was not decided is counted.
+    ///
+    /// # Errors
+    /// More states than are tried, or several changes.
+    fn change(
+        &self,
+        velocities: &[f64],
+        targets: &[(usize, f64)],
+        unsolved: &mut usize,
+    ) -> Result<Option<Change>, Faults>;
+}
+
+/// Joints that reach their stops together.
+struct Collision<'c> {
+    mechanism: &'c Mechanism,
+    hits: &'c [Hit],
+    /// For each, whether its stop pushes.
+    pushes: Vec<bool>,
+    /// The velocities of the sliding joints (m/s), then of hinges with friction, in sizes of the mechanism; exactly zero where
+    /// they are only rounding.
+    velocities: &'c [f64],
+    /// Components of the jumps.
+    size: usize,
+}
+
+/// The unique outcome of a collision; `attempt` is the outcome if exactly some of the stops push.
+///
+/// # Errors
+/// There is no outcome, or there are several.
+fn outcome(
+    mut collision: Collision<'_>,
+    attempt: impl Fn(&Collision<'_>, &mut usize) -> Result<Option<AfterImpact>, Faults>,
+) -> Result<AfterImpact, Faults> {
+    let hits = collision.hits.len();
+    let choices = collision.hits.iter().fold(1_u64, |choices, _| choices.saturating_mul(2));
+    if choices > MOST_STATES {
+        let kind = FaultKind::TooManyStates { states: choices, limit: MOST_STATES };
+        return Err(Fault::general(kind).into());
+    }
+    let mut found: Option<AfterImpact> = None;
+    let mut unsolved = 0;
+    // All stops together are tried first.
+    for choice in (1..choices).rev() {
+        collision.pushes = (0..hits).map(|hit| choice >> hit & 1 == 1).collect();
+        let Some(other) = attempt(&collision, &mut unsolved)? else { continue };
+        let differs = |found: &AfterImpact| {
+            let velocities = found.velocities.iter().zip(&other.velocities);
+            velocities.into_iter().any(|(one, other)| collision.without_rounding(one - other) != 0.0)
+        };
+        if found.as_ref().is_some_and(differs) {
+            return Err(collision.several());
+        }
+        found.get_or_insert(other);
+    }
+    let joints = collision.joints();
+    let kind =
+        if unsolved > 0 { FaultKind::UnsolvedImpact { joints } } else { FaultKind::ImpactWedges { joints } };
+    found.ok_or_else(|| Fault::general(kind).into())
+}
+
+impl Collision<'_> {
+    /// The names of the joints.
+    fn joints(&self) -> Vec<String> {
+        self.hits.iter().map(|hit| self.mechanism.joints[hit.id.index()].name.to_string()).collect()
+    }
+
+    /// The fault of several outcomes.
+    fn several(&self) -> Faults {
+        Fault::general(FaultKind::SeveralImpacts { joints: self.joints() }).into()
+    }
+
+    /// Velocities closer to zero than this are rounding (m/s).
+    fn rounding(&self) -> f64 {
+        AT_REST * self.velocities.iter().fold(0.0_f64, |greatest, velocity| greatest.max(velocity.abs()))
+    }
+
+    fn without_rounding(&self, velocity: f64) -> f64 {
+        if velocity.abs() <= self.rounding() { 0.0 } else { velocity }
+    }
+
+    /// The outcome of the impact; `None` unless exactly these stops can push.
+    fn outcome(&self, pushed: &dyn Pushed, unsolved: &mut usize) -> Result<Option<AfterImpact>, Faults> {
+        let mut course = AfterImpact {
+            velocities: self.velocities.to_vec(),
+            jumps: DVector::zeros(self.size),
+            impulses: vec![0.0; self.hits.len()],
+        };
+        let before = self.velocities;
+        let pushing = self.hits.iter().zip(&self.pushes).filter(|(_, pushes)| **pushes);
+        let target = |(hit, _): (&Hit, _)| (hit.joint, -hit.restitution * before[hit.joint]);
+        if !self.follow(pushed, &mut course, &pushing.map(target).collect::<Vec<_>>(), unsolved)? {
+            return Ok(None);
+        }
+        let leaves = |hit: &Hit| {
+            let (before, after) = (before[hit.joint], course.velocities[hit.joint]);
+            -before.signum() * after >= hit.restitution * before.abs() - self.rounding()
+        };
+        Ok(self.hits.iter().all(leaves).then_some(course))
+    }
+
+    /// Follows an impact until the joints have reached their velocities, in proportion; `false` if no impulse
+    /// leads there. Every part except the last brings another joint or hinge to rest.
+    fn follow(
+        &self,
+        pushed: &dyn Pushed,
+        course: &mut AfterImpact,
+        targets: &[(usize, f64)],
+        unsolved: &mut usize,
+    ) -> Result<bool, Faults> {
+        let mut parts = 0..=4 * course.velocities.len();
+        while targets.iter().any(|(joint, target)| course.velocities[*joint] != *target) {
+            course.velocities.iter_mut().for_each(|velocity| *velocity = self.without_rounding(*velocity));
+            let Some(change) = pushed.change(&course.velocities, targets, unsolved)? else {
+                return Ok(false);
+            };
+            if parts.next().is_none() {
+                return Ok(false);
+            }
+            let (part, stops) = until_one_stops(pushed, &course.velocities, &change.velocities, targets);
+            course
+                .velocities
+                .iter_mut()
+                .zip(&change.velocities)
+                .for_each(|(velocity, change)| *velocity += part * change);
+            match stops {
+                Some(other) => course.velocities[other] = 0.0,
+                None => targets.iter().for_each(|(joint, target)| course.velocities[*joint] = *target),
+            }
+            course.jumps += change.jumps * part;
+            let mut impulses = change.impulses.into_iter();
+            for (impulse, _) in course.impulses.iter_mut().zip(&self.pushes).filter(|(_, pushes)| **pushes) {
+                *impulse += part * impulses.next().unwrap_or(0.0);
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The fraction of the change until another joint or hinge stops, and which; the whole if none does.
+fn until_one_stops(
+    pushed: &dyn Pushed,
+    velocities: &[f64],
+    changes: &[f64],
+    targets: &[(usize, f64)],
+) -> (f64, Option<usize>) {
+    let mut first = (1.0, None);
+    for (joint, (velocity, change)) in velocities.iter().zip(changes).enumerate() {
+        let part = -velocity / change;
+        let ends_there = targets.contains(&(joint, 0.0));
+        if !ends_there && pushed.rubs(joint) && *velocity != 0.0 && part >= 0.0 && part < first.0 {
+            first = (part, Some(joint));
+        }
+    }
+    first
+}
