@@ -419,13 +419,14 @@ MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force"
 - `"pressure"`: Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
 - `"efficiency"`: Not a factor but the least efficiency."""
 
-MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses", "floats"]
+MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses", "floats", "friction_in_hinges"]
 """Why margins of friction were not computed.
 
 - `"too_many_modes"`: There are too many modes.
 - `"between_faces"`: A guided slider is between its faces, which is no mode that could be followed.
 - `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face.
-- `"floats"`: The block floats within the play of redundant guides."""
+- `"floats"`: The block floats within the play of redundant guides.
+- `"friction_in_hinges"`: Solutions with friction in hinges are not followed all together."""
 
 MetEnd = Literal["range", "margin", "jump", "no_position"]
 """Why an interval ends in which the wanted margin is met.
@@ -2566,7 +2567,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"steps_from_drawing": None, "patterns": None, "margins": None, "margins_missing": None, "from_rest": None, "sharing": None, "uncertainty": None}
+    _absent = {"steps_from_drawing": None, "patterns": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2620,6 +2621,10 @@ class SolveReport(_mixins.SolveReport, Report):
     """By which factors all friction may grow; absent if that was not computed."""
     margins_missing: MarginsMissing | None
     """Why there are no margins; absent where there are, and where they were not asked for."""
+    unique_at_least: float | None
+    """With friction in hinges: all friction may grow at least by this factor while every load is proven to have
+    exactly one solution. A lower bound: beyond it nothing is known. Absent without friction in hinges, where
+    it is not proven, and where margins were not asked for."""
     from_rest: FromRest | None
     """Where some coordinate slows down: what the same loads do from rest in the same position; absent where it
     was not asked (margins are not, drives prescribe the motion)."""

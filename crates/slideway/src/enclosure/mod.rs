@@ -33,7 +33,9 @@ mod coefficients;
 mod motion;
 mod outputs;
 
-pub(crate) use blocks::{BlockCoefficients, TurningHinge, enclosed_block_problem, spin};
+pub(crate) use blocks::{
+    BlockCoefficients, EnclosedBlockProblem, TurningHinge, enclosed_block_problem, spin,
+};
 pub use outputs::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, Tipping};
 
 use crate::configuration::Configuration;

@@ -134,6 +134,11 @@ pub struct SolveReport {
     /// Why there are no margins; absent where there are, and where they were not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins_missing: Option<MarginsMissing>,
+    /// With friction in hinges: all friction may grow at least by this factor while every load is proven to have exactly
+    /// one solution. A lower bound: beyond it nothing is known. Absent without friction in hinges, where it is not proven,
+    /// and where margins were not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unique_at_least: Option<f64>,
     /// Where some coordinate slows down: what the same loads do from rest in the same position; absent where
     /// it was not asked (margins are not, drives prescribe the motion).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -358,6 +363,8 @@ pub enum MarginsMissing {
     NothingPresses,
     /// The block floats within the play of redundant guides.
     Floats,
+    /// Solutions with friction in hinges are not followed all together.
+    FrictionInHinges,
 }
 
 impl MarginsMissing {
@@ -368,6 +375,9 @@ impl MarginsMissing {
             Self::BetweenFaces => "a guided slider is between its faces",
             Self::Floats => "the block floats within its play",
             Self::NothingPresses => "nothing presses a contact whose preload differs by side",
+            Self::FrictionInHinges => {
+                "hinges have friction (`slideway limits` with `--vary friction=1..10` tells when the number of solutions changes)"
+            }
         }
     }
 }

@@ -276,7 +276,12 @@ impl Text<'_> {
 
     fn margins(&mut self) {
         let Some(margins) = &self.report.margins else {
-            if let Some(reason) = self.report.margins_missing {
+            if let Some(factor) = self.report.unique_at_least {
+                self.line(&format!(
+                    "Margins, if all friction grows: every load has exactly one solution up to a factor of at least {}; what is beyond was not computed.",
+                    number(factor)
+                ));
+            } else if let Some(reason) = self.report.margins_missing {
                 self.line(&format!("Margins of friction: not computed, {}.", reason.in_words()));
             }
             return;

@@ -141,6 +141,7 @@ impl<'a> Answer<'a> {
             jammed_groups: Vec::new(),
             margins: None,
             margins_missing: None,
+            unique_at_least: None,
             from_rest: None,
             sharing: None,
             uncertainty: None,

@@ -8,6 +8,7 @@ mod dead_centre;
 mod from_rest;
 mod gallery;
 mod limits;
+mod margins;
 mod motion;
 mod random_linkages;
 mod reading;

@@ -3,9 +3,11 @@
 use super::super::stages::Stages;
 use super::branches::GrowingFriction;
 use super::spin::{Spins, spins};
-use crate::enclosure::TurningHinge;
+use crate::enclosure::{TurningHinge, UncertainParameters};
 use crate::fault::Faults;
+use crate::interval::Interval;
 use crate::mechanism::Mechanism;
+use crate::model::Model;
 use crate::modes::SearchOptions;
 use crate::modes::blocks::{self, BlockSolution, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
@@ -28,6 +30,8 @@ const NODES: u64 = 2_000;
 const BRANCHES: usize = 64;
 /// Even steps of friction that falls.
 const FALLING: usize = 40;
+/// How often the range of the logarithm of the factor is halved in search of the one up to which there is one solution.
+const HALVINGS: usize = 24;
 
 /// A number of solutions.
 enum Number {
@@ -111,6 +115,32 @@ impl<'a> Growth<'a> {
         })
     }
 
+    /// A factor of all friction above 1 up to which every load has exactly one solution, rounded down; none if that does
+    /// not show.
+    fn unique_until(&self) -> Option<f64> {
+        let [mut unique, mut open] = [0.0, INFINITY.ln()];
+        if !self.is_unique(unique) {
+            return None;
+        }
+        if self.is_unique(open) {
+            return Some(INFINITY);
+        }
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(unique, open);
+            *(if self.is_unique(middle) { &mut unique } else { &mut open }) = middle;
+        }
+        Some(rounded_down(unique.exp())).filter(|factor| *factor > 1.0)
+    }
+
+    /// A factor of all friction above 1 up to which every load is proven to have exactly one solution in the exact
+    /// mechanism; none if it is not proven. What proves it grows with friction, so that it holds below, too.
+    pub(super) fn unique_at_least(&self, model: &Model, uncertain: &UncertainParameters) -> Option<f64> {
+        let factor = self.unique_until()?;
+        let uncertain = uncertain.clone().with_friction(Interval::point(factor));
+        let enclosed = self.friction.enclosed(model, &uncertain).ok()?;
+        unique_for_every_load(&enclosed.problem).map(|_| factor)
+    }
+
     /// The number of solutions at the second of two logarithms of the factor, or in between if it is another one there,
     /// reached from the only one at the first; none if that is not decided.
     fn number_beyond(&self, mut only: Box<BlockSolution>, [from, to]: [f64; 2]) -> Option<Number> {
@@ -176,6 +206,12 @@ impl<'a> Growth<'a> {
         let found = branches(&family, &options, work).branches;
         found.iter().map(|branch| branch.to.end.at).fold(0.0, f64::max)
     }
+}
+
+/// A number of at least 1, rounded down to four significant digits, or to a whole number.
+fn rounded_down(number: f64) -> f64 {
+    let scale = [1e3, 1e2, 1e1].into_iter().find(|scale| number * scale < 1e4).unwrap_or(1.0);
+    (number * scale).floor() / scale
 }
 
 /// How many of these growing factors of all friction come before another number of solutions than one: the only solution is

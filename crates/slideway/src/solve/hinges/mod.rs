@@ -27,7 +27,7 @@ use crate::model::Model;
 use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
 use crate::progress::Callback;
-use crate::report::SolveReport;
+use crate::report::{MarginsMissing, SolveReport};
 pub(crate) use found::directions;
 use found::{BlocksFound, HingedAnswer};
 use margins::Growth;
@@ -76,7 +76,16 @@ pub(super) fn solve(
     let found =
         BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most, has_ranges };
     let growth = options.margins.then(|| Growth::new(stages, &turning)).transpose()?;
-    Ok(HingedAnswer { answer, problem: &problem, hinges: &turning, growth }.report(&found))
+    let unique_at_least = growth
+        .as_ref()
+        .filter(|_| result.unique_for_every_load.is_some())
+        .and_then(|growth| growth.unique_at_least(model, uncertain));
+    let answer = HingedAnswer { answer, problem: &problem, hinges: &turning, growth };
+    Ok(SolveReport {
+        unique_at_least,
+        margins_missing: options.margins.then_some(MarginsMissing::FrictionInHinges),
+        ..answer.report(&found)
+    })
 }
 
 /// The block mode problem of a model with friction in hinges, in floating point: a problem with exact numbers, which
