@@ -3,12 +3,13 @@
 use nalgebra::DVector;
 
 use super::at_most_one::weights_of_contraction;
-use super::equations::{Piece, residual};
+use super::equations::Piece;
 use super::problem::BlockProblem;
 use super::uniqueness::block_norms;
 use super::zero::{newton, start};
-use crate::interval::{Interval, Real};
-use crate::interval_matrix::upper_product;
+use crate::interval::Interval;
+use crate::interval_matrix::{rounding, upper_product};
+use crate::problem::Side;
 
 /// The only solution of a block problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,14 +60,39 @@ pub fn only_solution(problem: &BlockProblem, near: Option<&[f64]>) -> Option<Onl
     let from = near.filter(|near| near.len() == problem.rows());
     let begin = from.map(DVector::from_column_slice).or_else(|| start(problem, &everything))?;
     let point = newton(problem, &everything.states, begin)?;
-    let residual = residual::<Interval>(problem, &everything.states, &point);
+    let residual = residual_bounds(problem, &point);
     let of_block = |block: usize| {
-        let rows = problem.rows_of(block).map(|row| residual[row]);
-        rows.reduce(Interval::hypot).map_or(0.0, Interval::magnitude)
+        let length = problem.rows_of(block).map(|row| residual[row]).reduce(f64::hypot).unwrap_or(0.0);
+        length * (1.0 + rounding(0))
     };
     let part = |block: usize| Interval::point(of_block(block)) / Interval::point(weights[block]);
     let largest = (0..problem.blocks()).map(|block| part(block).upper()).fold(0.0, f64::max);
     let bound = Interval::point(largest) * gain;
     let errors = weights.iter().map(|weight| (bound * Interval::point(*weight)).upper()).collect();
     Some(OnlySolution { point: point.as_slice().to_vec(), errors })
+}
+
+/// Upper bounds on what a point leaves of each equation, `|x - b - H w|`, for all values within the bounds of a problem
+/// without jumps: the rounded sum, its rounding error, and what the radii of the data add.
+fn residual_bounds(problem: &BlockProblem, point: &DVector<f64>) -> DVector<f64> {
+    let contacts = problem.contacts();
+    let length = |block: usize| problem.rows_of(block).map(|row| point[row].abs()).reduce(f64::hypot);
+    let lengths: Vec<f64> = (0..problem.blocks()).map(|block| length(block).unwrap_or(0.0)).collect();
+    let side =
+        |block: usize| if block < contacts && point[block] < 0.0 { Side::Negative } else { Side::Positive };
+    // Each length is rounded twice as often as a number at most, and two terms stand beside the products.
+    let rounded = rounding(problem.blocks() + 4);
+    DVector::from_fn(problem.rows(), |row, _| {
+        let load = problem.load().centre()[(row, 0)];
+        let (mut sum, mut size) = (point[row] - load, point[row].abs() + load.abs());
+        let mut spread = problem.load().radius()[(row, 0)];
+        for (block, length) in lengths.iter().enumerate() {
+            let response = problem.response(side(block));
+            let term = response.centre()[(row, block)] * length;
+            sum -= term;
+            size += term.abs();
+            spread += response.radius()[(row, block)] * length;
+        }
+        (sum.abs() + rounded * size + spread) * (1.0 + 2.0 * rounded) + f64::MIN_POSITIVE
+    })
 }
