@@ -148,13 +148,8 @@ pub fn solve_with(
     let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
     if stages.mechanism.rough_hinges().next().is_some() {
-        let mut report = hinges::solve(
-            model,
-            (&middle(&ranges), !ranges.is_empty()),
-            (&stages, &equations),
-            options,
-            progress,
-        )?;
+        let mut report =
+            hinges::solve(model, (&middle(&ranges), &ranges), (&stages, &equations), options, progress)?;
         report.rates_not_given = rates_not_given(model);
         if options.margins {
             from_rest::add(&mut report, model, progress);

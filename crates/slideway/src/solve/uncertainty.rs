@@ -19,15 +19,15 @@ use std::collections::BTreeMap;
 const BOXES: usize = 255;
 
 /// What is known of one mode in one box.
-struct Presence {
+pub(super) struct Presence {
     /// Whether it exists for all values; else perhaps for some.
-    certain: bool,
-    /// Bounds of `y_k`, or of the share of a contact in its gap.
-    unknowns: Option<Vec<Interval>>,
+    pub(super) certain: bool,
+    /// Bounds of `y_k`, or of the share of a contact in its gap, perhaps with further unknowns behind them.
+    pub(super) unknowns: Option<Vec<Interval>>,
 }
 
 /// What is known of a box: its modes, or why it could not be searched.
-type Searched = Result<BTreeMap<Vec<ContactState>, Presence>, String>;
+pub(super) type Searched = Result<BTreeMap<Vec<ContactState>, Presence>, String>;
 
 /// What is known of one mode over all boxes.
 struct Record {
@@ -44,18 +44,30 @@ impl Answer<'_> {
         options: &SolveOptions,
         progress: &mut Callback<'_>,
     ) -> Option<report::Uncertainty> {
-        if ranges.is_empty() {
-            return None;
-        }
-        let mut search_box = |values: &[Interval]| -> Searched {
-            let named = ranges.iter().zip(values);
-            let uncertain = named
-                .fold(UncertainParameters::default(), |all, (range, &value)| all.with(&range.name, value));
-            let enclosed = enclosure(model, &uncertain, self.mechanism, self.configuration)
+        self.uncertainty_over(ranges, &mut |uncertain: &UncertainParameters| {
+            let enclosed = enclosure(model, uncertain, self.mechanism, self.configuration)
                 .map_err(|reason| reason.to_string())?;
             let result = search(&enclosed.problem, &options.search, progress);
             self.presences(&enclosed, &result, options)
-        };
+        })
+    }
+
+    /// The same with that search of a box; none without ranges.
+    pub(super) fn uncertainty_over(
+        &self,
+        ranges: &[ParameterRange],
+        search_box: &mut dyn FnMut(&UncertainParameters) -> Searched,
+    ) -> Option<report::Uncertainty> {
+        if ranges.is_empty() {
+            return None;
+        }
+        let mut search_box =
+            |values: &[Interval]| -> Searched {
+                let named = ranges.iter().zip(values);
+                search_box(&named.fold(UncertainParameters::default(), |all, (range, &value)| {
+                    all.with(&range.name, value)
+                }))
+            };
         let searched = subdivide(ranges, &mut search_box);
         Some(self.summary(ranges, &searched))
     }

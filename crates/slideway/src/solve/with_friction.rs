@@ -30,7 +30,7 @@ pub(crate) fn solve_with_friction(
         let equations = KineticEquations::new(&stages.mechanism, configuration)?;
         let uncertain = UncertainParameters::default().with_friction(Interval::point(factor));
         let options = options.margins(false);
-        let report = hinges::solve(model, (&uncertain, false), (&stages, &equations), &options, progress)?;
+        let report = hinges::solve(model, (&uncertain, &[]), (&stages, &equations), &options, progress)?;
         return finite(report);
     }
     let mechanism = rougher(&stages.mechanism, &|_| factor);

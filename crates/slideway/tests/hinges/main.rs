@@ -16,3 +16,4 @@ mod reference;
 mod standstill;
 mod tables;
 mod turning;
+mod uncertainty;

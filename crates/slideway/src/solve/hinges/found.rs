@@ -22,8 +22,6 @@ pub(super) struct BlocksFound<'f> {
     pub(super) rounded: Option<&'f NotEnclosed>,
     /// The most solutions that are listed.
     pub(super) most: usize,
-    /// Whether parameters are known within bounds.
-    pub(super) has_ranges: bool,
 }
 
 impl BlocksFound<'_> {
@@ -50,9 +48,6 @@ impl BlocksFound<'_> {
         open.extend(
             self.rounded.map(|reason| format!("what is proven holds for rounded numbers only: {reason}")),
         );
-        if self.has_ranges {
-            open.push("parameters known within bounds are taken at the middle of their ranges".to_owned());
-        }
         open
     }
 }

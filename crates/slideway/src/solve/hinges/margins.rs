@@ -31,7 +31,7 @@ const BRANCHES: usize = 64;
 /// Even steps of friction that falls.
 const FALLING: usize = 40;
 /// How often the range of the logarithm of the factor is halved in search of the one up to which there is one solution.
-const HALVINGS: usize = 24;
+const HALVINGS: usize = 18;
 
 /// A number of solutions.
 enum Number {

@@ -7,6 +7,7 @@ mod margins;
 mod spin;
 mod standing;
 mod states;
+mod uncertainty;
 
 pub(crate) use spin::HingedData;
 pub(crate) use states::{HingedState, LastSolution, hinged_states};
@@ -23,7 +24,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Contact, Mechanism};
-use crate::model::Model;
+use crate::model::{Model, ParameterRange};
 use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
 use crate::progress::Callback;
@@ -36,15 +37,15 @@ use nalgebra::{DMatrix, DVector};
 pub(crate) use spin::never_turning;
 use spin::{Spins, never_turn, spins};
 
-/// All solutions of a mechanism with friction in hinges, proven for these values of the model; `has_ranges` says whether
-/// parameters are known within bounds.
+/// All solutions of a mechanism with friction in hinges, proven for these values of the model; and what the ranges of its
+/// parameters leave certain.
 ///
 /// # Errors
 /// Hinges with friction that do not turn now, or more than one that never does; friction in hinges beside guides that share a load; numbers beyond the range
 /// of floating point.
 pub(super) fn solve(
     model: &Model,
-    (uncertain, has_ranges): (&UncertainParameters, bool),
+    (uncertain, ranges): (&UncertainParameters, &[ParameterRange]),
     (stages, equations): (&Stages, &KineticEquations),
     options: &SolveOptions,
     progress: &mut Callback<'_>,
@@ -65,7 +66,13 @@ pub(super) fn solve(
     check_determinate(mechanism)?;
     let Spins { turning, standing } = spins(stages.hinged())?;
     if let ([hinge], [], true) = (&standing[..], &turning[..], contacts <= standing::MOST_CONTACTS) {
-        return standing::ranges(&answer, stages, *hinge);
+        let mut report = standing::ranges(&answer, stages, *hinge)?;
+        if !ranges.is_empty() {
+            report
+                .open
+                .push("parameters known within bounds are taken at the middle of their ranges".to_owned());
+        }
+        return Ok(report);
     }
     never_turn(mechanism, &standing)?;
     let problem = block_problem(stages.hinged(), &turning)?;
@@ -73,8 +80,7 @@ pub(super) fn solve(
     answer.enclosed = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);
-    let found =
-        BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most, has_ranges };
+    let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
     let growth = options.margins.then(|| Growth::new(stages, &turning)).transpose()?;
     let unique_at_least = growth
         .as_ref()
@@ -84,6 +90,7 @@ pub(super) fn solve(
     Ok(SolveReport {
         unique_at_least,
         margins_missing: options.margins.then_some(MarginsMissing::FrictionInHinges),
+        uncertainty: answer.uncertainty(model, ranges, options, progress),
         ..answer.report(&found)
     })
 }
