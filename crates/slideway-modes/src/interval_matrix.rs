@@ -79,6 +79,16 @@ impl IntervalMatrix {
         Self { centre: self.centre.transpose(), radius: self.radius.transpose() }
     }
 
+    /// These columns, then those of another matrix with as many rows.
+    pub(crate) fn beside(&self, other: &Self) -> Self {
+        let (rows, columns) = self.shape();
+        let joined = |one: &DMatrix<f64>, other: &DMatrix<f64>| {
+            let entries = one.iter().chain(other.iter()).copied();
+            DMatrix::from_iterator(rows, columns + other.ncols(), entries)
+        };
+        Self { centre: joined(&self.centre, &other.centre), radius: joined(&self.radius, &other.radius) }
+    }
+
     /// The matrices whose entries lie in the given intervals; `None` if one of these is unbounded.
     pub fn from_intervals(entries: &DMatrix<Interval>) -> Option<Self> {
         Self::from_bounds(&entries.map(Interval::lower), &entries.map(Interval::upper))

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Frame, Piece, Slopes, any_slope, matrix, matrix_in_frames};
+use super::equations::Piece;
+use super::frames::{Ball, Frame, matrix_in_frames};
 use super::problem::BlockProblem;
 use super::sector::Sector;
 use crate::certificate::enclose_solution;
@@ -36,44 +37,34 @@ fn is_regular_in_frames(problem: &BlockProblem, piece: &Piece) -> bool {
     let frame = |sector: &Sector| {
         let vectors = sector.frame();
         let slopes = vectors.map(|vector| {
-            let exact = vector.map(Interval::point);
-            let least = sector.least(exact, Interval::ZERO);
-            let most = -sector.least(exact.map(|value| -value), Interval::ZERO);
-            Interval::new(least, most).unwrap_or(Interval::REAL_LINE)
+            let [least, most] = [sector.least(vector), -sector.least(vector.map(|value| -value))];
+            Ball::from(Interval::new(least, most).unwrap_or(Interval::REAL_LINE))
         });
         Frame { vectors, slopes }
     };
     let frames: Vec<Frame> = piece.sectors.iter().map(frame).collect();
-    let all = matrix_in_frames(problem, &piece.states, vec![any_slope(); problem.contacts()], &frames);
+    let all = matrix_in_frames(problem, &piece.states, &vec![Ball::ANY_SLOPE; problem.contacts()], &frames);
     let nothing = IntervalMatrix::exact(DMatrix::zeros(problem.rows(), 0));
-    IntervalMatrix::from_intervals(&all).is_some_and(|all| enclose_solution(&all, &nothing).is_some())
+    all.is_some_and(|all| enclose_solution(&all, &nothing).is_some())
 }
 
-/// Whether `B u < u` for the norms of blocks.
-fn norms_contract(problem: &BlockProblem, piece: &Piece) -> bool {
-    let discs: Vec<_> = piece.sectors.iter().map(|sector| sector.disc()).collect();
-    let hinges = discs.iter().map(|(centre, _)| centre.map(Interval::point)).collect();
-    let slopes = Slopes { contacts: vec![Interval::ZERO; problem.contacts()], hinges };
-    let centre = matrix(problem, &piece.states, &slopes);
-    let Some(inverse) = centre.map(Interval::middle).try_inverse() else { return false };
-    let Some(norms) = block_norms(problem, piece, &inverse, &centre, &discs) else { return false };
-    is_contraction(&norms)
+/// Whether `B u < u` for the norms of blocks; without contacts that may jump.
+pub(super) fn norms_contract(problem: &BlockProblem, piece: &Piece) -> bool {
+    block_norms(problem, piece).is_some_and(|norms| is_contraction(&norms))
 }
 
-/// `B`; `None` if numbers overflow.
-fn block_norms(
-    problem: &BlockProblem,
-    piece: &Piece,
-    inverse: &DMatrix<f64>,
-    centre: &DMatrix<Interval>,
-    discs: &[([f64; 2], f64)],
-) -> Option<DMatrix<f64>> {
+/// `B`; `None` if numbers overflow, or `A_0` is singular.
+fn block_norms(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
     let (rows, blocks) = (problem.rows(), problem.blocks());
-    // [A_0, G]
-    let all = DMatrix::from_fn(rows, rows + blocks, |row, column| {
-        if column < rows { centre[(row, column)] } else { deviation(problem, piece, row, column - rows) }
-    });
-    let product = product(inverse, &IntervalMatrix::from_intervals(&all)?, &mut || true)?;
+    let discs: Vec<_> = piece.sectors.iter().map(|sector| sector.disc()).collect();
+    let frames: Vec<Frame> =
+        discs.iter().map(|(centre, _)| Frame::of_components(centre.map(Ball::point))).collect();
+    let even = vec![Ball::point(0.0); problem.contacts()];
+    let [matrix, deviations] =
+        [matrix_in_frames(problem, &piece.states, &even, &frames)?, deviations(problem, piece)?];
+    let inverse = matrix.centre().clone().try_inverse()?;
+    // C [A_0, G]
+    let product = product(&inverse, &matrix.beside(&deviations), &mut || true)?;
     let size = |row: usize, column: usize| {
         let identity = if row == column { 1.0 } else { 0.0 };
         (identity - product.centre()[(row, column)]).abs() + product.radius()[(row, column)]
@@ -91,14 +82,25 @@ fn block_norms(
     norms.iter().all(|value| value.is_finite()).then_some(norms)
 }
 
-/// `G_j`: the column of a hinge, or half the sum of both columns of an open contact.
-fn deviation(problem: &BlockProblem, piece: &Piece, row: usize, block: usize) -> Interval {
-    let [positive, negative] = Side::BOTH.map(|side| problem.response(side).entry(row, block));
-    match piece.states.get(block) {
-        Some(Some(_)) => Interval::ZERO,
-        Some(None) => (positive + negative) * Interval::point(0.5),
-        None => positive,
+/// `G`: the columns of hinges, and half the sums of both columns of open contacts; `None` if numbers overflow.
+fn deviations(problem: &BlockProblem, piece: &Piece) -> Option<IntervalMatrix> {
+    let [positive, negative] = Side::BOTH.map(|side| problem.response(side));
+    let mut centre = positive.centre().clone();
+    let mut radius = positive.radius().clone();
+    for (contact, state) in piece.states.iter().enumerate() {
+        for row in 0..problem.rows() {
+            let at = (row, contact);
+            if state.is_some() {
+                (centre[at], radius[at]) = (0.0, 0.0);
+            } else if centre[at] != negative.centre()[at] || radius[at] != negative.radius()[at] {
+                let half =
+                    (positive.entry(row, contact) + negative.entry(row, contact)) * Interval::point(0.5);
+                centre[at] = half.middle();
+                radius[at] = (half - Interval::point(centre[at])).magnitude();
+            }
+        }
     }
+    IntervalMatrix::around(centre, radius)
 }
 
 /// Whether the spectral radius of `B >= 0` is below 1; verified.

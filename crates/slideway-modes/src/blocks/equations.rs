@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::problem::BlockProblem;
 use super::sector::{Sector, Vector};
-use crate::interval::{Interval, Real};
+use crate::interval::Real;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{ContactState, Side};
 
@@ -33,9 +33,9 @@ impl Piece {
 }
 
 /// Slopes of `w`: those of `|N_k|` of open contacts (others are not used), and of `|R_j|`.
-pub(crate) struct Slopes<T> {
-    pub(crate) contacts: Vec<T>,
-    pub(crate) hinges: Vec<[T; 2]>,
+pub(crate) struct Slopes {
+    pub(crate) contacts: Vec<f64>,
+    pub(crate) hinges: Vec<Vector>,
 }
 
 /// An entry of the data.
@@ -50,19 +50,18 @@ pub(super) fn entry<T: Real>(matrix: &IntervalMatrix, row: usize, column: usize)
 /// ```
 ///
 /// and of one in its gap `-(d_k^+ - d_k^-)`.
-pub(crate) fn matrix<T: Real>(
+pub(crate) fn matrix(
     problem: &BlockProblem,
     states: &[Option<ContactState>],
-    slopes: &Slopes<T>,
-) -> DMatrix<T> {
+    slopes: &Slopes,
+) -> DMatrix<f64> {
     let rows = problem.rows();
-    let mut matrix = DMatrix::from_element(rows, rows, T::zero());
-    let half = T::exactly(0.5);
+    let mut matrix = DMatrix::zeros(rows, rows);
     let [positive, negative] = Side::BOTH.map(|side| problem.response(side));
     for (contact, state) in states.iter().enumerate() {
         for row in 0..rows {
-            let of = |part: &IntervalMatrix| entry::<T>(part, row, contact);
-            let identity = if row == contact { T::one() } else { T::zero() };
+            let of = |part: &IntervalMatrix| part.centre()[(row, contact)];
+            let identity = if row == contact { 1.0 } else { 0.0 };
             matrix[(row, contact)] = match state {
                 Some(ContactState::Positive) => identity - of(positive),
                 Some(ContactState::Negative) => identity + of(negative),
@@ -71,7 +70,7 @@ pub(crate) fn matrix<T: Real>(
                 }
                 None => {
                     let (plus, minus) =
-                        (half * (of(positive) + of(negative)), half * (of(positive) - of(negative)));
+                        (0.5 * (of(positive) + of(negative)), 0.5 * (of(positive) - of(negative)));
                     identity - minus - slopes.contacts[contact] * plus
                 }
             };
@@ -80,51 +79,13 @@ pub(crate) fn matrix<T: Real>(
     for (hinge, slope) in slopes.hinges.iter().enumerate() {
         for (component, at) in problem.rows_of_hinge(hinge).into_iter().enumerate() {
             for row in 0..rows {
-                let identity = if row == at { T::one() } else { T::zero() };
-                let response = entry::<T>(positive, row, problem.contacts() + hinge);
+                let identity = if row == at { 1.0 } else { 0.0 };
+                let response = positive.centre()[(row, problem.contacts() + hinge)];
                 matrix[(row, at)] = identity - response * slope[component];
             }
         }
     }
     matrix
-}
-
-/// Bounds on the slopes of a length, whatever its unknowns are.
-pub(super) fn any_slope() -> Interval {
-    (-Interval::ONE).hull(Interval::ONE)
-}
-
-/// Two vectors of equal length at right angles, along which the reaction of a hinge is told, and bounds on the products
-/// of slopes with them.
-pub(super) struct Frame {
-    pub(super) vectors: [Vector; 2],
-    pub(super) slopes: [Interval; 2],
-}
-
-/// The matrix of slopes for unknowns of hinges along the vectors of frames: with `x_j = y_1 m + y_2 n` the columns are
-/// `m - H_j (s.m)` and `n - H_j (s.n)`.
-///
-/// Slopes `s` of directions that differ from `m` by at most `d` have `cos d <= s.m <= 1`, which varies by the square of
-/// `d` only: near locking directions this decides what slopes component by component leave open.
-pub(super) fn matrix_in_frames(
-    problem: &BlockProblem,
-    states: &[Option<ContactState>],
-    contacts: Vec<Interval>,
-    frames: &[Frame],
-) -> DMatrix<Interval> {
-    let slopes = Slopes { contacts, hinges: vec![[Interval::ZERO; 2]; problem.hinges()] };
-    let mut all = matrix(problem, states, &slopes);
-    for (hinge, frame) in frames.iter().enumerate() {
-        let rows = problem.rows_of_hinge(hinge);
-        for (at, (vector, slope)) in frame.vectors.iter().zip(frame.slopes).enumerate() {
-            for row in 0..problem.rows() {
-                let own = rows.iter().position(|&own| own == row).map_or(0.0, |component| vector[component]);
-                let response = problem.response(Side::Positive).entry(row, problem.contacts() + hinge);
-                all[(row, rows[at])] = Interval::point(own) - response * slope;
-            }
-        }
-    }
-    all
 }
 
 /// `b + d`: the right-hand side for the states of a piece, in which no contact that jumps is open.

@@ -22,13 +22,14 @@
 //!
 //! # Files
 //! `problem.rs`, `result.rs`: what is given and returned. `sector.rs`: directions; `equations.rs`: a piece and
-//! its equations. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
+//! its equations; `frames.rs`: bounds on their slopes. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
 //! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load; `only.rs`: that one, for many
 //! neighbouring problems. `tree.rs`: the search; `unloaded.rs`: blocks on which nothing acts; `open.rs`: what it leaves
 //! open; `solutions.rs`: what it found.
 
 mod at_most_one;
 mod equations;
+mod frames;
 mod only;
 mod open;
 mod problem;

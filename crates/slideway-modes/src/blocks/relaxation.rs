@@ -301,8 +301,8 @@ fn excludes(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> bool {
     });
     let hinges = piece.sectors.iter().enumerate().all(|(hinge, sector)| {
         let response = times(problem.response(Side::Positive), problem.contacts() + hinge);
-        let own = problem.rows_of_hinge(hinge).map(|row| Interval::point(vector[row]));
-        is_fine(sector.least(own, response))
+        let own = sector.least(problem.rows_of_hinge(hinge).map(|row| vector[row]));
+        is_fine((Interval::point(own) - response).lower())
     });
     if !contacts || !hinges || strict {
         return contacts && hinges;

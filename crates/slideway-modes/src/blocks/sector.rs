@@ -9,6 +9,8 @@ pub(super) type Vector = [f64; 2];
 
 /// By how much an edge is turned beyond the direction that it must contain.
 const TURN: f64 = 1e-13;
+/// Above the relative rounding error of a few operations, and of a length.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// The number of rays that stand for all directions in a relaxation.
 const RAYS: usize = 8;
 
@@ -74,26 +76,31 @@ impl Sector {
         let centre = middle.map(|value| value * cos);
         let exact = centre.map(Interval::point);
         // |u - c|^2 = 1 + |c|^2 - 2 u.c
-        let nearest = Interval::point(self.least(exact, Interval::ZERO));
+        let nearest = Interval::point(self.least(centre));
         let square = Interval::ONE + exact[0].square() + exact[1].square() - nearest - nearest;
         (centre, Interval::point(square.upper().max(0.0)).sqrt().upper())
     }
 
-    /// A lower bound on `p.u - q` over all unit vectors `u` of the sector.
+    /// A lower bound on `p.u` over all unit vectors `u` of the sector.
     ///
-    /// The least value of `p.u` is `-|p|` if the direction of `-p` is in the sector, otherwise it is taken at
-    /// an edge.
-    pub(super) fn least(self, p: [Interval; 2], q: Interval) -> f64 {
-        let opposite = || -p[0].hypot(p[1]) - q;
-        let Self::Between(first, last) = self else { return opposite().lower() };
+    /// The least value is `-|p|` if the direction of `-p` is in the sector, otherwise it is taken at an edge. Products
+    /// with a zero factor are exact.
+    pub(super) fn least(self, p: Vector) -> f64 {
+        let size = length(p) * (1.0 + ROUNDING);
+        let opposite = if size == 0.0 { 0.0 } else { -size - f64::MIN_POSITIVE };
+        let Self::Between(first, last) = self else { return opposite };
         let at_edge = |edge: Vector| {
-            let edge = edge.map(Interval::point);
-            ((p[0] * edge[0] + p[1] * edge[1]) / edge[0].hypot(edge[1]) - q).lower()
+            let (value, error) = bounded(p[0], edge[0], p[1], edge[1]);
+            let length = length(edge);
+            let error = error / length + (value / length).abs() * ROUNDING;
+            if error == 0.0 { 0.0 } else { value / length - error - f64::MIN_POSITIVE }
         };
         let edges = at_edge(first).min(at_edge(last));
-        let is_outside = interval_cross(first.map(Interval::point), p).lower() > 0.0
-            || interval_cross(p, last.map(Interval::point)).lower() > 0.0;
-        if is_outside { edges } else { edges.min(opposite().lower()) }
+        let is_left = |one: Vector, other: Vector| {
+            let (value, error) = bounded(one[0], other[1], -one[1], other[0]);
+            value > error
+        };
+        if is_left(first, p) || is_left(p, last) { edges } else { edges.min(opposite) }
     }
 
     /// Rays `(x, w)` whose mixtures contain `(x, |x|)` for every `x` of the sector, up to rounding.
@@ -164,6 +171,14 @@ impl Sector {
             Self::Between(first, last) => Some([first, last]),
         }
     }
+}
+
+/// `a b + c d`, and a bound on its rounding error.
+fn bounded(a: f64, b: f64, c: f64, d: f64) -> (f64, f64) {
+    let size = |one: f64, other: f64| {
+        if one == 0.0 || other == 0.0 { 0.0 } else { (one * other).abs() * ROUNDING + f64::MIN_POSITIVE }
+    };
+    (a * b + c * d, size(a, b) + size(c, d))
 }
 
 /// Whether it is proven that the way from one vector to the other is counterclockwise and at most half a turn.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::at_most_one::has_at_most_one;
+use super::at_most_one::norms_contract;
 use super::equations::Piece;
 use super::problem::BlockProblem;
 use super::result::UniqueForEveryLoad;
@@ -25,7 +25,7 @@ pub fn unique_for_every_load(problem: &BlockProblem) -> Option<UniqueForEveryLoa
     if (0..problem.contacts()).any(|contact| problem.has_jump(contact)) {
         return None;
     }
-    if has_at_most_one(problem, &Piece::all(problem)) {
+    if norms_contract(problem, &Piece::all(problem)) {
         return Some(UniqueForEveryLoad::BlockNorms);
     }
     has_scaled_norm_below_one(problem).then_some(UniqueForEveryLoad::ScaledNorm)

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Frame, Piece, Slopes, any_slope, load, matrix, matrix_in_frames, residual};
+use super::equations::{Piece, Slopes, load, matrix, residual};
+use super::frames::{Ball, Frame, matrix_in_frames};
 use super::problem::BlockProblem;
 use super::sector::{Vector, unit};
 use crate::certificate::{Sign, enclose_solution};
@@ -103,7 +104,7 @@ pub(super) fn start(problem: &BlockProblem, piece: &Piece) -> Option<DVector<f64
 }
 
 /// The slopes at a point; of contacts and hinges without force zero.
-pub(super) fn slopes_at(problem: &BlockProblem, point: &DVector<f64>) -> Slopes<f64> {
+pub(super) fn slopes_at(problem: &BlockProblem, point: &DVector<f64>) -> Slopes {
     let sign = |value: f64| if value == 0.0 { 0.0 } else { value.signum() };
     let hinge = |hinge| unit(problem.rows_of_hinge(hinge).map(|row| point[row]));
     Slopes {
@@ -137,8 +138,8 @@ pub(super) fn prove(
             frame(rows.map(|row| point[row]), rows.map(|row| isolation[row]))
         };
         let frames: Vec<Frame> = (0..problem.hinges()).map(of_hinge).collect();
-        let matrix = matrix_in_frames(problem, states, contact_slopes(problem, &isolation), &frames);
-        let steps = enclose_solution(&IntervalMatrix::from_intervals(&matrix)?, &right)?;
+        let matrix = matrix_in_frames(problem, states, &contact_slopes(problem, &isolation), &frames)?;
+        let steps = enclose_solution(&matrix, &right)?;
         let mut enclosure: Vec<Interval> = (0..point.len()).map(|row| steps.solution.entry(row, 0)).collect();
         for (hinge, frame) in frames.iter().enumerate() {
             let rows = problem.rows_of_hinge(hinge);
@@ -179,12 +180,11 @@ fn sizes(problem: &BlockProblem, states: &[Option<ContactState>], point: &DVecto
 }
 
 /// Bounds on the slopes of contacts between any two points of a box.
-fn contact_slopes(problem: &BlockProblem, isolation: &[Interval]) -> Vec<Interval> {
-    let one = Interval::ONE;
+fn contact_slopes(problem: &BlockProblem, isolation: &[Interval]) -> Vec<Ball> {
     let slope = |value: &Interval| match value.sign() {
-        Some(Sign::Positive) => one,
-        Some(Sign::Negative) => -one,
-        _ => any_slope(),
+        Some(Sign::Positive) => Ball::point(1.0),
+        Some(Sign::Negative) => Ball::point(-1.0),
+        _ => Ball::ANY_SLOPE,
     };
     isolation[..problem.contacts()].iter().map(slope).collect()
 }
@@ -194,7 +194,7 @@ fn contact_slopes(problem: &BlockProblem, isolation: &[Interval]) -> Vec<Interva
 fn frame(reaction: Vector, isolation: [Interval; 2]) -> Frame {
     let [x, y] = isolation;
     if x.contains(0.0) && y.contains(0.0) {
-        return Frame { vectors: [[1.0, 0.0], [0.0, 1.0]], slopes: [any_slope(); 2] };
+        return Frame::of_components([Ball::ANY_SLOPE; 2]);
     }
     let [a, b] = unit(reaction);
     let vectors = [[a, b], [-b, a]];
@@ -204,7 +204,7 @@ fn frame(reaction: Vector, isolation: [Interval; 2]) -> Frame {
     });
     let length = Interval::point(a).hypot(Interval::point(b));
     let slopes = [component_of_direction(along, across), component_of_direction(across, along)];
-    Frame { vectors, slopes: slopes.map(|slope| slope * length) }
+    Frame { vectors, slopes: slopes.map(|slope| Ball::from(slope * length)) }
 }
 
 /// `x / sqrt(x^2 + y^2)` over a box without zero: it grows with `x`, and its size falls with `|y|`.

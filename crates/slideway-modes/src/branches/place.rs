@@ -86,7 +86,7 @@ impl Equations {
 }
 
 /// The slopes of hinge forces; those of contacts follow from their states.
-fn slopes(problem: &BlockProblem, z: &DVector<f64>) -> Slopes<f64> {
+fn slopes(problem: &BlockProblem, z: &DVector<f64>) -> Slopes {
     let contacts = problem.contacts();
     let least = NO_DIRECTION * z.amax();
     let hinge = |hinge: usize| {

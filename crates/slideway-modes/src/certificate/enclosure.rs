@@ -123,7 +123,12 @@ impl ApproximateInverse {
         let start = upper_sum(&[&step.bound, &self.defect_times(&step.centre.abs())]);
         let mut trial = start.map(|value| value * INFLATION + f64::MIN_POSITIVE);
         for _ in 0..INFLATIONS {
-            let needed = upper_sum(&[&start, &self.defect_times(&trial)]);
+            let image = self.defect_times(&trial);
+            if image.iter().zip(&trial).all(|(image, bound)| image >= bound) {
+                // The spectral radius of these bounds is at least 1: none contracts.
+                return None;
+            }
+            let needed = upper_sum(&[&start, &image]);
             // `start` is positive, so |I - R A| f < f also holds strictly.
             if needed.iter().zip(&trial).all(|(need, bound)| need <= bound && bound.is_finite()) {
                 return Some(BoundedVector { centre: step.centre, bound: trial });

@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::{Interval, Real, Sign};
 use crate::kinetics::Reaction;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{FrictionCircle, JointKind, Mechanism};
 use crate::model::Model;
 use crate::modes::BySide;
 use crate::modes::blocks::BlockProblem;
@@ -40,6 +40,19 @@ pub(crate) struct EnclosedBlockProblem {
     pub(crate) problem: BlockProblem,
     /// What follows from the forces.
     pub(crate) outputs: EnclosedOutputs,
+    /// The friction circles of its hinges.
+    circles: Vec<FrictionCircle<Interval>>,
+}
+
+impl EnclosedBlockProblem {
+    /// The problem with all friction multiplied by a factor; none if numbers overflow.
+    pub(crate) fn rougher(&self, factor: f64) -> Option<BlockProblem> {
+        let factor = Interval::point(factor);
+        let hinges = self.circles.iter().map(|circle| circle.rougher(factor).radius / circle.radius);
+        let factors: Vec<Interval> =
+            std::iter::repeat_n(factor, self.problem.contacts()).chain(hinges).collect();
+        self.problem.with_response_within(&factors)
+    }
 }
 
 /// What the block mode problem `x = b + d^sigma + H^sigma w` is made of: rows are the normal forces, then both
@@ -123,7 +136,13 @@ pub(crate) fn enclosed_block_problem(
         let [response, jumps] = [both(numbers.response())?, both(numbers.jumps())?];
         let problem = BlockProblem::within_bounds(response, jumps, bounded(&load)?)
             .map_err(|_| NotEnclosed::Equations)?;
-        Ok(EnclosedBlockProblem { problem, outputs: coefficients.outputs(influence, &unknowns, &rubbing) })
+        let circle = |hinge: &TurningHinge| coefficients.mechanism.friction_circles[hinge.circle];
+        let circles = hinges.iter().map(circle).collect();
+        Ok(EnclosedBlockProblem {
+            problem,
+            outputs: coefficients.outputs(influence, &unknowns, &rubbing),
+            circles,
+        })
     })
 }
 

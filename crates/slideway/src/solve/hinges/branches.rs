@@ -7,11 +7,8 @@ use super::super::stages::Stages;
 use super::found::hinge_states;
 use super::spin::{does_not_turn, sense};
 use super::{answers, block_problem, check_determinate, coefficients_of};
-use crate::enclosure::{
-    EnclosedBlockProblem, NotEnclosed, TurningHinge, UncertainParameters, enclosed_block_problem,
-};
+use crate::enclosure::TurningHinge;
 use crate::fault::Faults;
-use crate::model::Model;
 use crate::modes::branches::{BranchForces, Instance, Outputs};
 use crate::modes::existence::OutputBound;
 use crate::modes::{BySide, ContactState};
@@ -70,19 +67,6 @@ impl<'a> GrowingFriction<'a> {
         let senses = stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
         let now = Instance { problem: block_problem(data, hinges)?, outputs, bounds, senses };
         is_finite(&now.outputs).then_some(Self { stages, hinges, now }).ok_or_else(overflow)
-    }
-
-    /// Bounds of the exact numbers for these values of the model.
-    ///
-    /// # Errors
-    /// [`NotEnclosed`] if there are none.
-    pub(super) fn enclosed(
-        &self,
-        model: &Model,
-        uncertain: &UncertainParameters,
-    ) -> Result<EnclosedBlockProblem, NotEnclosed> {
-        let state = (&self.stages.mechanism, &self.stages.configuration);
-        enclosed_block_problem(model, uncertain, state, self.hinges)
     }
 
     /// With this factor.

@@ -3,11 +3,9 @@
 use super::super::stages::Stages;
 use super::branches::GrowingFriction;
 use super::spin::{Spins, spins};
-use crate::enclosure::{TurningHinge, UncertainParameters};
+use crate::enclosure::{EnclosedBlockProblem, TurningHinge};
 use crate::fault::Faults;
-use crate::interval::Interval;
 use crate::mechanism::Mechanism;
-use crate::model::Model;
 use crate::modes::SearchOptions;
 use crate::modes::blocks::{self, BlockSolution, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
@@ -31,7 +29,7 @@ const BRANCHES: usize = 64;
 /// Even steps of friction that falls.
 const FALLING: usize = 40;
 /// How often the range of the logarithm of the factor is halved in search of the one up to which there is one solution.
-const HALVINGS: usize = 18;
+const HALVINGS: usize = 13;
 
 /// A number of solutions.
 enum Number {
@@ -134,11 +132,9 @@ impl<'a> Growth<'a> {
 
     /// A factor of all friction above 1 up to which every load is proven to have exactly one solution in the exact
     /// mechanism; none if it is not proven. What proves it grows with friction, so that it holds below, too.
-    pub(super) fn unique_at_least(&self, model: &Model, uncertain: &UncertainParameters) -> Option<f64> {
+    pub(super) fn unique_at_least(&self, enclosed: &EnclosedBlockProblem) -> Option<f64> {
         let factor = self.unique_until()?;
-        let uncertain = uncertain.clone().with_friction(Interval::point(factor));
-        let enclosed = self.friction.enclosed(model, &uncertain).ok()?;
-        unique_for_every_load(&enclosed.problem).map(|_| factor)
+        unique_for_every_load(&enclosed.rougher(factor)?).map(|_| factor)
     }
 
     /// The number of solutions at the second of two logarithms of the factor, or in between if it is another one there,
@@ -208,9 +204,9 @@ impl<'a> Growth<'a> {
     }
 }
 
-/// A number of at least 1, rounded down to four significant digits, or to a whole number.
+/// A number of at least 1, rounded down to three significant digits, or to a whole number.
 fn rounded_down(number: f64) -> f64 {
-    let scale = [1e3, 1e2, 1e1].into_iter().find(|scale| number * scale < 1e4).unwrap_or(1.0);
+    let scale = [1e2, 1e1].into_iter().find(|scale| number * scale < 1e3).unwrap_or(1.0);
     (number * scale).floor() / scale
 }
 

@@ -85,7 +85,7 @@ pub(super) fn solve(
     let unique_at_least = growth
         .as_ref()
         .filter(|_| result.unique_for_every_load.is_some())
-        .and_then(|growth| growth.unique_at_least(model, uncertain));
+        .and_then(|growth| growth.unique_at_least(enclosed.as_ref().ok()?));
     let answer = HingedAnswer { answer, problem: &problem, hinges: &turning, growth };
     Ok(SolveReport {
         unique_at_least,
