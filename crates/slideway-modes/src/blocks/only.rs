@@ -61,12 +61,11 @@ pub fn only_solution(problem: &BlockProblem, near: Option<&[f64]>) -> Option<Onl
     let begin = from.map(DVector::from_column_slice).or_else(|| start(problem, &everything))?;
     let point = newton(problem, &everything.states, begin)?;
     let residual = residual_bounds(problem, &point);
-    let of_block = |block: usize| {
+    let part = |block: usize| {
         let length = problem.rows_of(block).map(|row| residual[row]).reduce(f64::hypot).unwrap_or(0.0);
-        length * (1.0 + rounding(0))
+        length / weights[block] * (1.0 + rounding(0))
     };
-    let part = |block: usize| Interval::point(of_block(block)) / Interval::point(weights[block]);
-    let largest = (0..problem.blocks()).map(|block| part(block).upper()).fold(0.0, f64::max);
+    let largest = (0..problem.blocks()).map(part).fold(0.0, f64::max);
     let bound = Interval::point(largest) * gain;
     let errors = weights.iter().map(|weight| (bound * Interval::point(*weight)).upper()).collect();
     Some(OnlySolution { point: point.as_slice().to_vec(), errors })

@@ -82,6 +82,13 @@ impl Follower {
             self.linkage = linkage;
         }
         let coordinates: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
+        let rates: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect();
+        let is_same = |last: &&Configuration| last.coordinates == coordinates && last.rates == rates;
+        if let Some(last) = self.reached.first().filter(is_same) {
+            let configuration = Configuration { time: mechanism.time, ..last.clone() };
+            check_position(mechanism, &configuration)?;
+            return Ok(configuration);
+        }
         let (settled, steps) = self.reach(mechanism, &coordinates)?;
         let Some(velocities) = velocities(mechanism, &settled, &coordinates) else {
             return Err(singular_state(mechanism, &settled.poses).into());
@@ -90,7 +97,7 @@ impl Follower {
             velocities,
             poses: settled.poses,
             coordinates,
-            rates: mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
+            rates,
             time: mechanism.time,
             steps,
             pieces: None,
@@ -276,7 +283,9 @@ fn velocities(mechanism: &Mechanism, settled: &Settled, values: &[f64]) -> Optio
 
 /// All numbers on which the joint equations depend.
 fn linkage(mechanism: &Mechanism) -> Vec<f64> {
-    let mut numbers = vec![mechanism.size];
+    let joints = mechanism.joints.len() + mechanism.coordinates.len();
+    let mut numbers = Vec::with_capacity(1 + 2 * mechanism.bodies.len() + 7 * joints);
+    numbers.push(mechanism.size);
     let frame = |frame: Frame| frame.body().map_or(-1.0, |body| body.index() as f64);
     let attachment = |point: &Attachment| [frame(point.frame), point.position.x, point.position.y];
     for body in &mechanism.bodies {

@@ -531,43 +531,51 @@ impl Mechanism {
     /// Products of a few quantities must stay within the range of floating point.
     fn check_magnitudes(&self) -> Result<(), Faults> {
         let mut faults = Faults::default();
-        let mut check = |what: String, place: Option<&Place>, values: &[f64]| {
+        let mut check = |what: &dyn Fn() -> String, place: Option<&Place>, values: &[f64]| {
             let is_usual = |value: &f64| *value == 0.0 || MAGNITUDES.contains(&value.abs());
             if !values.iter().all(is_usual) {
-                let kind = FaultKind::Overflow { quantity: what };
+                let kind = FaultKind::Overflow { quantity: what() };
                 faults.push(
                     place.map_or(Fault::general(kind.clone()), |place| Fault::new(kind, place.clone())),
                 );
             }
         };
-        check("the size of the mechanism".into(), None, &[self.size]);
-        check("gravity".into(), None, self.gravity.as_slice());
+        check(&|| "the size of the mechanism".into(), None, &[self.size]);
+        check(&|| "gravity".into(), None, self.gravity.as_slice());
         for body in &self.bodies {
             let values = [body.mass, body.moment_of_inertia, body.centre_of_mass.x, body.centre_of_mass.y];
             check(
-                format!("the mass, the moment of inertia or the place of {}", body.name),
+                &|| format!("the mass, the moment of inertia or the place of {}", body.name),
                 Some(&body.place),
                 &values,
             );
         }
         for joint in &self.joints {
             let JointKind::Slider(slider) = &joint.kind else { continue };
-            check(format!("the size of {}", joint.name), Some(&joint.place), &[slider.length, slider.height]);
+            check(
+                &|| format!("the size of {}", joint.name),
+                Some(&joint.place),
+                &[slider.length, slider.height],
+            );
         }
         for contact in &self.contacts {
             let place = &self.joints[contact.joint.index()].place;
             let values = [contact.mu, contact.mu_static, contact.preload].concat();
-            check(format!("the friction of {}", contact.name), Some(place), &values);
+            check(&|| format!("the friction of {}", contact.name), Some(place), &values);
             let elastic = [contact.play, contact.stiffness.unwrap_or_default()];
-            check(format!("the play or the stiffness of {}", contact.name), Some(place), &elastic);
+            check(&|| format!("the play or the stiffness of {}", contact.name), Some(place), &elastic);
         }
         for circle in &self.friction_circles {
             let Joint { name, place, .. } = &self.joints[circle.joint.index()];
-            check(format!("the friction of {name}"), Some(place), &[circle.radius, circle.static_radius]);
+            check(&|| format!("the friction of {name}"), Some(place), &[circle.radius, circle.static_radius]);
         }
         for coordinate in &self.coordinates {
             let values = [coordinate.value, coordinate.drawn_at, coordinate.rate];
-            check(format!("the value or the rate of {}", coordinate.name), Some(&coordinate.place), &values);
+            check(
+                &|| format!("the value or the rate of {}", coordinate.name),
+                Some(&coordinate.place),
+                &values,
+            );
         }
         faults.or(())
     }

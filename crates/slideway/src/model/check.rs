@@ -9,7 +9,6 @@ use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
 use crate::interval::{Interval, Real};
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Model {
@@ -340,15 +339,17 @@ impl Model {
                 continue;
             }
             match self.formula(id).constant(&parameters) {
-                Ok(value) => parameters[index] = value,
+                Ok(value) => {
+                    parameters[index] = value;
+                    values[id.index()] = Some(value);
+                }
                 Err(fault) => {
                     unknown[index] = true;
                     faults.push(fault);
                 }
             }
         }
-        let is_parameter: BTreeSet<FormulaId> =
-            self.parameters.iter().map(|parameter| parameter.value).collect();
+        let is_parameter = |id: FormulaId| self.parameters.iter().any(|parameter| parameter.value == id);
         for (index, formula) in self.formulas.iter().enumerate() {
             let id = FormulaId(index);
             if values[index].is_some() {
@@ -359,7 +360,7 @@ impl Model {
             }
             match formula.constant(&parameters) {
                 Ok(value) => values[index] = Some(value),
-                Err(_) if is_parameter.contains(&id) => {}
+                Err(_) if is_parameter(id) => {}
                 Err(fault) => faults.push(self.blame_setting(id, fault)),
             }
         }
