@@ -64,19 +64,53 @@ enum Meaning {
 }
 
 /// The columns of the program.
-struct Columns {
+struct Columns<'p> {
+    /// What combines the equations.
+    combination: Option<&'p DMatrix<f64>>,
     meanings: Vec<(Meaning, f64)>,
     vectors: Vec<Vec<f64>>,
     cost: Vec<f64>,
+    /// How many equations there are, with those of the sums.
+    all: usize,
 }
 
-impl Columns {
-    /// Adds a column, scaled by a factor.
-    fn add(&mut self, meaning: Meaning, factor: f64, column: Vec<f64>, cost: f64) {
-        self.vectors.push(column.into_iter().map(|value| value * factor).collect());
+impl Columns<'_> {
+    /// A column of the equations, combined, with room for the sums.
+    fn combined(&self, column: impl ExactSizeIterator<Item = f64>) -> Vec<f64> {
+        let mut combined = Vec::with_capacity(self.all);
+        match self.combination {
+            Some(combination) => {
+                combined.resize(combination.nrows(), 0.0);
+                for (value, part) in column.zip(combination.column_iter()) {
+                    combined.iter_mut().zip(&part).for_each(|(sum, entry)| *sum += value * entry);
+                }
+            }
+            None => combined.extend(column),
+        }
+        combined
+    }
+
+    /// Adds a combined column, scaled by a factor.
+    fn add(&mut self, meaning: Meaning, factor: f64, mut column: Vec<f64>, cost: f64) {
+        column.iter_mut().for_each(|value| *value *= factor);
+        column.resize(self.all, 0.0);
+        self.vectors.push(column);
         self.meanings.push((meaning, factor));
         self.cost.push(cost);
     }
+
+    /// Adds a column of the equations, scaled so that its largest entry is one, as is its part of the sum of all shares.
+    fn add_share(&mut self, meaning: Meaning, column: impl ExactSizeIterator<Item = f64>) {
+        let mut column = self.combined(column);
+        let size = largest(&column);
+        column.push(size);
+        self.add(meaning, 1.0 / size, column, 0.0);
+    }
+}
+
+/// The largest size of an entry, and not zero.
+fn largest(entries: &[f64]) -> f64 {
+    entries.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 
 /// The relaxation of a piece; `pivots` counts those of the simplex method.
@@ -100,7 +134,7 @@ pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> 
     if errors > LEAST {
         let multipliers = basis.multipliers(&program);
         let vector = -DVector::from_column_slice(&multipliers[..rows]);
-        let vector = combination.map_or(vector.clone(), |combination| combination.tr_mul(&vector));
+        let vector = combination.as_ref().map_or(vector.clone(), |combination| combination.tr_mul(&vector));
         if excludes(problem, piece, vector.as_slice()) {
             return Relaxed::Empty;
         }
@@ -148,46 +182,44 @@ fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
 }
 
 /// The columns of the program, with combined equations.
-fn columns(
+fn columns<'p>(
     problem: &BlockProblem,
     piece: &Piece,
     jumping: &[usize],
-    combination: Option<&DMatrix<f64>>,
-) -> Columns {
+    combination: Option<&'p DMatrix<f64>>,
+) -> Columns<'p> {
     let rows = problem.rows();
     let all = rows + 1 + jumping.len();
-    let combined = |column: Vec<f64>| match combination {
-        Some(combination) => (combination * DVector::from_vec(column)).as_slice().to_vec(),
-        None => column,
-    };
-    let mut columns = Columns { meanings: Vec::new(), vectors: Vec::new(), cost: Vec::new() };
-    let with_sum = |mut column: Vec<f64>| {
-        let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(f64::MIN_POSITIVE);
-        column.resize(all, 0.0);
-        column[rows] = size;
-        (1.0 / size, column)
+    // Of both sides of contacts, the rays of hinges, the load with its jumps, and errors.
+    let most = 6 * rows + 1 + 2 * jumping.len();
+    let mut columns = Columns {
+        combination,
+        meanings: Vec::with_capacity(most),
+        vectors: Vec::with_capacity(most),
+        cost: Vec::with_capacity(most),
+        all,
     };
     for (contact, &state) in piece.states.iter().enumerate() {
         for &side in sides(state) {
-            let mut column: Vec<f64> =
-                centre(problem.response(side), contact).iter().map(|value| -value).collect();
-            column[contact] += side.sign();
-            let (factor, column) = with_sum(combined(column));
-            columns.add(Meaning::Pressed(contact, side), factor, column, 0.0);
+            let response = centre(problem.response(side), contact).iter().enumerate();
+            let own = |row: usize| if row == contact { side.sign() } else { 0.0 };
+            columns.add_share(Meaning::Pressed(contact, side), response.map(|(row, value)| own(row) - value));
         }
     }
     for (hinge, sector) in piece.sectors.iter().enumerate() {
         let response = centre(problem.response(Side::Positive), problem.contacts() + hinge);
+        let [first, second] = problem.rows_of_hinge(hinge);
         for (direction, length) in sector.rays() {
-            let mut column: Vec<f64> = response.iter().map(|value| -value * length).collect();
-            for (row, component) in problem.rows_of_hinge(hinge).into_iter().zip(direction) {
-                column[row] += component;
-            }
-            let (factor, column) = with_sum(combined(column));
-            columns.add(Meaning::Ray(hinge, direction, length), factor, column, 0.0);
+            let own = |row: usize| match row {
+                _ if row == first => direction[0],
+                _ if row == second => direction[1],
+                _ => 0.0,
+            };
+            let column = response.iter().enumerate().map(|(row, value)| own(row) - value * length);
+            columns.add_share(Meaning::Ray(hinge, direction, length), column);
         }
     }
-    add_loads(&mut columns, problem, piece, jumping, &combined);
+    add_loads(&mut columns, problem, piece, jumping);
     for row in 0..rows {
         for sign in [1.0, -1.0] {
             let mut column = vec![0.0; all];
@@ -199,18 +231,11 @@ fn columns(
 }
 
 /// `-mu (b + d)`, where shares of both jump vectors of a contact add up to `mu`.
-fn add_loads(
-    columns: &mut Columns,
-    problem: &BlockProblem,
-    piece: &Piece,
-    jumping: &[usize],
-    combined: &dyn Fn(Vec<f64>) -> Vec<f64>,
-) {
+fn add_loads(columns: &mut Columns<'_>, problem: &BlockProblem, piece: &Piece, jumping: &[usize]) {
     if problem.has_no_load() {
         return;
     }
     let rows = problem.rows();
-    let all = rows + 1 + jumping.len();
     let mut load: Vec<f64> = centre(problem.load(), 0).iter().map(|value| -value).collect();
     for (contact, &state) in piece.states.iter().enumerate().filter(|(contact, _)| !jumping.contains(contact))
     {
@@ -219,20 +244,18 @@ fn add_loads(
             *load -= jump;
         }
     }
-    let mut load = combined(load);
+    let mut load = columns.combined(load.into_iter());
     let jump = |&contact: &usize| {
-        let negated = |side| centre(problem.jumps(side), contact).iter().map(|value| -value).collect();
-        Side::BOTH.map(|side| combined(negated(side)))
+        let negated = |side| centre(problem.jumps(side), contact).iter().map(|value| -value);
+        Side::BOTH.map(|side| columns.combined(negated(side)))
     };
     let jumps: Vec<[Vec<f64>; 2]> = jumping.iter().map(jump).collect();
-    let numbers = load.iter().chain(jumps.iter().flatten().flatten());
-    let size = numbers.fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
-    load.resize(all, 0.0);
-    load[rows] = size;
+    let size = jumps.iter().flatten().fold(largest(&load), |most, jump| most.max(largest(jump)));
+    load.push(size);
+    load.extend(jumps.iter().map(|_| -size));
     for (at, both) in jumps.into_iter().enumerate() {
-        load[rows + 1 + at] = -size;
         for mut column in both {
-            column.resize(all, 0.0);
+            column.resize(columns.all, 0.0);
             column[rows + 1 + at] = size;
             columns.add(Meaning::Other, 1.0 / size, column, 0.0);
         }

@@ -71,13 +71,14 @@ pub(super) fn block_norms(problem: &BlockProblem) -> DMatrix<f64> {
 /// The Perron vector of a positive matrix; rounded.
 fn perron(matrix: &DMatrix<f64>) -> DVector<f64> {
     let mut vector = DVector::repeat(matrix.nrows(), 1.0);
+    let mut image = vector.clone();
     for _ in 0..STEPS {
-        let image = matrix * &vector;
+        image.gemv(1.0, matrix, &vector, 0.0);
         let largest = image.amax();
         if largest == 0.0 || !largest.is_finite() {
             return DVector::repeat(matrix.nrows(), 1.0);
         }
-        vector = (vector + image / largest).map(|value| 0.5 * value);
+        vector.axpy(0.5 / largest, &image, 0.5);
     }
     vector
 }

@@ -98,8 +98,9 @@ impl LinearProgram {
     /// A program from the columns of `A`, `b` and the costs.
     pub(crate) fn new(columns: &[Vec<f64>], right_hand_side: Vec<f64>, cost: Vec<f64>) -> Self {
         let rows = right_hand_side.len();
-        let by_column: Vec<f64> = columns.iter().flatten().copied().collect();
-        let by_row = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
+        let by_column = columns.concat();
+        let mut by_row = Vec::with_capacity(by_column.len());
+        (0..rows).for_each(|row| by_row.extend(columns.iter().map(|column| column[row])));
         Self { rows, columns: columns.len(), by_row, by_column, right_hand_side, cost }
     }
 

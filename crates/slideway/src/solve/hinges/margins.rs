@@ -29,7 +29,7 @@ const BRANCHES: usize = 64;
 /// Even steps of friction that falls.
 const FALLING: usize = 40;
 /// How often the range of the logarithm of the factor is halved in search of the one up to which there is one solution.
-const HALVINGS: usize = 13;
+const HALVINGS: usize = 18;
 
 /// A number of solutions.
 enum Number {
@@ -204,9 +204,9 @@ impl<'a> Growth<'a> {
     }
 }
 
-/// A number of at least 1, rounded down to three significant digits, or to a whole number.
+/// A number of at least 1, rounded down to four significant digits, or to a whole number.
 fn rounded_down(number: f64) -> f64 {
-    let scale = [1e2, 1e1].into_iter().find(|scale| number * scale < 1e3).unwrap_or(1.0);
+    let scale = [1e3, 1e2, 1e1].into_iter().find(|scale| number * scale < 1e4).unwrap_or(1.0);
     (number * scale).floor() / scale
 }
 
