@@ -7,8 +7,9 @@ use slideway::gallery;
 use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
-use slideway::model::Model;
-use slideway::solve::solve;
+use slideway::model::{Model, Settings};
+use slideway::solve::{SolveOptions, solve, solve_with};
+use std::ops::ControlFlow;
 
 /// A few bodies with three contacts, a closed loop, and a chain with six contacts.
 const NAMES: [&str; 3] = ["klepp-2002", "slider-crank", "telescopic-boom"];
@@ -84,4 +85,37 @@ fn enclosed_mode_problem(bencher: Bencher<'_, '_>, name: &str) {
 fn whole_solve(bencher: Bencher<'_, '_>, name: &str) {
     let model = model(name);
     bencher.bench_local(|| solve(&model));
+}
+
+/// Mechanisms with friction in all hinges.
+const HINGED: [&str; 6] =
+    ["bell-crank", "four-bar", "over-centre-clamp", "quick-return", "slider-crank-with-pins", "toggle-press"];
+
+fn solve_with_pins(bencher: Bencher<'_, '_>, name: &str, has_friction: bool, margins: bool) {
+    let mut model = model(name);
+    if !has_friction {
+        model = model.with(&Settings::default().parameter("mu_pin", 0)).expect("a parameter of all");
+    }
+    let options = SolveOptions::default().margins(margins);
+    bencher.bench_local(|| solve_with(&model, &options, &mut |_| ControlFlow::Continue(())));
+}
+
+#[divan::bench(args = HINGED)]
+fn rough_pins(bencher: Bencher<'_, '_>, name: &str) {
+    solve_with_pins(bencher, name, true, true);
+}
+
+#[divan::bench(args = HINGED)]
+fn smooth_pins(bencher: Bencher<'_, '_>, name: &str) {
+    solve_with_pins(bencher, name, false, true);
+}
+
+#[divan::bench(args = HINGED)]
+fn rough_pins_without_margins(bencher: Bencher<'_, '_>, name: &str) {
+    solve_with_pins(bencher, name, true, false);
+}
+
+#[divan::bench(args = HINGED)]
+fn smooth_pins_without_margins(bencher: Bencher<'_, '_>, name: &str) {
+    solve_with_pins(bencher, name, false, false);
 }

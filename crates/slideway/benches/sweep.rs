@@ -13,7 +13,7 @@ fn main() {
 }
 
 /// A model, what is set in it, and the axis without its number of points.
-const SWEEPS: [(&str, &str, &str); 7] = [
+const SWEEPS: [(&str, &str, &str); 10] = [
     ("klepp-2002", "F_20=0", "mu_1=0..0.8"),
     ("klepp-2002", "F_20=m*g", "mu_1=0..0.8"),
     ("klepp-2002", "F_20=0", "q=-0.2..0.2"),
@@ -21,6 +21,9 @@ const SWEEPS: [(&str, &str, &str); 7] = [
     ("drawer", "mu=0.3", "friction=0..2"),
     ("slider-crank", "m=1", "phi=-1.3..1.3"),
     ("telescopic-boom", "mu=0.2", "friction=0..2"),
+    ("slider-crank-with-pins", "mu=0.1", "mu_pin=0.01..0.2"),
+    ("slider-crank-with-pins", "mu=0.1", "phi=0.4..2.7"),
+    ("slider-crank-with-pins", "mu=0.1", "T=10..30"),
 ];
 
 fn sweep((name, setting, axis): (&str, &str, &str)) -> Sweep {

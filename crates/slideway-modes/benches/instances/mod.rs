@@ -2,9 +2,39 @@
 #![allow(dead_code, reason = "each program uses a part of it")]
 
 use nalgebra::{DMatrix, DVector};
-use slideway_modes::{ModeProblem, SharedLoad};
+use slideway_modes::blocks::BlockProblem;
+use slideway_modes::{BySide, ModeProblem, SharedLoad};
 
 pub(crate) mod structured;
+
+/// Random columns of size `strength / sqrt(blocks)` for these numbers of contacts and hinges, and a random load.
+pub(crate) fn random_block_problem(contacts: usize, hinges: usize, strength: f64, seed: u64) -> BlockProblem {
+    let mut random = random_numbers(seed);
+    let (rows, blocks) = (contacts + 2 * hinges, contacts + hinges);
+    let size = strength / (blocks as f64).sqrt();
+    let response = DMatrix::from_fn(rows, blocks, |_, _| size * random());
+    block_problem(contacts, response, DVector::from_fn(rows, |_, _| random()))
+}
+
+/// Eight solutions, proven by resultants (`planted_8` of reference/block-problems.toml).
+pub(crate) fn block_problem_with_eight_solutions() -> BlockProblem {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/block-problems.toml");
+    let text = std::fs::read_to_string(path).expect("a file of the repository");
+    let table: toml::Table = text.parse().expect("a table");
+    let problem = &table["problem"][0];
+    let numbers = |value: &toml::Value| -> Vec<f64> {
+        value.as_array().into_iter().flatten().filter_map(toml::Value::as_float).collect()
+    };
+    let rows: Vec<Vec<f64>> = problem["H"].as_array().into_iter().flatten().map(numbers).collect();
+    let response = DMatrix::from_fn(rows.len(), rows[0].len(), |row, column| rows[row][column]);
+    block_problem(1, response, DVector::from_vec(numbers(&problem["b"])))
+}
+
+/// The same columns on both sides, no jumps.
+fn block_problem(contacts: usize, response: DMatrix<f64>, load: DVector<f64>) -> BlockProblem {
+    let jumps = DMatrix::zeros(load.len(), contacts);
+    BlockProblem::new(BySide::same(response), BySide::same(jumps), load).expect("shapes fit")
+}
 
 /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
 fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
