@@ -26,6 +26,11 @@ impl Piece {
         Self { states: vec![None; problem.contacts()], sectors: vec![Sector::All; problem.hinges()] }
     }
 
+    /// Half the angle of the widest sector, in rad.
+    pub(super) fn half_angle(&self) -> f64 {
+        self.sectors.iter().fold(0.0, |most, sector| sector.half_angle().max(most))
+    }
+
     /// Whether a contact that may jump is open.
     pub(super) fn may_jump(&self, problem: &BlockProblem) -> bool {
         (0..problem.contacts()).any(|contact| self.states[contact].is_none() && problem.has_jump(contact))

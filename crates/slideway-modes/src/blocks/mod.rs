@@ -8,7 +8,8 @@
 //! (theory of hinges, sections 3 and 8)
 //! 1. If the block norms of `H`, or a scaled singular value, are below 1, there is exactly one solution for
 //!    every load.
-//! 2. Otherwise, branch and bound over the states of the contacts and the directions of the reactions. A piece,
+//! 2. Blocks without friction act on no other: their forces follow from those of the rest.
+//! 3. Otherwise, branch and bound over the states of the contacts and the directions of the reactions. A piece,
 //!    with one sector of directions for each hinge, is excluded by a linear relaxation; its multipliers are
 //!    verified for the sectors themselves. If a piece has at most one solution, Newton's method finds the only
 //!    candidate, and an interval test proves that it exists. Other pieces are divided; open contacts are
@@ -24,18 +25,20 @@
 //! `problem.rs`, `result.rs`: what is given and returned. `sector.rs`: directions; `equations.rs`: a piece and
 //! its equations; `frames.rs`: bounds on their slopes. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
 //! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load; `only.rs`: that one, for many
-//! neighbouring problems. `tree.rs`: the search; `unloaded.rs`: blocks on which nothing acts; `open.rs`: what it leaves
-//! open; `solutions.rs`: what it found.
+//! neighbouring problems. `tree.rs`: the search; `open.rs`: what it leaves open; `solutions.rs`: what it found.
+//! `smooth.rs`, `unloaded.rs`: blocks that act on no other, and on which nothing acts; `parts.rs`: a problem without them.
 
 mod at_most_one;
 mod equations;
 mod frames;
 mod only;
 mod open;
+mod parts;
 mod problem;
 mod relaxation;
 mod result;
 mod sector;
+mod smooth;
 mod solutions;
 mod tree;
 mod uniqueness;
@@ -116,26 +119,42 @@ fn searched_knowing(
     progress: &mut Callback<'_>,
     manner: Manner,
 ) -> BlockResult {
+    answer(problem, found_in_parts(problem, unique.is_some(), options, progress, manner), unique)
+}
+
+/// What is found, without the blocks that act on no other and those on which nothing acts. `unique` says whether there is
+/// exactly one solution for every load.
+fn found_in_parts(
+    problem: &BlockProblem,
+    unique: bool,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+    manner: Manner,
+) -> Found {
+    if let Some((rough, part)) = smooth::part_with_friction(problem) {
+        let found = found_in_parts(&part, unique, options, progress, manner);
+        return smooth::with_smooth_blocks(problem, &rough, found);
+    }
     let unloaded = unloaded::unloaded_blocks(problem);
     let mut nodes = 0;
     if (1..problem.blocks()).contains(&unloaded.len()) {
-        let at_rest = found(&unloaded::part(problem, &unloaded), unique.is_some(), options, progress, manner);
+        let at_rest = found_in_parts(&parts::part(problem, &unloaded), unique, options, progress, manner);
         nodes = at_rest.nodes;
         if let Some(rest) = at_rest.only() {
             let loaded: Vec<usize> =
                 (0..problem.blocks()).filter(|block| !unloaded.contains(block)).collect();
-            let part = found(&unloaded::part(problem, &loaded), unique.is_some(), options, progress, manner);
-            let mut all = unloaded::embed(problem, &loaded, part, rest.determinant);
+            let part = found_in_parts(&parts::part(problem, &loaded), unique, options, progress, manner);
+            let mut all = parts::embed(problem, &loaded, part, rest.determinant);
             all.nodes += nodes;
-            return answer(problem, all, unique);
+            return all;
         }
     }
-    let mut all = found(problem, unique.is_some(), options, progress, manner);
+    let mut all = found(problem, unique, options, progress, manner);
     all.nodes += nodes;
-    answer(problem, all, unique)
+    all
 }
 
-/// What is found; `unique` says whether there is exactly one solution for every load.
+/// What is found for all blocks at once.
 fn found(
     problem: &BlockProblem,
     unique: bool,
@@ -143,7 +162,12 @@ fn found(
     progress: &mut Callback<'_>,
     manner: Manner,
 ) -> Found {
-    if unique && let Some(zero) = zero::proven_everywhere(problem) {
+    let known = match problem.blocks() {
+        0 => Some(zero::Zero::of_nothing()),
+        _ if unique => zero::proven_everywhere(problem),
+        _ => None,
+    };
+    if let Some(zero) = known {
         return Found { zeros: vec![zero], undecided: Vec::new(), stopped: None, nodes: 1 };
     }
     let mut found = Tree::new(problem, options, progress, manner).search(Piece::all(problem));

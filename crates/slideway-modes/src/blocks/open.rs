@@ -7,7 +7,7 @@ use super::problem::BlockProblem;
 use super::relaxation::RelaxedPoint;
 use super::result::{OpenLabel, OpenRegion};
 use super::sector::{Sector, length};
-use super::zero::slopes_at;
+use super::zero::{Zero, slopes_at};
 
 /// A share of the load below this is that of a point at infinity.
 const NO_LOAD: f64 = 1e-6;
@@ -50,6 +50,13 @@ impl Undecided {
             _ => near().map(|point| point.as_slice().to_vec()),
         };
         Self { label, point: point.unwrap_or(relaxed.unknowns), piece }
+    }
+
+    /// A zero of which it is open whether, or how often, it is a solution; its reactions may have any direction.
+    pub(super) fn at(zero: &Zero, label: OpenLabel) -> Self {
+        let (states, point) = (zero.states.clone(), zero.point.as_slice().to_vec());
+        let hinges = (point.len() - states.len()) / 2;
+        Self { label, piece: Piece { states, sectors: vec![Sector::All; hinges] }, point }
     }
 }
 
@@ -143,7 +150,7 @@ pub(super) fn regions(pieces: Vec<Undecided>) -> Vec<OpenRegion> {
 fn region(piece: Undecided) -> OpenRegion {
     OpenRegion {
         label: piece.label,
-        half_angle: piece.piece.sectors.iter().fold(0.0, |most, sector| sector.half_angle().max(most)),
+        half_angle: piece.piece.half_angle(),
         sectors: piece.piece.sectors.iter().map(|sector| sector.edges()).collect(),
         states: piece.piece.states,
         point: piece.point,

@@ -160,10 +160,7 @@ fn sides(state: Option<ContactState>) -> &'static [Side] {
 /// The combination `P` of the equations of a small piece: the inverse of the slopes in its middle, and for each
 /// hinge the component along its sector, and the one across it divided by the half angle.
 fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
-    let is_small = |hinge: usize| {
-        !problem.has_friction(problem.contacts() + hinge) || piece.sectors[hinge].half_angle() <= SMALL
-    };
-    if !(0..problem.hinges()).all(is_small) {
+    if piece.half_angle() > SMALL {
         return None;
     }
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();

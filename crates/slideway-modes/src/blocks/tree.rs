@@ -47,9 +47,6 @@ pub(super) struct Tree<'a, 'c> {
     problem: &'a BlockProblem,
     options: &'a SearchOptions,
     progress: &'a mut Callback<'c>,
-    /// The blocks with friction: contacts, and hinges. The others have no part in the equations.
-    contacts: Vec<usize>,
-    hinges: Vec<usize>,
     manner: Manner,
     smallest: f64,
     pivots: u64,
@@ -74,10 +71,7 @@ impl<'a, 'c> Tree<'a, 'c> {
         // A relaxation is off by the square of the half angle.
         let smallest = SMALLEST.max(0.1 * problem.relative_radius().sqrt());
         let found = Found { zeros: Vec::new(), undecided: Vec::new(), stopped: None, nodes: 0 };
-        let contacts = (0..problem.contacts()).filter(|&at| problem.has_friction(at) || problem.has_jump(at));
-        let hinges = (0..problem.hinges()).filter(|&hinge| problem.has_friction(problem.contacts() + hinge));
-        let (contacts, hinges) = (contacts.collect(), hinges.collect());
-        Self { problem, options, progress, contacts, hinges, manner, smallest, pivots: 0, found }
+        Self { problem, options, progress, manner, smallest, pivots: 0, found }
     }
 
     /// Searches the tree below a piece.
@@ -128,7 +122,7 @@ impl<'a, 'c> Tree<'a, 'c> {
         if has_at_most_one(self.problem, piece) && self.settles(piece) {
             return Decision::Done;
         }
-        let half_angle = self.half_angle(piece);
+        let half_angle = piece.half_angle();
         if half_angle <= LOOK_FOR_CURVES
             && half_angle > 0.25 * LOOK_FOR_CURVES
             && let Some(point) = point_of_continuum(self.problem, piece)
@@ -170,7 +164,7 @@ impl<'a, 'c> Tree<'a, 'c> {
 
     /// Whether a point lies in a piece in which all contacts are decided.
     fn is_of(&self, piece: &Piece, point: &DVector<f64>) -> bool {
-        let is_on_side = |&contact: &usize| match piece.states[contact] {
+        let is_on_side = |contact: usize| match piece.states[contact] {
             Some(ContactState::Gap) => (0.0..=1.0).contains(&point[contact]),
             Some(state) => state.sign() * point[contact] > 0.0,
             None => false,
@@ -179,7 +173,7 @@ impl<'a, 'c> Tree<'a, 'c> {
             let reaction = self.problem.rows_of_hinge(hinge).map(|row| Interval::point(point[row]));
             piece.sectors[hinge].with(reaction) == piece.sectors[hinge]
         };
-        self.contacts.iter().all(is_on_side) && (0..self.problem.hinges()).all(is_in_sector)
+        (0..self.problem.contacts()).all(is_on_side) && (0..self.problem.hinges()).all(is_in_sector)
     }
 
     /// Keeps a zero if it is a solution; `false` if that is open.
@@ -213,7 +207,7 @@ impl<'a, 'c> Tree<'a, 'c> {
     fn parts(&self, piece: &Piece, relaxed: Option<&RelaxedPoint>) -> Option<Vec<Piece>> {
         let contacts = self.problem.contacts();
         let gap = |block: usize| relaxed.map_or(0.0, |point| point.gaps[block]);
-        let open = self.contacts.iter().copied().filter(|&contact| piece.states[contact].is_none());
+        let open = (0..contacts).filter(|&contact| piece.states[contact].is_none());
         let contact = open.max_by(|&one, &other| gap(one).total_cmp(&gap(other)));
         let limit = if contact.is_some() { DECIDE_CONTACTS } else { self.smallest };
         let wide = (0..self.problem.hinges()).filter(|&hinge| {
@@ -244,12 +238,6 @@ impl<'a, 'c> Tree<'a, 'c> {
             part
         };
         Some(states.iter().map(part).collect())
-    }
-
-    /// Half the angle of the widest sector of a hinge with friction.
-    fn half_angle(&self, piece: &Piece) -> f64 {
-        let angles = self.hinges.iter().map(|&hinge| piece.sectors[hinge].half_angle());
-        angles.fold(0.0, f64::max)
     }
 
     /// Whether the direction of a hinge matters: its reaction does not vanish, or its sector is wide.
@@ -292,9 +280,7 @@ impl Found {
         let is_open =
             self.zeros.iter().any(|known| may_be_of(&zero.states, &known.states) && overlaps(known));
         if is_open {
-            let piece = Piece { states: zero.states.clone(), sectors: Vec::new() };
-            let point = zero.point.as_slice().to_vec();
-            self.undecided.push(Undecided { label: OpenLabel::TooSmall, piece, point });
+            self.undecided.push(Undecided::at(&zero, OpenLabel::TooSmall));
         }
         self.zeros.push(zero);
     }

@@ -43,6 +43,17 @@ impl Zero {
         Self { states, point, enclosure: exact.clone(), isolation: exact, determinant }
     }
 
+    /// The only solution of a problem without blocks.
+    pub(super) fn of_nothing() -> Self {
+        Self {
+            states: Vec::new(),
+            point: DVector::zeros(0),
+            enclosure: Vec::new(),
+            isolation: Vec::new(),
+            determinant: Some(Sign::Positive),
+        }
+    }
+
     /// What of a contact's unknown is certain: its sign, or of a share whether it is from 0 to 1; `None` if
     /// neither it nor its opposite is certain.
     pub(super) fn agrees(&self, contact: usize, state: ContactState) -> Option<bool> {

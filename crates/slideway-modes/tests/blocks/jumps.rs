@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::blocks::{BlockProblem, BlockResult, search, search_turned};
 use slideway_modes::{BySide, ContactState, Limits, ModeProblem, SearchOptions, enumerate};
 
@@ -116,5 +116,29 @@ fn a_search_ends_when_it_is_told_to() {
     let problem = BlockProblem::new(plain.response, plain.jumps, plain.load).unwrap();
     let result = search(&problem, &SearchOptions::within(Some(3), None), &mut |_| ControlFlow::Continue(()));
     assert_eq!((result.nodes, result.stopped), (3, Some(slideway_modes::StopReason::NodeLimit)));
+    assert_eq!(result.complete, slideway_modes::Proof::NotProven);
+}
+
+/// Contact 0 acts on none, and contact 1 alone feels its jump, of 1 or -1: with a force of either sign that is known, and
+/// without force it may rest anywhere in its gap.
+#[test]
+fn a_jump_that_only_a_contact_without_friction_feels() {
+    let jump = |value: f64| dmatrix![0.0, 0.0; value, 0.0; 0.0, 0.0; 0.0, 0.0];
+    let response = dmatrix![0.0, 0.0, 0.0; 0.0, 0.0, 0.3; 0.0, 0.0, 2.0; 0.0, 0.0, 0.0];
+    let with_force = |force: f64| Jumping {
+        response: BySide::same(response.clone()),
+        jumps: BySide { positive: jump(1.0), negative: jump(-1.0) },
+        load: dvector![force, 5.0, -1.0, 0.0],
+    };
+    // R = -1 + 2 |R|: -1/3, of |R| = 1/3, and 1.
+    for force in [4.0, -4.0] {
+        let result = with_force(force).solve(0.0);
+        let forces: Vec<f64> = result.solutions.iter().map(|solution| solution.forces[1]).collect();
+        assert_eq!(forces.len(), 2);
+        assert!((forces.iter().sum::<f64>() - (10.0 + 2.0 * force.signum() + 0.3 * 4.0 / 3.0)).abs() < 1e-12);
+    }
+    let Jumping { response, jumps, load } = with_force(0.0);
+    let problem = BlockProblem::new(response, jumps, load).unwrap();
+    let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
     assert_eq!(result.complete, slideway_modes::Proof::NotProven);
 }

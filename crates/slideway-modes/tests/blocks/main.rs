@@ -9,4 +9,5 @@ mod one_hinge;
 mod random;
 mod raw;
 mod reference;
+mod smooth;
 mod support;
