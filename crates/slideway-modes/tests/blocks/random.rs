@@ -10,6 +10,9 @@ use std::ops::ControlFlow;
 
 use crate::support::{Numbers, Plain, assert_proven, assert_same, degree, unknowns};
 
+/// Starts of Newton's method for each problem.
+const STARTS: usize = 3000;
+
 /// Solutions by Newton's method from random starts.
 fn from_many_starts(plain: &Plain, starts: usize, numbers: &mut Numbers) -> Vec<DVector<f64>> {
     let mut found: Vec<DVector<f64>> = Vec::new();
@@ -17,7 +20,10 @@ fn from_many_starts(plain: &Plain, starts: usize, numbers: &mut Numbers) -> Vec<
         let mut x = numbers.vector(plain.load.len()) * scale;
         for _ in 0..60 {
             let Some(step) = plain.jacobian(&x).lu().solve(&plain.residual(&x)) else { break };
-            x -= step;
+            x -= &step;
+            if step.amax() <= f64::EPSILON * x.amax() {
+                break;
+            }
         }
         let size = x.amax();
         if size.is_finite() && plain.residual(&x).amax() <= 1e-12 * size.max(1.0) {
@@ -42,7 +48,7 @@ fn newtons_method_from_many_starts_finds_no_other_solution() {
             let result = plain.solve();
             assert_proven(&result);
             most = most.max(result.solutions.len());
-            for x in from_many_starts(&plain, 300, &mut numbers) {
+            for x in from_many_starts(&plain, STARTS, &mut numbers) {
                 let near = |solution| (unknowns(solution) - &x).amax() <= 1e-7 * x.amax();
                 assert!(result.solutions.iter().any(near), "{x}");
             }
