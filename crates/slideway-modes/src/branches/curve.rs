@@ -12,8 +12,8 @@ use crate::interval::Sign;
 const NEWTON: usize = 25;
 /// A step of this length is the last one.
 const LAST: f64 = 4.0 * f64::EPSILON;
-/// On the way to an end a step of this length is the last one.
-const ROUGH: f64 = 1e-9;
+/// On the way to an end a step of this share of the step along the curve is the last one.
+const ROUGH: f64 = 1e-5;
 /// Steps that no longer shrink have reached rounding, if they are below this.
 const SMALL: f64 = 1e-10;
 /// The longest step along the arc, of unit vectors `z` and of the way to the goal.
@@ -30,8 +30,12 @@ const HALVINGS: i32 = 51;
 const SHIFT: f64 = 0.2;
 /// Places this near to the goal, as a share of the way, are there.
 const AT_GOAL: f64 = 1e-7;
-/// A corrected step that is this much longer or shorter than the predicted one is too long.
-const FAR: f64 = 0.5;
+/// A step that is longer than predicted by more than this share is too long: its direction is off by more than
+/// `acos(1 / 1.005)`, 5.7 degrees.
+const TURN: f64 = 0.005;
+/// Where a step of Newton's method is longer than this share of the one before, the step along the curve is too long
+/// (Deuflhard, A stepsize control for continuation methods, 1979).
+const CONTRACTION: f64 = 0.1;
 /// Differences of the parameter for derivatives, as a share of the way to the goal.
 const DIFFERENCE: f64 = 1e-4;
 /// Below this `lambda` the determinant vanishes together with it.
@@ -145,14 +149,14 @@ impl Walk<'_> {
             if let Some(end) = self.goal_within(&place, &along.tangent, length) {
                 return Way::Reaches(end);
             }
-            let next = loop {
-                match self.step(&place, &along, length, None) {
-                    Some(next) => break next,
-                    None if length < SHORTEST => return self.lost(place),
-                    None => length *= 0.5,
+            let (next, room) = loop {
+                let next = self.step(&place, &along, length, None).map(|next| (self.room(&next), next));
+                match next {
+                    Some((room, next)) if self.is_ahead(&place, &next, &room) => break (next, room),
+                    _ if length < SHORTEST => return self.lost(place),
+                    _ => length *= 0.5,
                 }
             };
-            let room = self.room(&next);
             let is_within = all_met(&room);
             if is_within && !self.is_beyond(&next) {
                 (place, towards) = (next, along.tangent);
@@ -180,6 +184,13 @@ impl Walk<'_> {
         (place.at - self.goal()) * self.way >= 0.0
     }
 
+    /// Whether a place is nearer to the goal than the last one, as it is while the orientation stays: where it is not,
+    /// two folds have been passed.
+    fn is_ahead(&self, last: &Place, next: &Place, room: &[f64]) -> bool {
+        let is_oriented = room.last().is_some_and(|oriented| (0.0..f64::INFINITY).contains(oriented));
+        !is_oriented || (next.at - last.at) * self.way > 0.0
+    }
+
     /// The solution at the goal that continues a place beyond it.
     fn at_goal(&self, beyond: &Place, last: Place) -> Way {
         match self.curve.solution(self.goal(), beyond) {
@@ -195,8 +206,8 @@ impl Walk<'_> {
             return None;
         }
         let end = self.curve.solution(self.goal(), place)?;
-        let is_near = (&end.z - &place.z).norm() <= (1.0 + FAR) * length;
-        (is_near && !self.turns_back(place, &end) && self.is_within(&end)).then_some(end)
+        let predicted = left / tangent[place.z.len()];
+        (self.follows(place, &end, predicted) && self.is_within(&end)).then_some(end)
     }
 
     /// Where the curve is not followed any further: where a hinge force vanishes it has a kink.
@@ -250,7 +261,10 @@ impl Walk<'_> {
                 break;
             }
             let reach = LOCATED * whole * 2.0_f64.powi(HALVINGS + 1 - step) - 0.5 * width;
-            let length = between(&inside, &outside, whole, reach);
+            // Not at an end itself, to which rounding may lead: just beside it the bracket closes.
+            let least = LOCATED * whole;
+            let length =
+                between(&inside, &outside, whole, reach).clamp(inside.length + least, outside.length - least);
             if length <= inside.length || length >= outside.length {
                 break;
             }
@@ -293,7 +307,8 @@ impl Walk<'_> {
             at: place.at + length * tangent[size] * self.way,
             z: &place.z + tangent.rows(0, size) * length,
         };
-        let enough = if near.is_some() { LAST } else { ROUGH };
+        let (enough, slowest) =
+            if near.is_some() { (LAST, f64::INFINITY) } else { (ROUGH * length, CONTRACTION) };
         let Place { mut z, mut at } = near.unwrap_or_else(|| guess.clone());
         let mut last = f64::INFINITY;
         for _ in 0..NEWTON {
@@ -314,13 +329,20 @@ impl Walk<'_> {
             }
             if moved <= enough || moved <= SMALL && moved >= last {
                 let found = Place { at, z: z.normalize() };
-                let way = (&found.z - &place.z).norm().hypot((at - place.at) / self.way);
-                let turns = self.turns_back(place, &found);
-                return ((way - length).abs() <= FAR * length && !turns).then_some(found);
+                return self.follows(place, &found, length).then_some(found);
+            }
+            if moved > SMALL && moved > slowest * last {
+                return None;
             }
             last = moved;
         }
         None
+    }
+
+    /// Whether a place is about where a step of this length was to lead.
+    fn follows(&self, start: &Place, place: &Place, length: f64) -> bool {
+        let way = (&place.z - &start.z).norm().hypot((place.at - start.at) / self.way);
+        way <= (1.0 + TURN) * length && !self.turns_back(start, place)
     }
 
     /// Whether a hinge force has turned by more than a right angle.

@@ -2,13 +2,13 @@
 
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::blocks::{BlockProblem, search};
-use slideway_modes::branches::{BranchOptions, Branches, Instance, NoInstance, Outputs, branches};
+use slideway_modes::branches::{BranchOptions, Branches, Instance, NoInstance, Outputs, branches, end_of};
 use slideway_modes::existence::EndCause;
 use slideway_modes::progress::undisturbed;
 use slideway_modes::{BySide, Proof, SearchOptions};
 use std::ops::ControlFlow;
 
-use crate::support::Numbers;
+use crate::support::{Numbers, Plain};
 
 fn instance(response: BySide<DMatrix<f64>>, load: DVector<f64>) -> Instance {
     let contacts = 2 * response.positive.ncols() - load.len();
@@ -115,4 +115,32 @@ fn the_number_of_branches_is_the_number_of_solutions() {
         }
     }
     assert!(several >= 3 && causes.iter().all(|count| *count >= 10), "{several}, {causes:?}");
+}
+
+/// All friction grows, that of hinges towards a limit. The oracle follows each solution in steps that are at most
+/// a twentieth as long.
+#[test]
+fn a_solution_ends_where_it_ends_in_short_steps() {
+    let mut numbers = Numbers(77);
+    let (mu, until) = (0.1, 1e6_f64.ln());
+    for case in 0..850 {
+        let (contacts, hinges) = (case % 4, 1 + case / 4 % 4);
+        let size = 0.02 * 60.0_f64.powf(0.5 + 0.5 * numbers.next());
+        let plain = Plain::random(&mut numbers, contacts, hinges, size);
+        let response = BySide { positive: plain.positive.clone(), negative: plain.negative.clone() };
+        let now = instance(response, plain.load.clone());
+        let family = |logarithm: f64| {
+            let factor = logarithm.exp();
+            let of_hinge = factor * f64::hypot(1.0, mu) / f64::hypot(1.0, factor * mu);
+            let factors = [vec![factor; contacts], vec![of_hinge; hinges]].concat();
+            now.with_response_times(&factors).map_err(|_| NoInstance::Other)
+        };
+        let result = search(&now.problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
+        for solution in &result.solutions {
+            let [long, short] =
+                [2.0, 0.1].map(|part| end_of(&family, (solution, 0.0), until, part).unwrap().end);
+            assert_eq!(long.cause, short.cause, "{case}: {long:?} {short:?}");
+            assert!((long.at - short.at).abs() <= 1e-12, "{case}: {long:?} {short:?}");
+        }
+    }
 }

@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 /// Friction that is greater than this many times that of the model counts as infinite.
 const INFINITY: f64 = 1e6;
 /// The logarithm of the factor is followed in parts as long as this.
-const PART: f64 = 0.5;
+const PART: f64 = 2.0;
 /// How far beyond an end it is asked whether any solution is left, as a logarithm.
 const BEYOND: f64 = 1e-6;
 /// Steps of this length aside from where all solutions are sought, such as exactly at an end.
