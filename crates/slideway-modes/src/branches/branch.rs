@@ -100,9 +100,9 @@ impl Branch {
         };
         let starts = interpolated.into_iter().chain(near.into_iter().cloned());
         let instance = family(at).ok()?;
-        let found = starts.filter_map(|start| curve.solution(at, &start)).find(|place| {
-            curve.equations.orientation(&instance, &place.z) == orientation && curve.holds(&instance, place)
-        })?;
+        let found = starts
+            .filter_map(|start| curve.solution(at, &start))
+            .find(|place| curve.holds(&instance, place))?;
         Some(self.forces(&instance.problem, &found))
     }
 

@@ -14,7 +14,7 @@ const NEWTON: usize = 25;
 const LAST: f64 = 4.0 * f64::EPSILON;
 /// On the way to an end a step of this share of the step along the curve is the last one.
 const ROUGH: f64 = 1e-5;
-/// Steps that no longer shrink have reached rounding, if they are below this.
+/// Steps that are not halved any more have reached rounding, if they are below this.
 const SMALL: f64 = 1e-10;
 /// The longest step along the arc, of unit vectors `z` and of the way to the goal.
 const LONGEST: f64 = 0.2;
@@ -89,10 +89,19 @@ struct Walk<'c> {
 }
 
 impl Curve<'_> {
+    /// The same in the unit of a problem: loads may be much greater elsewhere on the curve, and steps are measured in
+    /// the unit.
+    fn in_unit_of(&self, instance: &Instance) -> Self {
+        Self { equations: self.equations.with_unit(instance.unit()), ..*self }
+    }
+
     /// The solution at a value near one that is known; none if Newton's method does not converge.
     pub(super) fn solution(&self, at: f64, near: &Place) -> Option<Place> {
         let instance = (self.family)(at).ok()?;
-        self.solution_of(&instance, at, near)
+        let curve = self.in_unit_of(&instance);
+        let near = self.equations.converted(near, &curve.equations);
+        let found = curve.solution_of(&instance, at, &near)?;
+        Some(curve.equations.converted(&found, &self.equations))
     }
 
     fn solution_of(&self, instance: &Instance, at: f64, near: &Place) -> Option<Place> {
@@ -111,7 +120,7 @@ impl Curve<'_> {
             if !step.is_finite() {
                 return None;
             }
-            if step <= LAST || step <= SMALL && step >= last {
+            if step <= LAST || step <= SMALL && 2.0 * step >= last {
                 return Some(Place { at, z: z.normalize() });
             }
             last = step;
@@ -121,7 +130,10 @@ impl Curve<'_> {
 
     /// Whether a place is part of the branch, apart from rounding.
     pub(super) fn holds(&self, instance: &Instance, place: &Place) -> bool {
-        are_met(&conditions(&self.equations, instance, place, self.greatest))
+        let curve = self.in_unit_of(instance);
+        let place = self.equations.converted(place, &curve.equations);
+        curve.equations.orientation(instance, &place.z) == self.orientation
+            && are_met(&conditions(&curve.equations, instance, &place, self.greatest))
     }
 
     /// How far the branch goes from a place towards a value.
@@ -132,9 +144,15 @@ impl Curve<'_> {
         let Ok(instance) = (self.family)(start.at) else {
             return Way::Ends(start.clone(), EndCause::NotFollowed);
         };
-        let here = conditions(&self.equations, &instance, start, self.greatest);
+        let curve = self.in_unit_of(&instance);
+        let start = self.equations.converted(start, &curve.equations);
+        let here = conditions(&curve.equations, &instance, &start, self.greatest);
         let slack = here.iter().map(slack).collect();
-        Walk { curve: self, from: start.at, way: goal - start.at, slack }.walk(start)
+        let back = |place: Place| curve.equations.converted(&place, &self.equations);
+        match (Walk { curve: &curve, from: start.at, way: goal - start.at, slack }).walk(&start) {
+            Way::Reaches(place) => Way::Reaches(back(place)),
+            Way::Ends(place, cause) => Way::Ends(back(place), cause),
+        }
     }
 }
 
@@ -327,7 +345,7 @@ impl Walk<'_> {
             if !moved.is_finite() {
                 return None;
             }
-            if moved <= enough || moved <= SMALL && moved >= last {
+            if moved <= enough || moved <= SMALL && 2.0 * moved >= last {
                 let found = Place { at, z: z.normalize() };
                 return self.follows(place, &found, length).then_some(found);
             }

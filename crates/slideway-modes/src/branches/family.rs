@@ -24,6 +24,12 @@ pub struct Instance {
 }
 
 impl Instance {
+    /// A unit of the forces.
+    pub(super) fn unit(&self) -> f64 {
+        let load = self.problem.load().centre().amax();
+        if load > 0.0 { load } else { 1.0 }
+    }
+
     /// The same with what each block adds multiplied by its factor, where the numbers are exact.
     ///
     /// # Errors

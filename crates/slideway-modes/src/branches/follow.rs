@@ -11,14 +11,8 @@ use crate::existence::EndCause;
 
 /// Whether a solution of a problem keeps the bounds of its outputs.
 pub fn keeps_bounds(instance: &Instance, solution: &BlockSolution) -> bool {
-    let found = Found::of(solution, 0.0, instance, unit_of(instance));
+    let found = Found::of(solution, 0.0, instance);
     are_met(&conditions(&found.equations, instance, &found.place, None))
-}
-
-/// A unit of the forces of a problem.
-fn unit_of(instance: &Instance) -> f64 {
-    let load = instance.problem.load().centre().amax();
-    if load > 0.0 { load } else { 1.0 }
 }
 
 /// Where a solution that is known at a value ends towards a goal, which it may reach ([`EndCause::Range`]); the way is
@@ -30,7 +24,7 @@ pub fn end_of(
     part: f64,
 ) -> Option<BranchEnd> {
     let instance = family(at).ok()?;
-    let found = Found::of(solution, at, &instance, unit_of(&instance));
+    let found = Found::of(solution, at, &instance);
     let curve = Curve { family, equations: found.equations, greatest: None, orientation: found.orientation };
     let mut place = found.place;
     while place.at != goal {

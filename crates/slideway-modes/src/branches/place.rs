@@ -57,6 +57,24 @@ pub(super) struct Equations {
 }
 
 impl Equations {
+    /// The same in another unit of forces.
+    pub(super) fn with_unit(&self, unit: f64) -> Self {
+        Self { states: self.states.clone(), unit }
+    }
+
+    /// A place of these equations with other ones in another unit.
+    pub(super) fn converted(&self, place: &Place, other: &Self) -> Place {
+        let mut z = place.z.clone();
+        let last = z.len() - 1;
+        for (row, value) in z.iter_mut().enumerate().take(last) {
+            // Shares of contacts in their gap are numbers, not forces.
+            if self.states.get(row) != Some(&Some(ContactState::Gap)) {
+                *value *= self.unit / other.unit;
+            }
+        }
+        Place { at: place.at, z: z.normalize() }
+    }
+
     /// `[I - H D, -b]`, whose product with `z` vanishes in solutions.
     pub(super) fn matrix(&self, instance: &Instance, z: &DVector<f64>) -> DMatrix<f64> {
         let problem = &instance.problem;

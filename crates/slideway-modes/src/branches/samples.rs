@@ -64,9 +64,9 @@ impl Sample {
         for solution in &result.solutions {
             let without = solution.on_boundary.iter().copied();
             without_force.extend(without.chain(solution.unloaded.iter().map(|hinge| contacts + hinge)));
-            let one = Found::of(solution, at, instance, unit);
+            let one = Found::of(solution, at, instance);
             if are_met(&conditions(&one.equations, instance, &one.place, greatest)) {
-                found.push(one);
+                found.push(one.in_unit(unit));
             }
         }
         without_force.sort_unstable();
@@ -76,15 +76,22 @@ impl Sample {
 }
 
 impl Found {
-    /// A solution at a value, with forces in this unit.
-    pub(super) fn of(solution: &BlockSolution, at: f64, instance: &Instance, unit: f64) -> Self {
+    /// A solution at a value, in the unit of the problem.
+    pub(super) fn of(solution: &BlockSolution, at: f64, instance: &Instance) -> Self {
         let state = |contact: usize| {
             let is_zero = solution.on_boundary.contains(&contact);
             (!is_zero).then_some(solution.states[contact])
         };
-        let equations = Equations { states: (0..solution.states.len()).map(state).collect(), unit };
-        let place = Place::of(solution, at, unit);
+        let states = (0..solution.states.len()).map(state).collect();
+        let equations = Equations { states, unit: instance.unit() };
+        let place = Place::of(solution, at, equations.unit);
         let orientation = equations.orientation(instance, &place.z);
         Self { place, equations, states: solution.states.clone(), orientation }
+    }
+
+    /// The same in another unit of forces.
+    fn in_unit(self, unit: f64) -> Self {
+        let equations = self.equations.with_unit(unit);
+        Self { place: self.equations.converted(&self.place, &equations), equations, ..self }
     }
 }

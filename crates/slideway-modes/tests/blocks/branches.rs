@@ -117,6 +117,28 @@ fn the_number_of_branches_is_the_number_of_solutions() {
     assert!(several >= 3 && causes.iter().all(|count| *count >= 10), "{several}, {causes:?}");
 }
 
+/// The hinge above with a load that grows by a factor of `1e20` over the range: where branches end does not depend on it.
+#[test]
+fn great_loads_elsewhere_move_no_end() {
+    let (b, e) = ([-3.0, 1.0], [2.0, 0.5]);
+    let family = |r: f64| {
+        let load = dvector![b[0], b[1]] * 10.0_f64.powf(4.0 * r);
+        Ok(instance(BySide::same(dmatrix![r * e[0]; r * e[1]]), load))
+    };
+    let Branches { branches, gaps, .. } = found(&family, [0.0, 5.0]);
+    let fold = f64::hypot(b[0], b[1]) / f64::abs(b[0] * e[1] - b[1] * e[0]);
+    let [lower, upper] = &branches[..] else { panic!("{branches:?}") };
+    assert!(gaps.is_empty());
+    for (end, cause, expected) in [
+        (&lower.to.end, EndCause::Fold, fold),
+        (&upper.from.end, EndCause::Singular, 1.0 / f64::hypot(e[0], e[1])),
+        (&upper.to.end, EndCause::Fold, fold),
+    ] {
+        assert_eq!(end.cause, cause);
+        assert!((end.at - expected).abs() <= 1e-14 * fold, "{} instead of {expected}", end.at);
+    }
+}
+
 /// All friction grows, that of hinges towards a limit. The oracle follows each solution in steps that are at most
 /// a twentieth as long.
 #[test]
