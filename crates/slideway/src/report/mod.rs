@@ -492,7 +492,7 @@ pub struct UncertainMode {
     /// For which values it has a solution.
     pub persistence: Persistence,
     /// Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are
-    /// none.
+    /// none, or some values could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normal_force_bounds: Option<Vec<[f64; 2]>>,
 }

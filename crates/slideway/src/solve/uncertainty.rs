@@ -20,10 +20,29 @@ const BOXES: usize = 255;
 
 /// What is known of one mode in one box.
 pub(super) struct Presence {
-    /// Whether it exists for all values; else perhaps for some.
-    pub(super) certain: bool,
+    /// How many solutions it has for all values, ...
+    pub(super) certain: usize,
+    /// ... and at most for some.
+    pub(super) possible: usize,
     /// Bounds of `y_k`, or of the share of a contact in its gap, perhaps with further unknowns behind them.
     pub(super) unknowns: Option<Vec<Interval>>,
+}
+
+impl Presence {
+    /// One solution, for all values or perhaps for some.
+    pub(super) fn one(certain: bool, unknowns: Option<Vec<Interval>>) -> Self {
+        Self { certain: usize::from(certain), possible: 1, unknowns }
+    }
+
+    /// Both of a mode with several solutions.
+    pub(super) fn and(self, other: Self) -> Self {
+        let both = self.unknowns.zip(other.unknowns);
+        Self {
+            certain: self.certain + other.certain,
+            possible: self.possible + other.possible,
+            unknowns: both.map(|(one, other)| one.iter().zip(&other).map(|(a, b)| a.hull(*b)).collect()),
+        }
+    }
 }
 
 /// What is known of a box: its modes, or why it could not be searched.
@@ -93,11 +112,11 @@ impl Answer<'_> {
             };
             let proven = matches!(certificate, Certificate::Proven { .. });
             if tipping != Tipping::Always {
-                modes.insert(mode, Presence { certain: proven && tipping == Tipping::Never, unknowns });
+                modes.insert(mode, Presence::one(proven && tipping == Tipping::Never, unknowns));
             } else if let Some((mode, bounds)) =
                 unknowns.and_then(|bounds| self.in_gap(enclosed, mode, bounds))
             {
-                modes.insert(mode, Presence { certain: false, unknowns: Some(bounds) });
+                modes.insert(mode, Presence::one(false, Some(bounds)));
             }
         };
         for solution in &lists.solutions {
@@ -110,9 +129,7 @@ impl Answer<'_> {
             add(mode.pattern.clone(), &mode.certificate);
         }
         for undecided in lists.undecided {
-            modes
-                .entry(undecided.pattern)
-                .or_insert(Presence { certain: false, unknowns: undecided.unknowns });
+            modes.entry(undecided.pattern).or_insert(Presence::one(false, undecided.unknowns));
         }
         Ok(modes)
     }
@@ -144,10 +161,14 @@ impl Answer<'_> {
                     .map(|unknowns| self.mechanism.bounds_at_faces(mode, forces(mode, unknowns)));
                 let record =
                     records.entry(mode).or_insert_with(|| Record { certain: 0, bounds: found.clone() });
-                record.certain += usize::from(presence.certain);
+                record.certain += usize::from(presence.certain > 0);
                 record.bounds = record.bounds.take().zip(found).map(|(one, other)| hull(&one, &other));
             }
         }
+        let mut open: Vec<String> =
+            searched.iter().filter_map(|modes| modes.as_ref().err().cloned()).collect();
+        open.sort_unstable();
+        open.dedup();
         let persistence = |record: &Record| match record.certain {
             certain if certain == searched.len() => Persistence::AllValues,
             0 => Persistence::Undecided,
@@ -157,21 +178,19 @@ impl Answer<'_> {
             pattern: pattern(mode),
             joints: self.joint_modes(&signs(mode)),
             persistence: persistence(record),
-            normal_force_bounds: record.bounds.clone(),
+            // In parts that could not be decided the forces may be any.
+            normal_force_bounds: record.bounds.clone().filter(|_| open.is_empty()),
         };
         let count = |certain: bool| {
             let pressed = |mode: &[ContactState]| !mode.contains(&ContactState::Gap);
             searched.iter().map(move |modes| match modes {
                 Ok(modes) => {
-                    modes.iter().filter(|(mode, p)| pressed(mode) && (p.certain || !certain)).count()
+                    let counted = modes.iter().filter(|(mode, _)| pressed(mode));
+                    counted.map(|(_, found)| if certain { found.certain } else { found.possible }).sum()
                 }
-                Err(_) => 0,
+                Err(_) => 0_usize,
             })
         };
-        let mut open: Vec<String> =
-            searched.iter().filter_map(|modes| modes.as_ref().err().cloned()).collect();
-        open.sort_unstable();
-        open.dedup();
         report::Uncertainty {
             parameters: ranges.iter().map(parameter).collect(),
             least_solutions: count(true).min().unwrap_or(0),
@@ -195,7 +214,8 @@ fn subdivide(
     while let Some(part) = waiting.pop_front() {
         let modes = search_box(&part);
         searched += 1;
-        let is_open = modes.as_ref().map_or(true, |modes| modes.values().any(|mode| !mode.certain));
+        let is_open =
+            modes.as_ref().map_or(true, |modes| modes.values().any(|mode| mode.certain < mode.possible));
         match halves(&part, &whole).filter(|_| is_open && searched + waiting.len() + 2 <= BOXES) {
             Some(halves) => waiting.extend(halves),
             None => done.push(modes),

@@ -138,6 +138,15 @@ fn where_a_treadle_is_locked_is_proven_but_for_its_dead_centre() {
     let [locked] = locked[..] else { panic!("{:?}", report.counts) };
     let proven: f64 = locked.proven.iter().map(|[from, to]| to - from).sum();
     assert!(locked.proven.len() > 1 && proven > 0.5 * (locked.to - locked.from), "{locked:?}");
+    // About dead centres the loads grow without bound: where it locks does not depend on how much of them is in the range.
+    let wide = limits(&treadle, &LimitsOptions::new("phi=60 deg..250 deg".parse().unwrap())).unwrap();
+    let begins = |mode: &&ModeLimits| mode.from_is == ModeEndCause::Locking;
+    let ends = |mode: &&ModeLimits| mode.to_is == ModeEndCause::Locking;
+    let [from, to] = [
+        wide.modes.iter().find(ends).unwrap().to.unwrap(),
+        wide.modes.iter().find(begins).unwrap().from.unwrap(),
+    ];
+    assert!((from - locked.from).abs() < 1e-9 && (to - locked.to).abs() < 1e-9, "{from}, {to}: {locked:?}");
 }
 
 /// A parameter on which more depends is sampled: the ends are the same to machine precision.

@@ -48,10 +48,10 @@ fn no_solution_at_any_value_is_missing() {
     }
 }
 
-/// Beyond the centre of percussion a second solution shares the only mode of a bar without contacts: it is not told apart,
-/// and the number stays open (theory of hinges, section 2).
+/// Beyond the centre of percussion, at a radius of a third of a metre, a second solution shares the only mode of a bar
+/// without contacts (theory of hinges, section 2). It comes from infinity: across that no force has bounds.
 #[test]
-fn several_solutions_in_one_mode_are_left_open() {
+fn several_solutions_in_one_mode_are_counted() {
     let bar = |radius: &str| {
         let text = format!(
             "gravity = 9.81\n[parameters]\nr = \"{radius}\"\n[points]\nO = [0, 0]\nC = [0.3, 0]\n\
@@ -65,4 +65,7 @@ fn several_solutions_in_one_mode_are_left_open() {
     assert_eq!((below.least_solutions, below.most_solutions), (1, Some(1)));
     let across = bar("0.3 m..0.34 m");
     assert_eq!((across.most_solutions, across.open.is_empty()), (None, false), "{across:?}");
+    assert!(across.modes.iter().all(|mode| mode.normal_force_bounds.is_none()), "{across:?}");
+    let beyond = bar("0.35 m..0.36 m");
+    assert_eq!((beyond.least_solutions, beyond.most_solutions), (2, Some(2)), "{beyond:?}");
 }

@@ -95,7 +95,7 @@ fn located(
 
 /// The modes of a box.
 fn presences(enclosed: &EnclosedBlockProblem, solutions: &[Located]) -> Searched {
-    let mut modes = BTreeMap::new();
+    let mut modes: BTreeMap<Vec<ContactState>, Presence> = BTreeMap::new();
     for solution in solutions {
         if solution.on_boundary.len() > ON_BOUNDARY {
             return Err("too many contacts may be on either side".to_owned());
@@ -107,9 +107,12 @@ fn presences(enclosed: &EnclosedBlockProblem, solutions: &[Located]) -> Searched
                 continue;
             }
             let certain = solution.on_boundary.is_empty() && tipping == Tipping::Never;
-            if modes.insert(mode, Presence { certain, unknowns: Some(unknowns) }).is_some() {
-                return Err("several solutions share a contact mode".to_owned());
-            }
+            let found = Presence::one(certain, Some(unknowns));
+            let all = match modes.remove(&mode) {
+                Some(others) => found.and(others),
+                None => found,
+            };
+            modes.insert(mode, all);
         }
     }
     Ok(modes)
