@@ -236,10 +236,9 @@ fn stretches(direction: &CourseDirection) -> Vec<Stretch<'_>> {
         let is_between = rows.iter().all(|row| row.pattern.is_some() && row.efforts.is_none());
         for row in rows {
             let Some(pattern) = row.pattern.as_deref() else { continue };
-            let open = stretches
-                .iter_mut()
-                .rev()
-                .find(|(next, is_open, stretch)| *is_open && stretch.pattern == pattern && *next == place);
+            let open = stretches.iter_mut().rev().find(|(next, is_open, stretch)| {
+                *is_open && *next == place && is_continued(stretch, row, rows)
+            });
             let next = if is_between { place } else { place + 1 };
             match (open, row.efforts.is_none()) {
                 (Some((end, _, stretch)), false) => {
@@ -263,6 +262,18 @@ fn stretches(direction: &CourseDirection) -> Vec<Stretch<'_>> {
     }
     let all = stretches.into_iter().map(|(.., stretch)| stretch).filter(|stretch| stretch.rows.len() > 1);
     all.flat_map(|stretch| stretch.by_stroke()).filter(|part| part.rows.len() > 1).collect()
+}
+
+/// Whether a row continues a stretch: with friction in hinges a mode may have several at one value, of which the one with
+/// the nearest efforts does.
+fn is_continued(stretch: &Stretch<'_>, row: &CourseRow, rows: &[CourseRow]) -> bool {
+    let last = stretch.rows.last().and_then(|last| last.efforts.as_deref());
+    let distance = |other: &CourseRow| {
+        let pairs = last.into_iter().flatten().zip(other.efforts.iter().flatten());
+        pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+    };
+    let same = |other: &&CourseRow| other.pattern.as_deref() == Some(stretch.pattern);
+    same(&row) && rows.iter().filter(same).all(|other| distance(row) <= distance(other))
 }
 
 fn from_infinity(pattern: &str) -> Stretch<'_> {

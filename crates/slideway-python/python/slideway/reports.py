@@ -2789,7 +2789,8 @@ class UncertainMode(Record):
     persistence: Persistence
     """For which values it has a solution."""
     normal_force_bounds: NDArray[np.float64] | None = None
-    """Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are none."""
+    """Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are none,
+    or some values could not be decided."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -103,7 +103,7 @@ impl Page<'_, LimitsReport> {
             self.line(&format!("  {}: {}", name.trim(), speeds_in_words(&mode.speeds, unit)));
         }
         if modes.iter().any(|mode| mode.orientation == Some(-1)) {
-            self.line("  Solutions of negative orientation are never attained: with slightly elastic joints the mechanism leaves them.");
+            self.line("  With slightly elastic joints the mechanism leaves solutions of negative orientation; with drives, if it is stable without friction, which `slideway solve` tells.");
         }
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
