@@ -17,6 +17,10 @@ use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
 
 /// Evenly spaced values that are tried: a heuristic.
 const STEPS: usize = 100;
+/// The most stretches of other answers between two neighbouring values that are looked for, ...
+const BETWEEN: usize = 3;
+/// ... and those narrower than this share of the range are none.
+const NARROW: f64 = 1e-9;
 
 /// What is known at a value: whether it can rest, if that was decided, or why there is no answer.
 type Found = Result<Option<bool>, Faults>;
@@ -104,18 +108,38 @@ fn spans([from, to]: [f64; 2], found: &dyn Fn(f64) -> Found, work: Work<'_>) -> 
     let tried = (0..=STEPS).take_while(goes_on).map(|step| (value(step), found(value(step))));
     let tried: Vec<(f64, Found)> = tried.collect();
     let mut spans: Vec<SpanOfRest> = Vec::new();
-    for equal in tried.chunk_by(|one, next| is_same(&one.1, &next.1)) {
-        let (last, at_last) = &equal[equal.len() - 1];
-        let next = tried.iter().find(|(at, _)| at > last);
-        let end = next.map_or(*last, |(next, _)| bisect(*last, *next, |at| is_same(&found(at), at_last)).0);
-        let begin = spans.last().map_or(from, |span: &SpanOfRest| span.to);
-        let (holds, reason) = match &equal[equal.len() / 2].1 {
-            Ok(holds) => (*holds, None),
-            Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
+    let begin = |spans: &[SpanOfRest]| spans.last().map_or(from, |span| span.to);
+    let mut runs = tried.chunk_by(|one, next| is_same(&one.1, &next.1)).peekable();
+    while let Some(run) = runs.next() {
+        let (last, _) = run[run.len() - 1];
+        let answer = &run[run.len() / 2].1;
+        let Some((next, at_next)) = runs.peek().map(|run| &run[0]) else {
+            spans.push(span([begin(&spans), last], answer));
+            break;
         };
-        spans.push(SpanOfRest { from: begin, to: end, holds, reason });
+        let (mut end, mut beyond) = bisect(last, *next, |at| is_same(&found(at), answer));
+        spans.push(span([begin(&spans), end], answer));
+        for _ in 0..BETWEEN {
+            let other = found(beyond);
+            if is_same(&other, at_next) {
+                break;
+            }
+            let start = end;
+            (end, beyond) = bisect(beyond, *next, |at| is_same(&found(at), &other));
+            if end - start > NARROW * (to - from) {
+                spans.push(span([begin(&spans), end], &other));
+            }
+        }
     }
     spans
+}
+
+fn span([from, to]: [f64; 2], found: &Found) -> SpanOfRest {
+    let (holds, reason) = match found {
+        Ok(holds) => (*holds, None),
+        Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
+    };
+    SpanOfRest { from, to, holds, reason }
 }
 
 /// Whether two values have the same answer, or none for the same kind of reason.

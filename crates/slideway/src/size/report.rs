@@ -47,6 +47,14 @@ impl MarginKind {
         matches!(self, Self::Effort | Self::NormalForce | Self::Pressure)
     }
 
+    /// What there is where nothing can be told.
+    pub(super) fn nothing(self) -> &'static str {
+        match self {
+            Self::Efficiency => "no solution, or friction takes all",
+            _ => "no solution",
+        }
+    }
+
     /// What a margin of the search stands for, which is how many times a limit is kept.
     pub(super) fn told(self, margin: Margin, limit: f64) -> (SampleKind, Option<f64>) {
         match (self, margin) {
@@ -150,7 +158,8 @@ pub enum SampleKind {
     Finite,
     /// No friction reaches the limit.
     Infinite,
-    /// There is no solution, of which an effort, normal force, bearing pressure or efficiency could be told.
+    /// There is no solution, of which an effort, normal force, bearing pressure or efficiency could be told, or none has
+    /// any efficiency: friction takes all that the load would give.
     NoSolution,
     /// The mechanism cannot be assembled or solved there, or a guided slider is between its faces.
     NoPosition,

@@ -64,7 +64,7 @@ impl Page<'_, SizeReport> {
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
             (_, Some(margin)) => report.limit_shown_in.precise_number(margin),
-            (SampleKind::NoSolution, _) => "no solution".to_owned(),
+            (SampleKind::NoSolution, _) => report.against.nothing().to_owned(),
             _ => "no answer".to_owned(),
         };
         let header = report.limit_shown_in.title(&what);

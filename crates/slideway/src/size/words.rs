@@ -119,7 +119,7 @@ impl Words<'_> {
         let what = subject(report);
         match (is, margin) {
             (SampleKind::NoSolution, _) => {
-                format!("{model}: there is no solution, so the limit is not kept.")
+                format!("{model}: there is {}, so the limit is not kept.", report.against.nothing())
             }
             (_, Some(level)) if report.against.is_limit() => {
                 let is_kept = if report.against.is_greatest() {
