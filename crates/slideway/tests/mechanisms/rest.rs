@@ -38,6 +38,20 @@ fn a_stretch_without_an_answer_says_why() {
     assert_close(slips.from, 0.2, 0.0, 1e-12);
 }
 
+/// Values are tried 0.5 m apart, of which 0.4 m holds and -0.1 m has no answer: in between it slips from 0.2 m, where the
+/// formula of the hook begins, to 0.3048 m.
+#[test]
+fn what_is_between_two_values_is_told() {
+    let bracket = slideway::gallery::find("bracket-on-pole").unwrap().text;
+    let hook = bracket.replace("hook = [\"x\", 0]", "hook = [\"x + 0*x*sqrt(x/(1 m) - 0.2)\", 0]");
+    let report = over(&Model::parse(&hook).unwrap(), "x=-49.6 m..0.4 m");
+    let [none, slips, holds] = report.spans.as_slice() else { panic!("{:?}", report.spans) };
+    assert_eq!((none.holds, slips.holds, holds.holds), (None, Some(false), Some(true)));
+    assert_eq!((none.to, slips.to), (slips.from, holds.from));
+    assert_close(slips.from, 0.2, 0.0, 1e-7);
+    assert_close(slips.to, 0.3048, 0.0, 1e-7);
+}
+
 /// A slab of 2 kg on an incline: it holds up to tan(beta) = mu_static.
 const SLAB: &str = r#"
     gravity = 9.81
