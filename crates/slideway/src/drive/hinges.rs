@@ -1,5 +1,5 @@
-//! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and ranges
-//! without a solution, as about a dead centre, are sought between evenly spaced values.
+//! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and where the
+//! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
 
 use super::course::{evenly, modes, nothing, with_blow_ups};
 use super::efforts::GROWTH;
@@ -17,7 +17,7 @@ use crate::solve::{
     LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, solve_with_friction,
 };
 
-/// Steps between which changes between locked and not locked are sought.
+/// Steps between which changes of the number of solutions are sought.
 const STEPS: usize = 500;
 /// Halvings between two values: down to neighbouring numbers.
 const HALVINGS: usize = 60;
@@ -25,7 +25,7 @@ const HALVINGS: usize = 60;
 const NEAR: [f64; 2] = [1e-4, 1e-6];
 
 /// What can be missed.
-const GUARANTEE: &str = "Every row was solved by itself, and so were 501 evenly spaced values; between those with and without a solution the end was sought by bisection. What begins and ends between two of these values is missed.";
+const GUARANTEE: &str = "Every row was solved by itself, and so were 501 evenly spaced values; between those with different numbers of solutions the change was sought by bisection. What begins and ends between two of these values is missed.";
 
 /// The efforts in one direction of motion, and what can be missed.
 ///
@@ -42,8 +42,14 @@ pub(super) fn direction(
     if rows.iter().all(|row| row.frictionless.is_none()) {
         course.at(f64::midpoint(range[0], range[1]))?;
     }
-    let locked = course.locked();
-    let blow_ups: Vec<BlowUp> = locked.iter().flat_map(|locked| course.blow_ups(locked)).collect();
+    let Changes { locked, others } = course.changes();
+    let sides = |at: f64| [(at, -1.0, Approach::Below), (at, 1.0, Approach::Above)];
+    let of_locked = locked.iter().flat_map(|locked| [sides(locked.from)[0], sides(locked.to)[1]]);
+    let mut blow_ups: Vec<BlowUp> = of_locked
+        .chain(others.iter().flat_map(|&at| sides(at)))
+        .filter_map(|approached| course.blow_up(approached))
+        .collect();
+    blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
     let rows = with_blow_ups(rows, &blow_ups);
     let modes = modes(&rows, &Naming::new(varied.model())?);
     let without_mode_problem = Vec::new();
@@ -51,6 +57,15 @@ pub(super) fn direction(
         GUARANTEE.to_owned(),
         CourseDirection { direction, rows, modes, blow_ups, locked, without_mode_problem },
     ))
+}
+
+/// Where the number of solutions changes.
+#[derive(Default)]
+struct Changes {
+    /// The ranges without a solution.
+    locked: Vec<LockedRange>,
+    /// Changes from some solutions to another number of them.
+    others: Vec<f64>,
 }
 
 struct Sampled<'c> {
@@ -96,8 +111,8 @@ impl Sampled<'_> {
         solutions.into_iter().map(row).collect()
     }
 
-    /// Whether there is no solution at a value; none where there is no answer.
-    fn is_locked(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<bool> {
+    /// How many solutions there are at a value; none where there is no answer.
+    fn number(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<usize> {
         let (model, factor) = self.varied.model_at(value).ok()?;
         let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
         if !model.has_guided_sliders() {
@@ -105,52 +120,52 @@ impl Sampled<'_> {
             let rougher = stages.with_friction(factor);
             let found = hinged_states(rougher.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
             if let Some(states) = found {
-                return Some(states.is_empty());
+                return Some(states.len());
             }
         }
-        match self.solved(&model, stages.rougher(factor)).ok()?.status {
-            Status::Unknown => None,
-            status => Some(status == Status::None),
-        }
+        let report = self.solved(&model, stages.rougher(factor)).ok()?;
+        (report.status != Status::Unknown).then_some(report.solutions.len())
     }
 
-    /// The ranges without a solution.
-    fn locked(&self) -> Vec<LockedRange> {
+    /// Where the number of solutions changes.
+    fn changes(&self) -> Changes {
         let mut before = (Trail::default(), LastSolution::default());
-        let mut ranges: Vec<LockedRange> = Vec::new();
+        let mut changes = Changes::default();
         let mut open: Option<f64> = None;
-        let mut last: Option<(f64, bool)> = None;
+        let mut last: Option<(f64, usize)> = None;
         for value in evenly(self.range, STEPS) {
-            let is_locked = if self.work.is_over() { None } else { self.is_locked(value, &mut before) };
-            match (last, is_locked) {
+            let number = if self.work.is_over() { None } else { self.number(value, &mut before) };
+            match (last, number) {
                 (Some((known, was)), Some(is)) if was != is => {
-                    let end = self.change([known, value], is, &mut before);
-                    if is {
-                        open = Some(end);
-                    } else if let Some(from) = open.take() {
-                        ranges.push(LockedRange { from, to: end });
+                    let at = self.change([known, value], is, &mut before);
+                    match (was, is) {
+                        (_, 0) => open = Some(at),
+                        (0, _) => {
+                            changes.locked.extend(open.take().map(|from| LockedRange { from, to: at }));
+                        }
+                        _ => changes.others.push(at),
                     }
                 }
-                (None, Some(true)) => open = Some(value),
-                (Some((known, true)), None) => {
-                    ranges.extend(open.take().map(|from| LockedRange { from, to: known }));
+                (None, Some(0)) => open = Some(value),
+                (Some((known, 0)), None) => {
+                    changes.locked.extend(open.take().map(|from| LockedRange { from, to: known }));
                 }
                 _ => {}
             }
-            last = is_locked.map(|is_locked| (value, is_locked));
+            last = number.map(|number| (value, number));
         }
-        ranges.extend(open.map(|from| LockedRange { from, to: self.range[1] }));
-        ranges
+        changes.locked.extend(open.map(|from| LockedRange { from, to: self.range[1] }));
+        changes
     }
 
-    /// Where it changes between locked and not locked between two values; `after` says what it is at the second.
-    fn change(&self, [mut low, mut high]: [f64; 2], after: bool, before: &mut (Trail, LastSolution)) -> f64 {
+    /// Where the number of solutions changes between two values; `after` is that at the second.
+    fn change(&self, [mut low, mut high]: [f64; 2], after: usize, before: &mut (Trail, LastSolution)) -> f64 {
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
             if middle == low || middle == high {
                 break;
             }
-            match self.is_locked(middle, before) {
+            match self.number(middle, before) {
                 Some(is) if is == after => high = middle,
                 Some(_) => low = middle,
                 None => break,
@@ -159,33 +174,29 @@ impl Sampled<'_> {
         f64::midpoint(low, high)
     }
 
-    /// The solutions whose efforts grow without bound towards an end of a range without solutions.
-    fn blow_ups(&self, locked: &LockedRange) -> Vec<BlowUp> {
+    /// The solution whose efforts grow without bound towards a value from one side.
+    fn blow_up(&self, (at, sense, side): (f64, f64, Approach)) -> Option<BlowUp> {
         let [from, to] = self.range;
-        let ends = [(locked.from, -1.0, Approach::Below), (locked.to, 1.0, Approach::Above)];
-        let inside = ends.into_iter().filter(|(at, ..)| from < *at && *at < to);
-        let one = |(at, sense, side): (f64, f64, Approach)| {
-            let [far, close] = NEAR.map(|share| self.at(at + sense * share * (to - from)).ok());
-            let (far, close) = (far?, close?);
-            let growing = |solution: &DriveSolution| {
-                let before = far.0.iter().find(|other| other.pattern == solution.pattern)?;
-                let grows = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far.abs() {
-                    true if *close > 0.0 => 1,
-                    true => -1,
-                    false => 0,
-                };
-                let efforts: Vec<i8> = before.efforts.iter().zip(&solution.efforts).map(grows).collect();
-                let any = efforts.iter().any(|sign| *sign != 0);
-                any.then(|| BlowUp {
-                    at,
-                    pattern: solution.pattern.clone(),
-                    side,
-                    efforts,
-                    contacts: Vec::new(),
-                })
+        if at <= from || to <= at {
+            return None;
+        }
+        let [far, close] = NEAR.map(|share| self.at(at + sense * share * (to - from)).ok());
+        let (far, close) = (far?.0, close?.0);
+        let growing = |solution: &DriveSolution| {
+            // Of several solutions of a mode only one has grown beyond all that they were.
+            let before = far.iter().filter(|other| other.pattern == solution.pattern);
+            let greatest = before
+                .map(|other| other.efforts.iter().map(|effort| effort.abs()).collect::<Vec<_>>())
+                .reduce(|one, other| one.iter().zip(&other).map(|(a, b)| a.max(*b)).collect())?;
+            let grows = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far {
+                true if *close > 0.0 => 1,
+                true => -1,
+                false => 0,
             };
-            close.0.iter().find_map(growing)
+            let efforts: Vec<i8> = greatest.iter().zip(&solution.efforts).map(grows).collect();
+            let any = efforts.iter().any(|sign| *sign != 0);
+            any.then(|| BlowUp { at, pattern: solution.pattern.clone(), side, efforts, contacts: Vec::new() })
         };
-        inside.filter_map(one).collect()
+        close.iter().find_map(growing)
     }
 }
