@@ -300,7 +300,7 @@ impl Reader<'_> {
     pub fn at(&mut self, time: f64) -> Option<Sample> {
         let phase = self.locate(time)?;
         // Of several solutions those that were followed there, not those with which the phase began.
-        self.equations.follow(self.history.directions_at(time, phase).into_iter());
+        self.equations.follow(self.history.directions_at(time, phase));
         if self.entered != Some(phase) {
             self.equations.enter(&self.history.phases[phase].phase, time, &self.state).ok()?;
             self.entered = Some(phase);
