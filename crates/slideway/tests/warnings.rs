@@ -89,7 +89,7 @@ fn friction_above_two_is_rare() {
     assert_eq!(names(&with("2.001")), ["great_friction"]);
 }
 
-/// With mu = 0.12 a pin of 12 mm has a friction circle of 1.43 mm; the links are 100 mm long, which r = rho sin(atan mu)
+/// With mu = 0.12 a pin of 12 mm has a friction circle of 1.4297 mm; the links are 100 mm long, which r = rho sin(atan mu)
 /// reaches for rho = 100 mm sqrt(1 + 0.12^2) / 0.12 = 839.3 mm.
 #[test]
 fn a_friction_circle_may_not_hold_the_next_hinge() {
@@ -101,7 +101,7 @@ fn a_friction_circle_may_not_hold_the_next_hinge() {
     let found = with("12");
     let told = found[0].0.to_string();
     assert!(
-        told.starts_with("the friction circle of O has a radius of 1.43") && told.contains("100 mm"),
+        told.starts_with("the friction circle of O has a radius of 1429.7 mm") && told.contains("100 mm"),
         "{told}"
     );
     // Where a setting makes it so, the setting is to blame.
