@@ -32,6 +32,19 @@ fn lines(table: &str) -> Vec<&str> {
     table.lines().filter(|line| !line.starts_with('#')).collect()
 }
 
+/// Four hinges at rest are four faults, told on one line.
+#[test]
+fn several_faults_of_a_point_are_told_on_one_line() {
+    let run = slideway(&["sweep", "models/four-bar.toml", "--rate", "phi=0", "--vary", "mu_pin=0.1..0.3:3"]);
+    for line in
+        ["  No exact ends of modes were inserted: O does not turn", "  Point 0, and 2 more: O does not turn"]
+    {
+        let told = run.stderr.lines().find(|told| told.starts_with(line));
+        assert_eq!(told.map(|told| told.matches("; ").count()), Some(3), "{}", run.stderr);
+    }
+    assert!(!run.stderr.contains(r"\n"), "{}", run.stderr);
+}
+
 #[test]
 fn a_table_tells_of_itself() {
     let folder = tempfile::tempdir().unwrap();

@@ -632,7 +632,13 @@ impl FaultKind {
                 Some("only loads and drives may depend on coordinates, rates and the time t")
             }
             Self::DependsOnSlidingSpeed { .. } => Some(
-                "only the kinetic coefficient `mu` may depend on it; a force that grows with the velocity is a damper, or a load with `rate(q)`",
+                "only `mu` of sliding joints may depend on it, not that of hinges; a force that grows with the velocity is a damper, or a load with `rate(q)`",
+            ),
+            Self::Without { second: "radius" | "mu", .. } => Some(
+                "a pin needs its `mu` and its `radius`; in place of both, `friction_radius` gives the radius of its friction circle",
+            ),
+            Self::Without { second: "friction_radius", .. } => Some(
+                "`friction_radius` is the radius of the friction circle while the hinge turns, zero without friction",
             ),
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction must be finite and not negative at every speed that occurs, including zero",

@@ -89,6 +89,31 @@ fn friction_above_two_is_rare() {
     assert_eq!(names(&with("2.001")), ["great_friction"]);
 }
 
+/// With mu = 0.12 a pin of 12 mm has a friction circle of 1.4297 mm; the links are 100 mm long, which r = rho sin(atan mu)
+/// reaches for rho = 100 mm sqrt(1 + 0.12^2) / 0.12 = 839.3 mm.
+#[test]
+fn a_friction_circle_may_not_hold_the_next_hinge() {
+    let text = gallery::find("toggle-press").expect("in the gallery").text;
+    let with = |radius: &str| of_text(&text.replace("radius = \"12 mm\"", &format!("radius = {radius}")));
+    assert_eq!(with("\"839 mm\""), []);
+    // Each of the three pins; the one of the ram is on a link, too.
+    assert_eq!(names(&with("\"839.5 mm\"")), ["wide_friction_circle"; 3]);
+    let found = with("12");
+    let told = found[0].0.to_string();
+    assert!(
+        told.starts_with("the friction circle of O has a radius of 1429.7 mm") && told.contains("100 mm"),
+        "{told}"
+    );
+    // Where a setting makes it so, the setting is to blame.
+    let set =
+        Model::parse(text).expect("a sound model").with(&Settings::default().parameter("radius", "12 m"));
+    let found = of(&set.expect("a length"));
+    assert!(
+        found.iter().all(|(_, place)| place.as_ref().is_some_and(|place| place.source == Source::Setting(0)))
+    );
+    assert!(!found.is_empty());
+}
+
 /// Pushed at constant speed against nothing, every contact force is zero: it would seem never to jam.
 #[test]
 fn a_drive_against_nothing_says_nothing_about_jamming() {

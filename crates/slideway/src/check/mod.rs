@@ -24,7 +24,7 @@ use crate::kinetics::{Assembled, KineticEquations};
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::report::{LoadSharing, finite};
-use crate::solve::{load_sharing, mode_problem, velocity_signs};
+use crate::solve::{check_hinges, load_sharing, mode_problem, velocity_signs};
 use crate::units::Units;
 use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;
@@ -310,6 +310,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
             Ok(equations) => {
                 condition = Some(equations.condition());
                 let influence = Influence::new(&equations);
+                keep(check_hinges(&mechanism, &configuration, &influence));
                 match (load_sharing(&mechanism, &influence), &signs) {
                     (Err(found), _) => keep(Err(found)),
                     (Ok(found), Ok(signs)) => {

@@ -14,7 +14,8 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{SolveReport, Status};
 use crate::solve::{
-    LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, solve_with_friction,
+    LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, never_turning,
+    solve_with_friction,
 };
 
 /// Steps between which changes of the number of solutions are sought.
@@ -82,6 +83,7 @@ impl Sampled<'_> {
     fn at(&self, value: f64) -> Result<(Vec<DriveSolution>, Frictionless), Faults> {
         let (model, factor) = self.varied.model_at(value)?;
         let stages = Stages::of_model(&model)?;
+        never_turning(&stages.mechanism, &stages.configuration)?;
         let report = self.solved(&model, stages.rougher(factor))?;
         Ok(state::efforts(&report, &stages))
     }

@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::Work;
 use crate::report::{CoordinateState, Solution, SolveReport};
-use crate::solve::{SolveOptions, Stages, pattern, solve_with};
+use crate::solve::{SolveOptions, Stages, never_turning, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
 pub(super) const PATTERNS: u64 = 1 << 12;
@@ -28,10 +28,11 @@ pub(super) fn direction(
     direction: Sense,
     work: Work<'_>,
 ) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
-    let options = SolveOptions::default();
-    let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
     let mechanism = Mechanism::new(model)?;
     let configuration = Configuration::new(&mechanism)?;
+    never_turning(&mechanism, &configuration)?;
+    let options = SolveOptions::default();
+    let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let (solutions, frictionless) = efforts(&report, &stages);
     let found = DriveDirection {

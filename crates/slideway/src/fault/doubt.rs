@@ -21,6 +21,10 @@ pub enum Doubt {
     FarFromDrawing { body: String, distance: String, sizes: String },
     #[error("{what} is {value}: dry friction rarely exceeds 1")]
     GreatFriction { what: String, value: String },
+    #[error(
+        "the friction circle of {hinge} has a radius of {radius}, and the hinge {other} of {body} is {distance} from its centre: every force through {other} passes inside the circle"
+    )]
+    WideFrictionCircle { hinge: String, radius: String, body: String, other: String, distance: String },
     #[error("nothing presses any guide: all contact forces are zero, and friction has nothing to act on")]
     NothingPresses,
     #[error(
@@ -39,6 +43,7 @@ impl Doubt {
             Self::GapClosed { .. } => "gap_closed",
             Self::FarFromDrawing { .. } => "far_from_drawing",
             Self::GreatFriction { .. } => "great_friction",
+            Self::WideFrictionCircle { .. } => "wide_friction_circle",
             Self::NothingPresses => "nothing_presses",
             Self::RangeAtMiddle { .. } => "range_at_middle",
         }
@@ -60,6 +65,9 @@ impl Doubt {
             Self::FarFromDrawing { .. } => "look for a wrong or missing unit in the coordinates".to_owned(),
             Self::GreatFriction { .. } => {
                 "if a percentage is meant, write its sign: `30 %` is 0.3".to_owned()
+            }
+            Self::WideFrictionCircle { .. } => {
+                "look for a wrong or missing unit in its `radius` or `friction_radius`".to_owned()
             }
             Self::RangeAtMiddle { name, from, to, .. } => format!(
                 "`slideway solve` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`"

@@ -1,5 +1,8 @@
 //! Why a joint does not slide, so that friction in motion has no direction there.
 
+/// What to ask of a joint at rest.
+const HOLD: &str = "`slideway hold` says whether it can stay at rest";
+
 /// Why a joint does not slide in a state.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -22,7 +25,7 @@ impl NoSliding {
             Self::AtRest(coordinates) | Self::WithoutRate(coordinates) => {
                 let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
                 format!(
-                    "give it a velocity, for instance with `{}`; {without}",
+                    "{HOLD}; for friction in motion give it a velocity, for instance with `{}`; {without}",
                     rates.collect::<Vec<_>>().join(" ")
                 )
             }
@@ -30,7 +33,7 @@ impl NoSliding {
                 "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
             ),
             Self::Never => format!(
-                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which is computed for one such hinge alone beside at most 12 contacts; {without}"
+                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `slideway solve`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}"
             ),
         }
     }
@@ -41,13 +44,12 @@ impl NoSliding {
             let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
             rates.collect::<Vec<_>>().join(" ")
         };
-        let hold = "`slideway hold` says whether it can stay at rest";
         match self {
             Self::AtRest(coordinates) => {
-                format!("{hold}; for friction in motion give it a velocity, for instance with `{}`", rates(coordinates))
+                format!("{HOLD}; for friction in motion give it a velocity, for instance with `{}`", rates(coordinates))
             }
             Self::WithoutRate(coordinates) => format!(
-                "it slides with {} alone, which has no rate: give one, for instance with `{}`; {hold}",
+                "it slides with {} alone, which has no rate: give one, for instance with `{}`; {HOLD}",
                 super::listed(coordinates),
                 rates(coordinates)
             ),
@@ -56,7 +58,7 @@ impl NoSliding {
                     .to_owned()
             }
             Self::Never => format!(
-                "no motion of the mechanism makes it slide, so friction there only holds: {hold}; to leave that friction out write `mu = 0` there"
+                "no motion of the mechanism makes it slide, so friction there only holds: {HOLD}; to leave that friction out write `mu = 0` there"
             ),
         }
     }

@@ -43,7 +43,7 @@ mod words;
 pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub use hinges::exact_block_problem;
-pub(crate) use hinges::{HingedData, HingedState, LastSolution, hinged_states, never_turning};
+pub(crate) use hinges::{HingedData, HingedState, LastSolution, check_hinges, hinged_states, never_turning};
 pub(crate) use hinges::{
     block_instance, directions, factors_with_one_solution, friction_of_contacts, locking_factor,
     turning_hinges, unknowns_of,

@@ -170,6 +170,9 @@ pub struct Threshold {
     pub value: Option<f64>,
     /// Static coefficients of every contact at the threshold.
     pub coefficients: Vec<Coefficients>,
+    /// Whether hinges have static friction, too, so that these coefficients are not all of it.
+    #[serde(skip)]
+    pub friction_in_hinges: bool,
 }
 
 /// Static coefficients of a contact.

@@ -1,8 +1,6 @@
 //! The analysis of standstill as text for people.
 
-use super::report::{
-    Coefficients, HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold, Wedging,
-};
+use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold, Wedging};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -312,10 +310,9 @@ fn threshold_in_words(load: &LoadReport) -> Vec<String> {
         return vec![format!("{} alone is held whatever its magnitude, without friction.", load.name)];
     }
     let what = threshold_value(&load.threshold, value);
-    vec![
-        format!("For {} alone: self-locking from {what} on, free below it.", load.name),
-        coefficients_in_words(&load.threshold.coefficients),
-    ]
+    let mut lines = vec![format!("For {} alone: self-locking from {what} on, free below it.", load.name)];
+    lines.extend(coefficients_in_words(&load.threshold));
+    lines
 }
 
 /// From which friction on guides that share a load wedge.
@@ -337,7 +334,7 @@ fn wedging_in_words(wedging: &Wedging) -> Vec<String> {
              so without any load."
         )
     };
-    vec![whole, coefficients_in_words(&threshold.coefficients)]
+    [whole].into_iter().chain(coefficients_in_words(threshold)).collect()
 }
 
 /// "2 times the static friction of the model", "mu = 0.6 (the model has 0.3)".
@@ -349,7 +346,12 @@ fn threshold_value(threshold: &Threshold, value: f64) -> String {
     }
 }
 
-fn coefficients_in_words(coefficients: &[Coefficients]) -> String {
+/// The static coefficients at the threshold; nothing without contacts.
+fn coefficients_in_words(threshold: &Threshold) -> Option<String> {
+    let Threshold { coefficients, friction_in_hinges, .. } = threshold;
+    if coefficients.is_empty() {
+        return None;
+    }
     let list = |[plus, minus]: [f64; 2]| {
         if plus == minus { number(plus) } else { format!("{} (+), {} (-)", number(plus), number(minus)) }
     };
@@ -361,7 +363,9 @@ fn coefficients_in_words(coefficients: &[Coefficients]) -> String {
         let named = coefficients.iter().map(|c| format!("{}: {}", c.contact, list(c.mu_static)));
         named.collect::<Vec<_>>().join(", ")
     };
-    format!("There mu_static is {coefficients}.")
+    // Hinges have coefficients of their own, or friction circles without any.
+    let whose = if *friction_in_hinges { " of the sliding joints" } else { "" };
+    Some(format!("There mu_static{whose} is {coefficients}."))
 }
 
 /// Greatest finite magnitude among the ends.

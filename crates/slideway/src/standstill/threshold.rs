@@ -23,6 +23,7 @@ use super::setup::Setup;
 use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
+use crate::mechanism::FrictionCircle;
 use crate::model::Model;
 use crate::pattern::Unsolved;
 use crate::progress::Work;
@@ -129,6 +130,7 @@ fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
         coefficients: named
             .map(|(contact, mu_static)| Coefficients { contact: contact.name.to_string(), mu_static })
             .collect(),
+        friction_in_hinges: setup.mechanism.friction_circles.iter().any(FrictionCircle::is_rough),
     }
 }
 

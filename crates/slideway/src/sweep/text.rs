@@ -115,12 +115,12 @@ impl Page<'_, SweepState> {
             ));
         }
         if let Some(reason) = sweep.without_breakpoints() {
-            self.line(&format!("  No exact ends of modes were inserted: {reason}"));
+            self.line(&format!("  No exact ends of modes were inserted: {}", in_one_line(reason)));
         }
         for (status, (point, reason)) in &tally.refusals {
             let count = tally.with_status(*status);
             let others = if count > 1 { format!(", and {} more", count - 1) } else { String::new() };
-            self.line(&format!("  Point {point}{others}: {}", reason.replace('\n', "; ")));
+            self.line(&format!("  Point {point}{others}: {}", in_one_line(reason)));
         }
     }
 }
@@ -129,4 +129,9 @@ impl Page<'_, SweepState> {
 fn counted(count: u64, what: &str) -> String {
     let ending = if what.ends_with("ch") { "es" } else { "s" };
     if count == 1 { format!("1 {what}") } else { format!("{count} {what}{ending}") }
+}
+
+/// Several faults, each on its own line, as one.
+fn in_one_line(faults: &str) -> String {
+    faults.replace('\n', "; ")
 }

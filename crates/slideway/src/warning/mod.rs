@@ -17,10 +17,10 @@
 use crate::configuration::{Configuration, widest_gap_of_drawing};
 use crate::expression::Dimension;
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
-use crate::ids::FormulaId;
+use crate::ids::{FormulaId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Coordinate, CoordinateKind, Mechanism};
+use crate::mechanism::{Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
 use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
 use crate::report::number::number;
 use serde::Serialize;
@@ -35,6 +35,8 @@ const FAR_APART: f64 = 1e4;
 const OPEN: f64 = 1e-3;
 /// A body this many sizes of the mechanism from its place in the drawing is far from it.
 const FAR: f64 = 3.0;
+/// Hinges this part of the mechanism's size from each other are drawn at one place.
+const SAME_PLACE: f64 = 1e-9;
 /// Coefficients of friction above this are rare.
 const GREAT_FRICTION: f64 = 2.0;
 
@@ -43,7 +45,7 @@ const GREAT_FRICTION: f64 = 2.0;
 #[non_exhaustive]
 pub struct WarningReport {
     /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
-    /// "great_friction" or "nothing_presses".
+    /// "great_friction", "wide_friction_circle" or "nothing_presses".
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
     pub place: Option<WarningPlace>,
@@ -94,6 +96,7 @@ pub fn warnings(model: &Model) -> Faults {
     found.extend(lengths_far_apart(model));
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
+        found.extend(wide_friction_circles(model, &mechanism));
         found.extend(gap_closed(model, &mechanism));
         // Assembled once, and only if one of them asks.
         let state: State<'_> = LazyCell::new(Box::new(|| Configuration::new(&mechanism).ok()));
@@ -209,6 +212,48 @@ fn great_friction(model: &Model) -> Vec<Fault> {
         warning(Doubt::GreatFriction { what, value: number(values[id.index()]) }, place)
     };
     great.map(one).collect()
+}
+
+/// Friction circles that hold the centre of another hinge of one of their bodies. Hinges of several bodies at one place
+/// are meant.
+fn wide_friction_circles(model: &Model, mechanism: &Mechanism) -> Vec<Fault> {
+    let unit = mechanism.units.of("m");
+    let one = |circle: &FrictionCircle| {
+        let radius = circle.radius.max(circle.static_radius);
+        let (body, other, distance) = nearest_hinge(mechanism, circle.joint)?;
+        let joint = &mechanism.joints[circle.joint.index()];
+        let doubt = Doubt::WideFrictionCircle {
+            hinge: joint.name.to_string(),
+            radius: unit.show(radius),
+            body: mechanism.frame_name(body).to_owned(),
+            other: mechanism.joints[other.index()].name.to_string(),
+            distance: unit.show(distance),
+        };
+        let formulas: Vec<FormulaId> = match &model.joints[circle.joint.index()].kind {
+            JointKind::Hinge(hinge) => {
+                hinge.friction.iter().flat_map(|friction| friction.formulas()).collect()
+            }
+            JointKind::Slider(_) => Vec::new(),
+        };
+        let place = model.setting_of(&formulas).unwrap_or_else(|| joint.place.clone());
+        (radius > distance).then(|| warning(doubt, place))
+    };
+    mechanism.friction_circles.iter().filter_map(one).collect()
+}
+
+/// Of the other hinges of the bodies that a hinge joins, ground left out, the nearest at another place: its body, itself
+/// and the distance (m).
+fn nearest_hinge(mechanism: &Mechanism, joint: JointId) -> Option<(Frame, JointId, f64)> {
+    let others = (0..mechanism.joints.len()).map(JointId).filter(|other| *other != joint);
+    let ends = mechanism.hinge(joint)?.iter().filter(|end| end.frame.body().is_some());
+    let distances = ends.flat_map(|end| {
+        others.clone().filter_map(|other| {
+            let there = mechanism.hinge(other)?.iter().find(|there| there.frame == end.frame)?;
+            Some((end.frame, other, (there.position - end.position).norm()))
+        })
+    });
+    let apart = distances.filter(|(.., distance)| *distance > SAME_PLACE * mechanism.size);
+    apart.min_by(|one, other| one.2.total_cmp(&other.2))
 }
 
 /// The joint that the drawing leaves most open, if that is no rounding.

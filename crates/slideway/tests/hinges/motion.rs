@@ -4,7 +4,7 @@ use crate::dead_centre::dead_centres;
 use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
-use slideway::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
+use slideway::motion::{Cause, End, History, JointPhase, SimulateOptions, report, simulate};
 use slideway::{Model, Settings, gallery};
 use std::path::Path;
 
@@ -270,6 +270,48 @@ fn at_a_fold_a_body_jams() {
     // alpha (1 + e) = T / I
     let alpha = history.reader().at(at).unwrap().accelerations[0][2];
     is_near(alpha, 0.3 * (1.0 - at / 0.1) / inertia / (1.0 + e), 1e-5);
+}
+
+/// The energies that a report gives for the end, and the energy of its rates.
+fn energies_at_the_end(model: &Model, duration: f64) -> [f64; 4] {
+    let options = SimulateOptions::new(duration).tolerance(1e-10);
+    let history = simulate(model, &options).unwrap();
+    let told = report(&history, &options);
+    let sum = |list: &[slideway::motion::Named]| list.iter().map(|named| named.value).sum::<f64>();
+    let dissipated = sum(&told.energy.friction) + sum(&told.energy.hinges);
+    [told.energy.kinetic[1], dissipated, sum(&told.energy.loads), told.last[0].rate]
+}
+
+/// A torque T drives the body on a pin that is so wide, e = r m c / I = 4/3, that there are two solutions. It comes to
+/// omega^2 = T / (r m c) = 50/3, where friction takes all of the torque. The motion has turned the force of the pin far
+/// from its direction at the start; whatever the time at which it ends, the energies are those of the end.
+#[rstest]
+fn energies_are_those_of_the_end(#[values(0.5, 0.8, 0.85, 0.9, 1.0, 1.1, 1.2, 1.3, 6.0)] duration: f64) {
+    let (mass, distance, inertia, torque) = (2.0, 0.2, 0.09, 2.0);
+    let text = format!(
+        "[points]\nO = [0, 0]\n[bodies.bar]\npoints = [\"O\"]\nmass = {mass}\nmoment_of_inertia = 0.01\n\
+         centre_of_mass = [{distance}, 0]\n[joints.O]\ntype = \"hinge\"\nbetween = [\"bar.O\", \"ground.O\"]\n\
+         friction_radius = 0.3\n[loads.T]\ntype = \"torque\"\nbody = \"bar\"\nmoment = {torque}\n\
+         [coordinates.q]\nrotation = \"bar\"\nrate = 3\n"
+    );
+    let model = Model::parse(&text).unwrap();
+    let [kinetic, dissipated, work, rate] = energies_at_the_end(&model, duration);
+    is_near(kinetic, inertia * rate * rate / 2.0, 1e-12);
+    let history = simulate(&model, &SimulateOptions::new(duration).tolerance(1e-10)).unwrap();
+    is_near(work, torque * phi(&history, duration)[0], 1e-8);
+    is_near(dissipated, inertia * 9.0 / 2.0 + work - kinetic, 1e-7);
+    assert!(dissipated > 0.5 * work, "{dissipated}");
+    if duration > 5.0 {
+        is_near(rate * rate, torque / (0.3 * mass * distance), 1e-6);
+    }
+    // A reader that begins anywhere follows the same solution.
+    for part in [0.3, 0.7, 0.97, 1.0] {
+        let mut ordered = history.reader();
+        (0..100).for_each(|index| drop(ordered.at(part * duration * f64::from(index) / 100.0)));
+        let [alone, after] =
+            [history.reader().at(part * duration), ordered.at(part * duration)].map(|sample| sample.unwrap());
+        is_near(alone.hinges[0].couple.unwrap(), after.hinges[0].couple.unwrap(), 1e-9);
+    }
 }
 
 /// Where no effort of the drive moves the mechanism any further, it locks.

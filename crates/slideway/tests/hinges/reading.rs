@@ -72,6 +72,17 @@ fn what_says_too_little_or_too_much_is_refused(#[case] friction: &str, #[case] m
     assert!(faults[0].place.is_some());
 }
 
+/// Help says how friction of a hinge can be given, and that it does not depend on a speed.
+#[rstest]
+#[case("mu = 0.1", "in place of both, `friction_radius` gives the radius of its friction circle")]
+#[case("radius = 0.1", "in place of both, `friction_radius` gives the radius of its friction circle")]
+#[case("static_friction_radius = 0.1", "the friction circle while the hinge turns")]
+#[case("mu = \"0.1 + sliding_speed/(1 m/s)\"\nradius = 0.1", "only `mu` of sliding joints may depend on it")]
+fn help_says_what_a_hinge_may_have(#[case] friction: &str, #[case] help: &str) {
+    let hint = faults(friction)[0].kind.hint().unwrap_or_default();
+    assert!(hint.contains(help), "{hint}");
+}
+
 /// Where static friction is below kinetic because of a setting, the setting is to blame.
 #[test]
 fn settings_are_checked_too() {

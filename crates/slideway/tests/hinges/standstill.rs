@@ -4,8 +4,9 @@
 //! many starts for the toggle and the bar.
 
 use rstest::rstest;
-use slideway::Model;
+use slideway::report::{Report, Style};
 use slideway::standstill::{HoldOptions, HoldReport, HoldVerdict, Range, hold};
+use slideway::{Model, Settings, gallery};
 
 fn held(text: &str, options: &HoldOptions) -> HoldReport {
     let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
@@ -111,6 +112,22 @@ fn from_a_certain_friction_on_a_lever_is_self_locking(#[case] friction: &str, #[
     let report = held(&lever(friction, BELL_CRANK), &HoldOptions::default().load("Q"));
     let value = report.load.unwrap().threshold.value.unwrap();
     assert!((value - expected).abs() <= 1e-9 * expected, "{value} instead of {expected}");
+}
+
+/// Coefficients at the threshold are those of contacts: nothing is said without any, and what they are beside hinges.
+#[test]
+fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
+    let options = HoldOptions::default().load("Q");
+    let pins = held(&lever("mu = 0.3\nradius = 0.1", BELL_CRANK), &options).text(Style::Plain);
+    assert!(
+        pins.contains("self-locking from 2.5 times the static friction") && !pins.contains("mu_static"),
+        "{pins}"
+    );
+    let press = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
+    let at = Settings::default().position("alpha", "1 deg");
+    let press = hold(&press.with(&at).unwrap(), &HoldOptions::default().load("work")).unwrap();
+    let both = press.text(Style::Plain);
+    assert!(both.contains("There mu_static of the sliding joints is 0.060759."), "{both}");
 }
 
 /// Two links and a block (reference `toggle_hold_0.1`): the knee is pressed down with a factor times 1 N against 500 N.

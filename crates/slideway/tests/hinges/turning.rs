@@ -4,11 +4,15 @@ use crate::cases::reference;
 use serde::Deserialize;
 use slideway::fault::{FaultKind, NoSliding};
 use slideway::report::{Proof, Status};
-use slideway::{Faults, Model, Settings, gallery, solve};
+use slideway::{Faults, Model, Settings, check, gallery, solve};
 
 /// A slider-crank, drawn with the crank at a right angle to the piston: the rod only shifts there.
 fn slider_crank() -> Model {
-    let text = "[points]\nO = [0, 0]\nA = [0, 0.05]\nB = [\"sqrt(0.15^2 - 0.05^2)\", 0]\n\
+    Model::parse(&slider_crank_text()).unwrap()
+}
+
+fn slider_crank_text() -> String {
+    "[points]\nO = [0, 0]\nA = [0, 0.05]\nB = [\"sqrt(0.15^2 - 0.05^2)\", 0]\n\
          [bodies.crank]\npoints = [\"O\", \"A\"]\nmass = 1\nshape = { bar = [\"O\", \"A\"] }\n\
          [bodies.rod]\npoints = [\"A\", \"B\"]\nmass = 0.5\nshape = { bar = [\"A\", \"B\"] }\n\
          [bodies.piston]\npoints = [\"B\"]\nmass = 0.8\nmoment_of_inertia = 0.001\ncentre_of_mass = \"B\"\n\
@@ -17,8 +21,8 @@ fn slider_crank() -> Model {
          [joints.B]\ntype = \"hinge\"\nbetween = [\"rod.B\", \"piston.B\"]\nfriction_radius = 0.002\n\
          [joints.cylinder]\ntype = \"block_slider\"\nblock = \"piston\"\nat = \"B\"\nalong = 0\nlength = 0.06\nmu = 0.1\n\
          [loads.gas]\ntype = \"force\"\nat = \"piston.B\"\ncomponents = [-1000, 0]\n\
-         [coordinates.phi]\nrotation = \"crank\"\nrate = 60\n";
-    Model::parse(text).unwrap()
+         [coordinates.phi]\nrotation = \"crank\"\nrate = 60\n"
+        .to_owned()
 }
 
 /// Where the spin of a hinge passes through zero, friction has the sense of what follows.
@@ -38,6 +42,50 @@ fn a_hinge_that_just_turns_back_has_the_friction_of_what_follows() {
     // That it is zero exactly is not proven by bounds.
     assert_eq!(here.1, Proof::NotProven);
     assert!(here.2[0].contains("the sense in which B turns is not certain"), "{:?}", here.2);
+}
+
+/// A check finds whatever is refused: hinges at rest, also without any sliding joint, guides that share a load beside
+/// rough hinges, several hinges that never turn.
+#[test]
+fn a_check_finds_what_is_refused() {
+    let crank = slider_crank_text();
+    let support =
+        "length = 0.06\nheight = 0.04\nplay = 1e-4\nstiffness = 1e7\nsupports = { middle = { at = 0.01 } }";
+    let four_bar = gallery::find("four-bar").unwrap().text;
+    let at_rest = four_bar.replace("rate = \"10 rad/s\"", "rate = 0");
+    assert_ne!(four_bar, at_rest);
+    let texts = [
+        crank.replace("rate = 60", "rate = 0"),
+        crank.replace("length = 0.06", support),
+        at_rest,
+        two_that_never_turn().to_owned(),
+    ];
+    for text in texts {
+        let model = Model::parse(&text).unwrap();
+        let refused = solve(&model).unwrap_err();
+        let report = check::check(&model).unwrap();
+        assert!(!report.sound);
+        for fault in refused.sorted() {
+            let found = |finding: &check::Finding| finding.message == fault.kind.to_string();
+            assert!(report.findings.iter().any(found), "{}: {:?}", fault.kind, report.findings);
+        }
+    }
+    // One hinge that never turns is answered.
+    for model in [slider_crank(), klepp(0.3, 0.01)] {
+        assert_eq!(check::check(&model).unwrap().findings, []);
+        assert!(solve(&model).is_ok());
+    }
+}
+
+/// What turns at rest may hold.
+#[test]
+fn a_hinge_at_rest_is_referred_to_standstill() {
+    let at_rest = Settings::default().rate("phi", 0.0);
+    let model = Model::parse(gallery::find("four-bar").unwrap().text).unwrap().with(&at_rest).unwrap();
+    let faults = solve(&model).unwrap_err();
+    assert!(matches!(why(&faults).1, NoSliding::AtRest(_)), "{faults}");
+    let hint = faults.sorted()[0].kind.hint().unwrap();
+    assert!(hint.starts_with("`slideway hold` says whether it can stay at rest"), "{hint}");
 }
 
 fn why(faults: &Faults) -> (String, NoSliding) {
@@ -124,7 +172,14 @@ fn both_solutions_of_the_paper_become_ranges() {
 /// Two hinges that never turn are one too many.
 #[test]
 fn several_hinges_that_never_turn_are_named() {
-    let text = "[points]\nA = [0, 0]\nB = [1, 0]\nC = [0, 1]\nD = [1, 1]\n\
+    let faults = solve(&Model::parse(two_that_never_turn()).unwrap()).unwrap_err();
+    assert_eq!(why(&faults), ("C".to_owned(), NoSliding::Never));
+    assert_eq!(faults.sorted().len(), 2);
+    assert!(faults.sorted()[0].kind.hint().unwrap().contains("anything up to r |R|"));
+}
+
+fn two_that_never_turn() -> &'static str {
+    "[points]\nA = [0, 0]\nB = [1, 0]\nC = [0, 1]\nD = [1, 1]\n\
          [bodies.one]\npoints = [\"A\", \"C\"]\nmass = 1\nshape = { bar = [\"A\", \"C\"] }\n\
          [bodies.two]\npoints = [\"C\", \"D\"]\nmass = 1\nshape = { bar = [\"C\", \"D\"] }\n\
          [bodies.three]\npoints = [\"D\", \"B\"]\nmass = 1\nshape = { bar = [\"B\", \"D\"] }\n\
@@ -133,11 +188,7 @@ fn several_hinges_that_never_turn_are_named() {
          [joints.rail]\ntype = \"guided_slider\"\nblock = \"one\"\nat = \"A\"\nalong = 0\nlength = 1\nmu = 0.1\n\
          [joints.slot]\ntype = \"guided_slider\"\nblock = \"three\"\nat = \"B\"\nalong = 0\nlength = 1\nmu = 0.1\n\
          [loads.weight]\ntype = \"force\"\nat = \"two.D\"\ncomponents = [0, -1]\n\
-         [coordinates.x]\nslide = \"rail\"\nrate = 1\n";
-    let faults = solve(&Model::parse(text).unwrap()).unwrap_err();
-    assert_eq!(why(&faults), ("C".to_owned(), NoSliding::Never));
-    assert_eq!(faults.sorted().len(), 2);
-    assert!(faults.sorted()[0].kind.hint().unwrap().contains("anything up to r |R|"));
+         [coordinates.x]\nslide = \"rail\"\nrate = 1\n"
 }
 
 #[test]

@@ -243,11 +243,30 @@ impl History {
         self.steps.iter().map(|step| step.time).chain([self.last.time])
     }
 
-    /// The directions of the forces of the hinges with friction near a time: those at the end of its step.
-    fn directions_at(&self, time: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
+    /// Its state at the end, and the energies up to there. They follow from the state alone, so that no equations are
+    /// solved.
+    pub(in crate::motion) fn at_end(&self) -> (Configuration, Energy) {
+        let LastState { time, state } = &self.last;
+        let mut equations = Equations::new(&self.mechanism, &self.initial);
+        equations.place(*time, state);
+        let energy = Energy::of(&self.mechanism, &equations.configuration, state, self.lost_until(*time));
+        (equations.configuration, energy)
+    }
+
+    /// Energy lost in impulses up to a time (J).
+    fn lost_until(&self, time: f64) -> f64 {
+        self.impulses.iter().rfind(|loss| loss.time <= time).map_or(0.0, |loss| loss.energy)
+    }
+
+    /// The directions of the forces of the hinges with friction near a time in a phase: those at the end of its step, or
+    /// those with which the phase begins if it has no step there.
+    fn directions_at(&self, time: f64, phase: usize) -> Vec<[f64; 2]> {
         let hinges = self.mechanism.friction_circles.len();
         let step = self.steps.partition_point(|step| step.time <= time).saturating_sub(1);
-        self.directions.iter().skip(step * hinges).take(hinges).copied()
+        if self.steps.get(step).is_some_and(|step| step.phase == phase) {
+            return self.directions[step * hinges..][..hinges].to_vec();
+        }
+        self.phases[phase].phase.hinges.iter().map(|hinge| hinge.force).collect()
     }
 
     /// A reader of the motion at any time; it is quickest when asked in order.
@@ -276,16 +295,16 @@ impl Reader<'_> {
         Some(&self.equations.configuration)
     }
 
-    /// Everything at a time; nothing outside the history. At an event what follows it.
+    /// Everything at a time; nothing outside the history, or where its equations have no solution. At an event what
+    /// follows it.
     pub fn at(&mut self, time: f64) -> Option<Sample> {
         let phase = self.locate(time)?;
+        // Of several solutions those that were followed there, not those with which the phase began.
+        self.equations.follow(self.history.directions_at(time, phase));
         if self.entered != Some(phase) {
-            let entry = &self.history.phases[phase];
-            self.equations.follow(entry.phase.hinges.iter().map(|hinge| hinge.force));
-            self.equations.enter(&entry.phase, time, &self.state).ok()?;
+            self.equations.enter(&self.history.phases[phase].phase, time, &self.state).ok()?;
             self.entered = Some(phase);
         }
-        self.equations.follow(self.history.directions_at(time));
         self.equations.evaluate(time, &self.state).ok()?;
         let equations = &self.equations;
         let contact = |k: usize| ContactSample {
@@ -301,8 +320,7 @@ impl Reader<'_> {
             couple: equations.hinge_couple(hinge),
             spin: equations.spin(hinge),
         };
-        let impulses = self.history.impulses.iter().rfind(|loss| loss.time <= time);
-        let impulses = impulses.map_or(0.0, |loss| loss.energy);
+        let impulses = self.history.lost_until(time);
         let accelerations = equations.accelerations().chunks_exact(3);
         Some(Sample {
             phase,

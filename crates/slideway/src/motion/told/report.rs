@@ -249,6 +249,7 @@ pub struct SampledReport {
 /// The report of a motion that was simulated with these options.
 pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     let mechanism = &history.mechanism;
+    let (last, energies) = history.at_end();
     SimulateReport {
         schema: SCHEMA,
         model: ModelSummary {
@@ -267,7 +268,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         stop: history.stop(),
         initial: state(history, &history.initial),
         steps_from_drawing: history.initial.steps_from_drawing(),
-        last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
+        last: state(history, &last),
         events: history
             .events
             .iter()
@@ -277,7 +278,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         phases: phases(history),
         end: end_report(history, options),
         hints: hints(history),
-        energy: energy(history),
+        energy: energy(history, &energies),
         position_drift: history.drift.position,
         velocity_drift: history.drift.velocity,
         statistics: StatisticsReport {
@@ -402,29 +403,24 @@ fn sign(joint: JointPhase) -> i8 {
     }
 }
 
-fn energy(history: &History) -> EnergyReport {
+fn energy(history: &History, stop: &Energy) -> EnergyReport {
     let mechanism = &history.mechanism;
-    let stop = history.reader().at(history.stop()).map(|sample| sample.energy);
-    let last = |of: fn(&Energy) -> f64| stop.as_ref().map_or(0.0, of);
     // Before any impulse at the start.
     let initial = &history.initial;
-    let named = |names: Vec<String>, of: fn(&Energy) -> &[f64]| {
-        let values = stop.as_ref().map_or(&[][..], of);
+    let named = |names: Vec<String>, values: &[f64]| {
         names.into_iter().zip(values).map(|(name, value)| Named { name, value: *value }).collect()
     };
     let contacts = mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect();
     let loads = mechanism.loads.iter().map(|load| load.name.to_string()).collect();
     let drives = mechanism.drives.iter().map(|drive| drive.name.to_string()).collect();
-    // A motion that ends where it begins has no sample: nothing has changed.
-    let from = |start: f64, of: fn(&Energy) -> f64| [start, stop.as_ref().map_or(start, of)];
     EnergyReport {
-        kinetic: from(kinetic(mechanism, initial), |energy| energy.kinetic),
-        potential: from(potential(mechanism, initial), |energy| energy.potential),
-        friction: named(contacts, |energy| &energy.friction),
-        hinges: named(names_of_hinges(mechanism), |energy| &energy.hinges),
-        loads: named(loads, |energy| &energy.loads),
-        drives: named(drives, |energy| &energy.drives),
-        impulses: last(|energy| energy.impulses),
+        kinetic: [kinetic(mechanism, initial), stop.kinetic],
+        potential: [potential(mechanism, initial), stop.potential],
+        friction: named(contacts, &stop.friction),
+        hinges: named(names_of_hinges(mechanism), &stop.hinges),
+        loads: named(loads, &stop.loads),
+        drives: named(drives, &stop.drives),
+        impulses: stop.impulses,
         error: history.energy_error,
         relative_error: match (history.energy_error, history.energy_scale) {
             (0.0, _) => Some(0.0),

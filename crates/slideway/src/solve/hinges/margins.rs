@@ -216,7 +216,7 @@ fn rounded_down(number: f64) -> f64 {
 /// # Errors
 /// Hinges with friction that do not turn now; guides that share a load.
 pub(crate) fn factors_with_one_solution(stages: &Stages, factors: &[f64]) -> Result<Option<usize>, Faults> {
-    let Spins { turning, standing } = spins(stages.hinged())?;
+    let Spins { turning, standing } = spins(&stages.mechanism, &stages.configuration, &stages.influence)?;
     if !standing.is_empty() {
         return Ok(None);
     }

@@ -22,6 +22,7 @@ use crate::configuration::Configuration;
 use crate::enclosure::{BlockCoefficients, TurningHinge, UncertainParameters, enclosed_block_problem};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
+use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Contact, Mechanism};
 use crate::model::{Model, ParameterRange};
@@ -63,9 +64,8 @@ pub(super) fn solve(
         shared: None,
         enclosed: None,
     };
-    check_determinate(mechanism)?;
-    let Spins { turning, standing } = spins(stages.hinged())?;
-    if let ([hinge], [], true) = (&standing[..], &turning[..], contacts <= standing::MOST_CONTACTS) {
+    let Spins { turning, standing } = accepted_spins(mechanism, configuration, influence)?;
+    if let [hinge] = &standing[..] {
         let mut report = standing::ranges(&answer, stages, *hinge)?;
         if !ranges.is_empty() {
             report
@@ -74,7 +74,6 @@ pub(super) fn solve(
         }
         return Ok(report);
     }
-    never_turn(mechanism, &standing)?;
     let problem = block_problem(stages.hinged(), &turning)?;
     let enclosed = enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning);
     answer.enclosed = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
@@ -107,9 +106,42 @@ pub fn exact_block_problem(model: &Model) -> Result<BlockProblem, Faults> {
     check_determinate(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
-    let Spins { turning, standing } = spins(stages.hinged())?;
+    let Spins { turning, standing } = spins(&stages.mechanism, &stages.configuration, &stages.influence)?;
     never_turn(&stages.mechanism, &standing)?;
     block_problem(stages.hinged(), &turning)
+}
+
+/// Refuses friction in hinges for which there is no mode problem in this state.
+///
+/// # Errors
+/// As for [`solve`]; none without friction in hinges.
+pub(crate) fn check_hinges(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    influence: &Influence,
+) -> Result<(), Faults> {
+    if mechanism.rough_hinges().next().is_none() {
+        return Ok(());
+    }
+    accepted_spins(mechanism, configuration, influence).map(|_| ())
+}
+
+/// The hinges with friction: all of them turn, or there is one only, which never does.
+///
+/// # Errors
+/// Guides that share a load; hinges that do not turn now, or never, but for that one.
+fn accepted_spins(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    influence: &Influence,
+) -> Result<Spins, Faults> {
+    check_determinate(mechanism)?;
+    let spins = spins(mechanism, configuration, influence)?;
+    let has_few_contacts = mechanism.contacts.len() <= standing::MOST_CONTACTS;
+    if !(spins.standing.len() == 1 && spins.turning.is_empty() && has_few_contacts) {
+        never_turn(mechanism, &spins.standing)?;
+    }
+    Ok(spins)
 }
 
 /// Refuses friction in hinges where guides share a load.

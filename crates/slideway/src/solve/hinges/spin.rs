@@ -38,8 +38,11 @@ pub(super) struct Spins {
 ///
 /// # Errors
 /// A fault for each hinge with friction that could turn and does not.
-pub(super) fn spins(data: HingedData<'_>) -> Result<Spins, Faults> {
-    let HingedData { mechanism, configuration, influence, .. } = data;
+pub(super) fn spins(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    influence: &Influence,
+) -> Result<Spins, Faults> {
     let mut faults = Faults::default();
     let mut spins = Spins { turning: Vec::new(), standing: Vec::new() };
     for (circle, joint) in mechanism.rough_hinges() {

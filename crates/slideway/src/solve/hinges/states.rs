@@ -44,7 +44,7 @@ pub(crate) fn hinged_states(
     if !data.mechanism.excess.is_empty() {
         return Ok(None);
     }
-    let Spins { turning, standing } = spins(data)?;
+    let Spins { turning, standing } = spins(data.mechanism, data.configuration, data.influence)?;
     if !standing.is_empty() {
         return Ok(None);
     }
