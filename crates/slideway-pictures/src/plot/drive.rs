@@ -4,7 +4,7 @@ use super::colours::ModeColours;
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
 use super::limits::{in_parentheses, in_words, stroke_of, without_empty_ends};
 use crate::drawing::signs;
-use slideway::drive::{Course, CourseDirection, CourseRow, DriveReport, Sense};
+use slideway::drive::{Approach, BlowUp, Course, CourseDirection, CourseRow, DriveReport, Sense};
 use slideway::report::{Verdict, precise};
 
 /// The figure of a [`DriveReport`] with a course: for each direction of motion and each unit a panel with the efforts, with and without friction, and one with the efficiency;
@@ -239,6 +239,7 @@ fn stretches(direction: &CourseDirection) -> Vec<Stretch<'_>> {
             let open = stretches.iter_mut().rev().find(|(next, is_open, stretch)| {
                 *is_open && *next == place && is_continued(stretch, row, rows)
             });
+            let open = open.filter(|_| !comes_from_infinity(direction, row));
             let next = if is_between { place } else { place + 1 };
             match (open, row.efforts.is_none()) {
                 (Some((end, _, stretch)), false) => {
@@ -265,15 +266,27 @@ fn stretches(direction: &CourseDirection) -> Vec<Stretch<'_>> {
 }
 
 /// Whether a row continues a stretch: with friction in hinges a mode may have several at one value, of which the one with
-/// the nearest efforts does.
+/// the nearest efforts does, from infinity that with the greatest.
 fn is_continued(stretch: &Stretch<'_>, row: &CourseRow, rows: &[CourseRow]) -> bool {
     let last = stretch.rows.last().and_then(|last| last.efforts.as_deref());
     let distance = |other: &CourseRow| {
-        let pairs = last.into_iter().flatten().zip(other.efforts.iter().flatten());
-        pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+        let efforts = other.efforts.as_deref().unwrap_or_default();
+        match last {
+            Some(last) => {
+                last.iter().zip(efforts).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+            }
+            None => -efforts.iter().map(|effort| effort.abs()).fold(0.0, f64::max),
+        }
     };
     let same = |other: &&CourseRow| other.pattern.as_deref() == Some(stretch.pattern);
     same(&row) && rows.iter().filter(same).all(|other| distance(row) <= distance(other))
+}
+
+/// Whether a row is where efforts grow without bound only from above.
+fn comes_from_infinity(direction: &CourseDirection, row: &CourseRow) -> bool {
+    let here = |blow_up: &&BlowUp| blow_up.at == row.at && row.pattern.as_ref() == Some(&blow_up.pattern);
+    let mut sides = direction.blow_ups.iter().filter(here).map(|blow_up| blow_up.side).peekable();
+    row.efforts.is_none() && sides.peek().is_some() && sides.all(|side| side == Approach::Above)
 }
 
 fn from_infinity(pattern: &str) -> Stretch<'_> {

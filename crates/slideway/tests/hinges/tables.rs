@@ -6,7 +6,7 @@ use slideway::limits::Vary;
 use slideway::map::{ClassMeaning, ColourBy, MapAxis, MapOptions, MapReport, map};
 use slideway::report::{ModeEndCause, Proof, Style};
 use slideway::sweep::{Breakpoint, PointStatus, RowKind, Rows, Sweep, SweepOptions};
-use slideway::{DriveOptions, Model, Report, Settings, drive, gallery, solve};
+use slideway::{DriveOptions, LimitsOptions, Model, Report, Settings, drive, gallery, limits, solve};
 use std::ops::ControlFlow;
 
 /// A bar with mass and radius of gyration 1, its mass centre at the distance c from a hinge with the friction radius r;
@@ -341,4 +341,52 @@ fn a_point_at_rest_is_refused_alone() {
     let statuses: Vec<PointStatus> =
         rows(&sweep).iter().flat_map(|rows| rows.heads.iter().map(|head| head.status)).collect();
     assert_eq!(statuses, [PointStatus::One, PointStatus::Refused, PointStatus::One]);
+}
+
+/// A press with a wide eccentric that its ram drives, past an offset.
+const PRESS: &str = r#"
+gravity = 9.81
+[parameters]
+e = "20 mm"
+l = "150 mm"
+off = "10 mm"
+phi0 = "60 deg"
+mu = 0.12
+[points]
+O = [0, 0]
+A = ["e*cos(phi0)", "e*sin(phi0)"]
+B = ["off", "e*sin(phi0)-sqrt(l^2-(e*cos(phi0)-off)^2)"]
+G = ["off", "e*sin(phi0)-sqrt(l^2-(e*cos(phi0)-off)^2)-40 mm"]
+[bodies]
+shaft = { points = ["O", "A"], mass = 15, centre_of_mass = "O", shape = { disc = 0.08 } }
+rod = { points = ["A", "B"], mass = 3, shape = { bar = ["A", "B"] } }
+ram = { points = ["B", "G"], mass = 10, centre_of_mass = "G", shape = { rectangle = [0.08, 0.16] } }
+[joints]
+O = { type = "hinge", between = ["ground.O", "shaft.O"], mu = "mu", radius = 0.025 }
+A = { type = "hinge", between = ["rod.A", "shaft.A"], mu = "mu", radius = 0.045 }
+B = { type = "hinge", between = ["rod.B", "ram.B"], mu = "mu", radius = 0.012 }
+guide = { type = "block_slider", block = "ram", at = "G", along = "90 deg", length = 0.12, height = 0.08, mu = 0.1 }
+[loads]
+work = { type = "force", at = "ram.G", components = [500, 5000] }
+[coordinates]
+phi = { rotation = "shaft", drawn_at = "phi0", rate = "10 rad/s" }
+[drives]
+motor = { coordinate = "phi", force = { at = "ram.G", direction = "90 deg" } }
+"#;
+
+/// A second solution comes from infinity while the first one stays: its effort grows without bound at the zero of the
+/// determinant that `limits` finds, which follows the curve of solutions instead of counting them; both end in a fold.
+#[test]
+fn efforts_grow_without_bound_beside_another_solution() {
+    let press = Model::parse(PRESS).unwrap();
+    let options = DriveOptions::default().vary("phi=60 deg..80 deg".parse::<Vary>().unwrap());
+    let course = drive(&press, &options).unwrap().course.unwrap();
+    let found = limits(&press, &LimitsOptions::new("phi=60 deg..80 deg".parse().unwrap())).unwrap();
+    let direction = &course.directions[0];
+    let from_infinity = found.modes.iter().find(|mode| mode.from_is == ModeEndCause::WithoutBound).unwrap();
+    let [blow_up] = &direction.blow_ups[..] else { panic!("{:?}", direction.blow_ups) };
+    assert!((blow_up.at - from_infinity.from.unwrap()).abs() < 1e-9, "{blow_up:?} {from_infinity:?}");
+    assert_eq!(blow_up.efforts, [1]);
+    let [locked] = &direction.locked[..] else { panic!("{:?}", direction.locked) };
+    assert!((locked.from - from_infinity.to.unwrap()).abs() < 1e-9, "{locked:?} {from_infinity:?}");
 }
