@@ -46,7 +46,8 @@ impl Undecided {
         let label = label(problem, &piece, &relaxed);
         let near = || gauss_newton(problem, &piece, DVector::from_column_slice(&relaxed.unknowns));
         let point = match label {
-            OpenLabel::LockingDirection | OpenLabel::TooSmall => None,
+            OpenLabel::LockingDirection => Some(direction(&relaxed.unknowns)),
+            OpenLabel::TooSmall => None,
             _ => near().map(|point| point.as_slice().to_vec()),
         };
         Self { label, point: point.unwrap_or(relaxed.unknowns), piece }
@@ -81,6 +82,12 @@ fn label(problem: &BlockProblem, piece: &Piece, relaxed: &RelaxedPoint) -> OpenL
         let values = slopes.singular_values();
         if values.min() <= SINGULAR_NEAR_FOLD * values.max() { OpenLabel::Fold } else { OpenLabel::TooSmall }
     }
+}
+
+/// A direction in which solutions run to infinity, with one as its largest component.
+fn direction(unknowns: &[f64]) -> Vec<f64> {
+    let largest = unknowns.iter().fold(f64::MIN_POSITIVE, |most: f64, value| most.max(value.abs()));
+    unknowns.iter().map(|value| value / largest).collect()
 }
 
 /// A point of a curve of solutions near the middle of a piece; `None` if there seems to be none.

@@ -5,7 +5,7 @@ use super::block_equation::BlockEquation;
 use super::kind::RawKind;
 use super::report::{RawReport, RawSolution, SCHEMA, Unknowns};
 use super::right_hand_sides::{EveryAnswer, EveryRightHandSide};
-use crate::blocks::{BlockResult, BlockSolution, OpenRegion, search, unique_for_every_load};
+use crate::blocks::{BlockResult, BlockSolution, OpenLabel, OpenRegion, search, unique_for_every_load};
 use crate::progress::Callback;
 use crate::search::SearchOptions;
 use crate::status::{Proof, Status};
@@ -84,7 +84,11 @@ fn open(equation: &BlockEquation, result: &BlockResult, options: &SearchOptions)
         let reactions: Vec<[f64; 2]> = reactions.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
         let x: Vec<String> =
             equation.unknowns(forces, &reactions).iter().map(|value| format!("{value:.6e}")).collect();
-        format!("{}: not decided near x = ({})", region.label.as_str(), x.join(", "))
+        let place = match region.label {
+            OpenLabel::LockingDirection => "along",
+            _ => "near",
+        };
+        format!("{}: not decided {place} x = ({})", region.label.as_str(), x.join(", "))
     };
     let mut open: Vec<String> = result.stopped.map(|reason| stopped(reason, options)).into_iter().collect();
     open.extend(result.open.iter().take(MOST_REGIONS).map(region));

@@ -545,7 +545,7 @@ SampleKind = Literal["finite", "infinite", "no_solution", "no_position"]
 - `"finite"`: The margin is a number.
 - `"infinite"`: No friction reaches the limit.
 - `"no_solution"`: There is no solution, of which an effort, normal force, bearing pressure or efficiency
-could be told.
+could be told, or none has any efficiency: friction takes all that the load would give.
 - `"no_position"`: The mechanism cannot be assembled or solved there, or a guided slider is between its faces."""
 
 Sense = Literal["model", "reversed"]
@@ -2881,7 +2881,7 @@ class WarningReport(Record):
 
     kind: str
     """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
-    "great_friction" or "nothing_presses"."""
+    "great_friction", "wide_friction_circle" or "nothing_presses"."""
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""
     message: str

@@ -51,7 +51,11 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let found = if report.partial { " found so far" } else { "" };
+        let found = match report.open.is_empty() {
+            _ if report.partial => " found so far",
+            true => "",
+            false => " found",
+        };
         let (one, more) = words(report.kind);
         let single = match report.count.as_str() {
             "0" => format!("No single {one}"),
