@@ -216,9 +216,9 @@ impl Text<'_> {
 
     fn solution(&mut self, title: &str, solution: &Solution) {
         self.line("");
-        let signs = format!("signs {}", spaced(&solution.pattern));
-        self.headed(title, &format!("   {signs}"));
         let contacts = &solution.contacts;
+        let signs = format!("   signs {}", spaced(&solution.pattern));
+        self.headed(title, if contacts.is_empty() { "" } else { &signs });
         let pressed = contacts.iter().zip(solution.pattern.bytes()).filter(|(_, state)| *state != b'0');
         let floats = |contact: &&Contact| solution.floating.contains(&contact.name);
         let unpressed = pressed.map(|(contact, _)| contact).filter(|contact| contact.side == 0);
@@ -247,9 +247,11 @@ impl Text<'_> {
         self.report.speeds_in_words(solution).iter().for_each(|line| self.line(&format!("  {line}")));
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
-        let contacts = contact_table(&solution.contacts, &self.report.model.units);
-        self.lines(&contacts);
-        self.line("");
+        if !contacts.is_empty() {
+            let contacts = contact_table(contacts, &self.report.model.units);
+            self.lines(&contacts);
+            self.line("");
+        }
         let motion = motion_table(self.report, solution);
         self.lines(&motion);
         self.line("");

@@ -154,13 +154,18 @@ impl Text<'_> {
         self.line("");
         let factor = self.report.load.as_ref().map_or(String::new(), at_factor);
         self.headline(&format!("Reactions at rest{factor}"));
-        self.line(&format!(
-            "  signs {}",
-            rest.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>().join(" or ")
-        ));
+        self.signs(&rest.patterns);
         self.reactions(&rest.reactions);
         if self.report.sharing.is_some() {
             self.line("  Which of these states it is in depends on how it came to rest.");
+        }
+    }
+
+    /// The sides of all contacts, if there are any.
+    fn signs(&mut self, patterns: &[String]) {
+        let signs: Vec<String> = patterns.iter().map(|pattern| spaced(pattern)).collect();
+        if signs.iter().any(|signs| !signs.is_empty()) {
+            self.line(&format!("  signs {}", signs.join(" or ")));
         }
     }
 
@@ -171,8 +176,7 @@ impl Text<'_> {
         for joint in &release.joints {
             self.line(&format!("  {}: {}", joint.name, joint.words));
         }
-        let signs = release.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>();
-        self.line(&format!("  signs {}", signs.join(" or ")));
+        self.signs(&release.patterns);
         let scale = release.coordinates.iter().map(|c| greatest(&[c.acceleration])).fold(0.0, f64::max);
         let units = &self.report.units;
         let sliding = release.joints.iter().filter(|joint| joint.slip != 0);
@@ -240,8 +244,10 @@ impl Text<'_> {
     fn tried(&mut self) {
         let report = self.report;
         self.line("");
-        let rest = count(report.rest_patterns, "pattern of contact sides", "patterns of contact sides");
-        let mut line = format!("All {rest} were tried for rest");
+        let mut line = match report.rest_patterns {
+            1 => "The only pattern of contact sides was tried for rest".to_owned(),
+            all => format!("All {all} patterns of contact sides were tried for rest"),
+        };
         if report.motions_without_inertia.is_empty() {
             let states = count(report.release_patterns, "state", "states");
             let _ = write!(line, ", and {states} of joints and sides for sliding");
