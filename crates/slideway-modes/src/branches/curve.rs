@@ -281,8 +281,9 @@ impl Walk<'_> {
             let reach = LOCATED * whole * 2.0_f64.powi(HALVINGS + 1 - step) - 0.5 * width;
             // Not at an end itself, to which rounding may lead: just beside it the bracket closes.
             let least = LOCATED * whole;
-            let length =
-                between(&inside, &outside, whole, reach).clamp(inside.length + least, outside.length - least);
+            let length = between(&inside, &outside, whole, reach)
+                .max(inside.length + least)
+                .min(outside.length - least);
             if length <= inside.length || length >= outside.length {
                 break;
             }
