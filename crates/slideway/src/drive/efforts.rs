@@ -145,16 +145,18 @@ pub(super) fn growing(
     let other = if other.is_finite() { other } else { 2.0 * end };
     let [far, close] = NEAR.map(|fraction| at(end + fraction * (other - end)));
     let (far, close) = (far?, close?);
-    let grows = |far: &[f64], close: &[f64]| -> Vec<i8> {
-        let one = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far.abs() {
-            true if *close > 0.0 => 1,
-            true => -1,
-            false => 0,
-        };
-        far.iter().zip(close).map(one).collect()
-    };
     let efforts = grows(&far.of(pattern)?, &close.of(pattern)?);
     let normal = grows(&far.normal_forces(pattern)?, &close.normal_forces(pattern)?);
     let contacts = (0..normal.len()).filter(|&contact| normal[contact] != 0).collect();
     efforts.iter().any(|&sign| sign != 0).then_some(Growing { efforts, contacts })
+}
+
+/// The sign of each value that has grown beyond all bounds between two places, else 0.
+pub(super) fn grows(far: &[f64], close: &[f64]) -> Vec<i8> {
+    let one = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far.abs() {
+        true if *close > 0.0 => 1,
+        true => -1,
+        false => 0,
+    };
+    far.iter().zip(close).map(one).collect()
 }

@@ -2,7 +2,7 @@
 //! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
 
 use super::course::{evenly, modes, nothing, with_blow_ups};
-use super::efforts::GROWTH;
+use super::efforts::grows;
 use super::report::{
     Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, Frictionless, LockedRange, Sense,
 };
@@ -126,7 +126,12 @@ impl Sampled<'_> {
             }
         }
         let report = self.solved(&model, stages.rougher(factor)).ok()?;
-        (report.status != Status::Unknown).then_some(report.solutions.len())
+        match report.status {
+            Status::Unknown => None,
+            Status::None => Some(0),
+            // A state in a preload gap, or a continuum, does not lock either.
+            _ => Some((report.solutions.len() + report.preload_gap_states.len()).max(1)),
+        }
     }
 
     /// Where the number of solutions changes.
@@ -190,12 +195,7 @@ impl Sampled<'_> {
             let greatest = before
                 .map(|other| other.efforts.iter().map(|effort| effort.abs()).collect::<Vec<_>>())
                 .reduce(|one, other| one.iter().zip(&other).map(|(a, b)| a.max(*b)).collect())?;
-            let grows = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far {
-                true if *close > 0.0 => 1,
-                true => -1,
-                false => 0,
-            };
-            let efforts: Vec<i8> = greatest.iter().zip(&solution.efforts).map(grows).collect();
+            let efforts = grows(&greatest, &solution.efforts);
             let any = efforts.iter().any(|sign| *sign != 0);
             any.then(|| BlowUp { at, pattern: solution.pattern.clone(), side, efforts, contacts: Vec::new() })
         };
