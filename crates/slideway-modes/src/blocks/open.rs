@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Piece, Slopes, load, matrix, residual};
 use super::problem::BlockProblem;
-use super::relaxation::RelaxedPoint;
+use super::relaxation::{RelaxedPoint, largest};
 use super::result::{OpenLabel, OpenRegion};
 use super::sector::{Sector, length};
 use super::zero::{Zero, slopes_at};
@@ -86,7 +86,7 @@ fn label(problem: &BlockProblem, piece: &Piece, relaxed: &RelaxedPoint) -> OpenL
 
 /// A direction in which solutions run to infinity, with one as its largest component.
 fn direction(unknowns: &[f64]) -> Vec<f64> {
-    let largest = unknowns.iter().fold(f64::MIN_POSITIVE, |most: f64, value| most.max(value.abs()));
+    let largest = largest(unknowns);
     unknowns.iter().map(|value| value / largest).collect()
 }
 

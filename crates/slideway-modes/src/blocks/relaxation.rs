@@ -109,7 +109,7 @@ impl Columns<'_> {
 }
 
 /// The largest size of an entry, and not zero.
-fn largest(entries: &[f64]) -> f64 {
+pub(super) fn largest(entries: &[f64]) -> f64 {
     entries.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 

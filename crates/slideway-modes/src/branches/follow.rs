@@ -1,7 +1,6 @@
 //! One solution, followed to where it ends.
 
 use super::branch::BranchEnd;
-use super::conditions::{are_met, conditions};
 use super::curve::{Curve, Way};
 use super::family::{Family, Instance};
 use super::place::Place;
@@ -11,8 +10,7 @@ use crate::existence::EndCause;
 
 /// Whether a solution of a problem keeps the bounds of its outputs.
 pub fn keeps_bounds(instance: &Instance, solution: &BlockSolution) -> bool {
-    let found = Found::of(solution, 0.0, instance);
-    are_met(&conditions(&found.equations, instance, &found.place, None))
+    Found::of(solution, 0.0, instance).meets_conditions(instance, None)
 }
 
 /// Where a solution that is known at a value ends towards a goal, which it may reach ([`EndCause::Range`]); the way is

@@ -65,7 +65,7 @@ impl Sample {
             let without = solution.on_boundary.iter().copied();
             without_force.extend(without.chain(solution.unloaded.iter().map(|hinge| contacts + hinge)));
             let one = Found::of(solution, at, instance);
-            if are_met(&conditions(&one.equations, instance, &one.place, greatest)) {
+            if one.meets_conditions(instance, greatest) {
                 found.push(one.in_unit(unit));
             }
         }
@@ -87,6 +87,11 @@ impl Found {
         let place = Place::of(solution, at, equations.unit);
         let orientation = equations.orientation(instance, &place.z);
         Self { place, equations, states: solution.states.clone(), orientation }
+    }
+
+    /// Whether it keeps the bounds of outputs, and normal forces up to `greatest`.
+    pub(super) fn meets_conditions(&self, instance: &Instance, greatest: Option<f64>) -> bool {
+        are_met(&conditions(&self.equations, instance, &self.place, greatest))
     }
 
     /// The same in another unit of forces.

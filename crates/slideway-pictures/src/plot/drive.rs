@@ -285,8 +285,8 @@ fn is_continued(stretch: &Stretch<'_>, row: &CourseRow, rows: &[CourseRow]) -> b
 /// Whether a row is where efforts grow without bound only from above.
 fn comes_from_infinity(direction: &CourseDirection, row: &CourseRow) -> bool {
     let here = |blow_up: &&BlowUp| blow_up.at == row.at && row.pattern.as_ref() == Some(&blow_up.pattern);
-    let mut sides = direction.blow_ups.iter().filter(here).map(|blow_up| blow_up.side).peekable();
-    row.efforts.is_none() && sides.peek().is_some() && sides.all(|side| side == Approach::Above)
+    let is_above = |blow_up: &BlowUp| blow_up.side == Approach::Above;
+    row.efforts.is_none() && direction.blow_ups.iter().filter(here).all(is_above)
 }
 
 fn from_infinity(pattern: &str) -> Stretch<'_> {

@@ -23,11 +23,7 @@ impl NoSliding {
         let without = "without its friction (`mu = 0` or `friction_radius = 0` there) the answer exists";
         match self {
             Self::AtRest(coordinates) | Self::WithoutRate(coordinates) => {
-                let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
-                format!(
-                    "{HOLD}; for friction in motion give it a velocity, for instance with `{}`; {without}",
-                    rates.collect::<Vec<_>>().join(" ")
-                )
+                format!("{}; {without}", hint_at_rest(coordinates))
             }
             Self::Here => format!(
                 "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
@@ -40,14 +36,8 @@ impl NoSliding {
 
     /// What to do about it.
     pub(super) fn hint(&self) -> String {
-        let rates = |coordinates: &[String]| {
-            let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
-            rates.collect::<Vec<_>>().join(" ")
-        };
         match self {
-            Self::AtRest(coordinates) => {
-                format!("{HOLD}; for friction in motion give it a velocity, for instance with `{}`", rates(coordinates))
-            }
+            Self::AtRest(coordinates) => hint_at_rest(coordinates),
             Self::WithoutRate(coordinates) => format!(
                 "it slides with {} alone, which has no rate: give one, for instance with `{}`; {HOLD}",
                 super::listed(coordinates),
@@ -62,4 +52,15 @@ impl NoSliding {
             ),
         }
     }
+}
+
+/// What to do about a joint at rest.
+fn hint_at_rest(coordinates: &[String]) -> String {
+    format!("{HOLD}; for friction in motion give it a velocity, for instance with `{}`", rates(coordinates))
+}
+
+/// Arguments that give each coordinate a rate.
+fn rates(coordinates: &[String]) -> String {
+    let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
+    rates.collect::<Vec<_>>().join(" ")
 }

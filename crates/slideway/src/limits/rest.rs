@@ -17,10 +17,8 @@ use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
 
 /// Evenly spaced values that are tried: a heuristic.
 const STEPS: usize = 100;
-/// The most stretches of other answers between two neighbouring values that are looked for, ...
+/// The most stretches of other answers between two neighbouring values that are looked for.
 const BETWEEN: usize = 3;
-/// ... and those narrower than this share of the range are none.
-const NARROW: f64 = 1e-9;
 
 /// What is known at a value: whether it can rest, if that was decided, or why there is no answer.
 type Found = Result<Option<bool>, Faults>;
@@ -79,7 +77,7 @@ fn rest_limits_of(
         to: same_ends.told(span.to),
         ..span
     };
-    let spans: Vec<SpanOfRest> = spans(range, &found, work).into_iter().map(told).collect();
+    let spans: Vec<SpanOfRest> = spans((range, &same_ends), &found, work).into_iter().map(told).collect();
     if spans.iter().all(|span| span.reason.is_some()) {
         // Nowhere an answer: the faults in the middle say why.
         found(f64::midpoint(range[0], range[1]))?;
@@ -101,7 +99,11 @@ fn rest_limits_of(
 }
 
 /// The range cut where the answer changes.
-fn spans([from, to]: [f64; 2], found: &dyn Fn(f64) -> Found, work: Work<'_>) -> Vec<SpanOfRest> {
+fn spans(
+    ([from, to], same_ends): ([f64; 2], &SameEnds),
+    found: &dyn Fn(f64) -> Found,
+    work: Work<'_>,
+) -> Vec<SpanOfRest> {
     let value =
         |step: usize| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 };
     let goes_on = |step: &usize| work.piece("values", *step, STEPS + 1).is_continue();
@@ -126,7 +128,7 @@ fn spans([from, to]: [f64; 2], found: &dyn Fn(f64) -> Found, work: Work<'_>) -> 
             }
             let start = end;
             (end, beyond) = bisect(beyond, *next, |at| is_same(&found(at), &other));
-            if end - start > NARROW * (to - from) {
+            if same_ends.are_two(start, end) {
                 spans.push(span([begin(&spans), end], &other));
             }
         }
