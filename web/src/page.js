@@ -8,7 +8,7 @@ import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
 import { scale, withUnit } from "./numbers.js";
 import { Sliders, key } from "./sliders.js";
-import { State } from "./state.js";
+import { State, changesOf } from "./state.js";
 import { Strip } from "./strip.js";
 import { Ended, Engine, Newest, Turns, load } from "./workers.js";
 
@@ -84,7 +84,9 @@ function took(reply, question) {
   byId("work").hidden = true;
   document.documentElement.dataset.milliseconds = reply.milliseconds.toFixed(1);
   if (question.margins && state.tab === "rest") showRest();
+  if (!look) sliders.clear();
   if (reply.faults) {
+    if (!look) showNothing();
     showFaults(reply.faults, question);
     told("faults", question);
     return;
@@ -95,15 +97,25 @@ function took(reply, question) {
   document.title = `${look.title} – slideway`;
   byId("about").textContent = look.title;
   drawings.show(look.drawings);
-  sliders.show(look.quantities, state.changes);
+  const asked = changesOf(question.settings);
+  sliders.show(look.quantities, state.changes, asked);
   byId("left-out").hidden = !look.left_out;
   byId("left-out").textContent = `${look.left_out} more parameters can be changed in the text.`;
   map.show(look.quantities, state.map);
   byId("panel-numbers").replaceChildren(...parsed(look.answer?.sections.join("") ?? ""));
-  showStrip();
+  showStrip(asked);
   told("shown", question);
   document.documentElement.dataset.shown = String(Number(document.documentElement.dataset.shown ?? 0) + 1);
   keep();
+}
+
+/** There is nothing to show of a model whose file is at fault from the beginning. */
+function showNothing() {
+  document.title = "slideway";
+  byId("about").textContent = "";
+  drawings.show([]);
+  byId("panel-numbers").replaceChildren();
+  byId("left-out").hidden = true;
 }
 
 let isKept = false;
@@ -303,7 +315,8 @@ let limitsOf = "";
 /** The quantity along the strip. */
 const varied = () => look?.quantities.find((quantity) => state.strip && key(quantity) === key(state.strip));
 
-function showStrip() {
+/** `asked`: what was changed when it was asked for what is shown. */
+function showStrip(asked = state.changes) {
   const eligible = look.quantities.filter(({ kind }) => kind !== "rate");
   const names = eligible.map(key);
   if (JSON.stringify(names) !== choice.dataset.names) {
@@ -321,7 +334,7 @@ function showStrip() {
   [state.strip.from, state.strip.to].forEach((value, index) => {
     if (document.activeElement !== ends[index]) ends[index].value = value;
   });
-  strip.prepare(state.strip, quantity);
+  strip.prepare(state.strip, quantity, asked.get(key(quantity)) === state.changes.get(key(quantity)));
   askLimits();
 }
 

@@ -3,36 +3,55 @@
 import { element } from "./dom.js";
 import { scale, short, withUnit } from "./numbers.js";
 
+/** Title, which quantities it has, and whether it is open at first. */
 const GROUPS = [
-  ["Parameters", (quantity) => quantity.kind === "parameter" && !quantity.is_computed],
-  ["Position and speed", (quantity) => quantity.kind !== "parameter"],
-  ["Computed from other parameters", (quantity) => quantity.kind === "parameter" && quantity.is_computed],
+  ["Parameters", (quantity) => quantity.kind === "parameter" && !quantity.is_computed, true],
+  ["Position and speed", (quantity) => quantity.kind !== "parameter", true],
+  ["Computed from other parameters", (quantity) => quantity.kind === "parameter" && quantity.is_computed, false],
 ];
 
 export class Sliders {
-  #place;
   #change;
   #rows = new Map();
-  #shape = "";
+  #groups;
 
   /** `change(quantity, text)`: a value was typed or dragged; `null` stands for that of the file. */
   constructor(place, change) {
-    this.#place = place;
     this.#change = change;
+    this.#groups = GROUPS.map(([title, , open]) =>
+      element("details", { class: "group", open, hidden: true }, element("summary", {}, title)),
+    );
+    place.replaceChildren(...this.#groups);
   }
 
-  /** Shows what there is, with the texts of what was changed. */
-  show(quantities, changes) {
-    const shape = JSON.stringify(
-      quantities.map(({ kind, name, unit, is_computed, meaning }) => [kind, name, unit, is_computed, meaning]),
+  /**
+   * Shows what there is, with the texts of what was changed, and of what was changed when it was asked for. A row that is
+   * there stays the same element: somebody may hold it.
+   */
+  show(quantities, changes, asked = changes) {
+    const rows = new Map(
+      quantities.map((quantity) => [key(quantity), this.#rows.get(key(quantity)) ?? new Row(quantity, this.#change)]),
     );
-    if (shape !== this.#shape) {
-      this.#shape = shape;
-      this.#build(quantities);
-    }
+    for (const [name, row] of this.#rows) if (rows.get(name) !== row) row.element.remove();
+    this.#rows = rows;
+    this.#groups.forEach((group, index) => {
+      const inside = quantities.filter(GROUPS[index][1]).map((quantity) => rows.get(key(quantity)).element);
+      group.hidden = inside.length === 0;
+      inside.forEach((row, at) => {
+        // The first child is the title.
+        if (group.children[at + 1] !== row) group.insertBefore(row, group.children[at + 1] ?? null);
+      });
+    });
     for (const quantity of quantities) {
-      this.#rows.get(key(quantity)).show(quantity, changes.get(key(quantity)));
+      const name = key(quantity);
+      rows.get(name).show(quantity, changes.get(name), changes.get(name) === asked.get(name));
     }
+  }
+
+  /** Forgets all rows: there is another model. */
+  clear() {
+    for (const { element: row } of this.#rows.values()) row.remove();
+    this.#rows.clear();
   }
 
   /** Marks the fields whose settings are at fault, and those that are changed. */
@@ -47,21 +66,6 @@ export class Sliders {
       this.#rows.get(key(setting))?.showFault([message, hint].filter(Boolean).join(": "));
     }
   }
-
-  #build(quantities) {
-    this.#rows.clear();
-    const groups = GROUPS.map(([title, belongs], index) => {
-      const rows = quantities.filter(belongs).map((quantity) => {
-        const row = new Row(quantity, this.#change);
-        this.#rows.set(key(quantity), row);
-        return row.element;
-      });
-      if (rows.length === 0) return "";
-      const open = index < 2;
-      return element("details", { class: "group", open }, element("summary", {}, title), ...rows);
-    });
-    this.#place.replaceChildren(...groups);
-  }
 }
 
 export const key = ({ kind, name }) => `${kind} ${name}`;
@@ -72,7 +76,9 @@ class Row {
   #field;
   #back;
   #fault;
+  #meaning;
   #ends = null;
+  #isHeld = false;
 
   constructor(quantity, change) {
     const id = `value-${quantity.kind}-${encodeURIComponent(quantity.name)}`;
@@ -96,38 +102,52 @@ class Row {
     this.#slider.addEventListener("input", () =>
       change(this.#quantity, withUnit(Number(this.#slider.value), this.#quantity.unit)),
     );
+    this.#slider.addEventListener("pointerdown", () => {
+      this.#isHeld = true;
+    });
+    for (const end of ["pointerup", "pointercancel", "change", "blur"])
+      this.#slider.addEventListener(end, () => {
+        this.#isHeld = false;
+      });
     this.#field.addEventListener("change", () => {
       const text = this.#field.value.trim();
       const bare = text !== "" && Number.isFinite(Number(text));
       change(this.#quantity, text === "" ? null : bare ? withUnit(Number(text), this.#quantity.unit) : text);
     });
     this.#back.addEventListener("click", () => change(this.#quantity, null));
-    const meaning = element("span", { class: "meaning", id: `${id}-meaning` }, quantity.meaning ?? "");
+    this.#meaning = element("span", { class: "meaning", id: `${id}-meaning` });
     this.element = element(
       "div",
       { class: "row" },
       element("label", { for: id }, name),
-      meaning,
+      this.#meaning,
       element("span", { class: "value" }, this.#field, element("span", { class: "unit" }, quantity.unit), this.#back),
       this.#slider,
       this.#fault,
     );
   }
 
-  show(quantity, changed) {
+  /** `isNewest`: the answer is to the value that was typed or dragged last, and not to one before. */
+  show(quantity, changed, isNewest) {
     this.#quantity = quantity;
     const { value } = quantity;
-    const isOutside = this.#ends && (value < this.#ends.from || value > this.#ends.to);
-    // The ends stay while a slider is dragged.
-    if (!this.#ends || (changed === undefined && document.activeElement !== this.#slider) || isOutside) {
-      this.#ends = scale(Math.min(quantity.from, value), Math.max(quantity.to, value));
-      Object.assign(this.#slider, { min: this.#ends.from, max: this.#ends.to, step: this.#ends.step });
-    }
+    const meaning = quantity.meaning ?? "";
+    if (this.#meaning.textContent !== meaning) this.#meaning.textContent = meaning;
+    this.showChange(changed);
     // An answer that comes late does not pull the slider back from under the finger.
-    if (!(document.activeElement === this.#slider && this.#slider.matches(":active"))) this.#slider.value = value;
+    if (!isNewest) return;
+    if (!this.#isHeld) this.#setEnds(quantity, changed);
+    if (!this.#isHeld) this.#slider.value = value;
     this.#slider.setAttribute("aria-valuetext", withUnit(value, quantity.unit));
     if (document.activeElement !== this.#field) this.#field.value = short(value);
-    this.showChange(changed);
+  }
+
+  /** The ends of the slider: as they are, unless the value is outside, or that of the file again. */
+  #setEnds({ from, to, value }, changed) {
+    const isOutside = this.#ends && (value < this.#ends.from || value > this.#ends.to);
+    if (this.#ends && !isOutside && (changed !== undefined || document.activeElement === this.#slider)) return;
+    this.#ends = scale(Math.min(from, value), Math.max(to, value));
+    Object.assign(this.#slider, { min: this.#ends.from, max: this.#ends.to, step: this.#ends.step });
   }
 
   showChange(changed) {

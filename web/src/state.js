@@ -94,6 +94,9 @@ export class State {
   }
 }
 
+/** What settings change: texts of values by "kind name". */
+export const changesOf = (settings) => new Map(settings.map(({ kind, name, value }) => [`${kind} ${name}`, value]));
+
 const written = ({ kind, name, from, to }) => [kind, name, from, to].join("~");
 
 function read(text) {

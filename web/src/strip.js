@@ -21,6 +21,7 @@ export class Strip {
   #report = null;
   #vary = null;
   #quantity = null;
+  #value = 0;
   #line;
   /** Kept: to ask the browser for it takes a new layout of the whole page. */
   #width = 600;
@@ -51,14 +52,18 @@ export class Strip {
     }).observe(this.element);
   }
 
-  /** What is varied, before its limits are known: { name, from, to } and the quantity. */
-  prepare(vary, quantity) {
+  /**
+   * What is varied, before its limits are known: { name, from, to } and the quantity. `isNewest`: its value is the one that
+   * was typed or dragged last, and not one before.
+   */
+  prepare(vary, quantity, isNewest = true) {
     this.#vary = vary;
     this.#quantity = quantity;
     const { step } = slider(vary.from, vary.to);
     Object.assign(this.#slider, { min: vary.from, max: vary.to, step });
     this.#slider.setAttribute("aria-label", `${vary.name}, along the strip`);
-    this.present(quantity.value);
+    // An answer that comes late does not pull the slider back from under the finger.
+    if (isNewest) this.#present(quantity.value);
   }
 
   /** Shows the limits; nothing while there are none. */
@@ -75,8 +80,8 @@ export class Strip {
     this.#words.textContent = text;
   }
 
-  /** The present value (in the unit of the quantity). */
-  present(value) {
+  /** Shows the present value (in the unit of the quantity). */
+  #present(value) {
     if (!this.#slider.matches(":active")) this.#slider.value = value;
     this.#mark(value);
   }
@@ -95,6 +100,7 @@ export class Strip {
   }
 
   #mark(value) {
+    this.#value = value;
     if (!this.#vary || !this.#line) return;
     const x = this.#place(Math.min(this.#vary.to, Math.max(this.#vary.from, value)));
     this.#line.setAttribute("transform", `translate(${x} 0)`);
@@ -205,7 +211,7 @@ export class Strip {
       shape("text", { y: 12 }),
     );
     this.#svg.append(this.#line);
-    this.#mark(this.#quantity.value);
+    this.#mark(this.#value);
   }
 }
 

@@ -72,13 +72,73 @@ export const verdict = (page, status) =>
 export const limits = (page) =>
   page.waitForFunction(() => document.querySelectorAll(".strip .count").length > 0, null, { timeout: 60_000 });
 
-/** Moves a slider as a finger does: to a value, without waiting for answers. */
-export const slide = (page, selector, value) =>
-  page.evaluate(
-    ([of, to]) => {
-      const slider = document.querySelector(of);
-      slider.value = to;
-      slider.dispatchEvent(new Event("input", { bubbles: true }));
-    },
-    [selector, value],
-  );
+/** Marks a slider, so that another element in its place is found out. */
+const mark = (slider) =>
+  slider.evaluate((element) => {
+    element.scrollIntoView({ block: "center" });
+    element.marked = true;
+  });
+
+/** Whether the slider is the element that was marked, and is in the page; its value, ends and step. */
+export const marked = (slider) =>
+  slider.evaluate((element) => ({
+    isSame: element.marked === true && element.isConnected,
+    isFocused: document.activeElement === element,
+    value: Number(element.value),
+    ends: [Number(element.min), Number(element.max)],
+    step: Number(element.step),
+  }));
+
+/** The way of a pointer over a slider: from its handle to a part of its length. */
+async function way(slider, part) {
+  await mark(slider);
+  const box = await slider.boundingBox();
+  const { value, ends } = await marked(slider);
+  const at = (share) => ({ x: box.x + 8 + share * (box.width - 16), y: box.y + box.height / 2 });
+  return [at((value - ends[0]) / (ends[1] - ends[0])), at(part)];
+}
+
+const STEPS = 20;
+const between = (from, to, step) => ({
+  x: from.x + ((to.x - from.x) * step) / STEPS,
+  y: from.y + ((to.y - from.y) * step) / STEPS,
+});
+/** Every fifth move waits for two frames, so that answers come between moves. */
+const pause = async (page, step) => {
+  if (step % 5 === 0)
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+};
+
+/** Drags the handle of a slider with the mouse to a part of its length, in twenty moves. */
+export async function dragWithMouse(page, slider, part) {
+  const [from, to] = await way(slider, part);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (let step = 1; step <= STEPS; step++) {
+    const { x, y } = between(from, to, step);
+    await page.mouse.move(x, y);
+    await pause(page, step);
+  }
+  await page.mouse.up();
+}
+
+/** Drags the handle of a slider with a finger to a part of its length, in twenty moves. */
+export async function dragWithFinger(page, slider, part) {
+  const [from, to] = await way(slider, part);
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, ...touchPoints) => client.send("Input.dispatchTouchEvent", { type, touchPoints });
+  await touch("touchStart", from);
+  for (let step = 1; step <= STEPS; step++) {
+    await touch("touchMove", between(from, to, step));
+    await pause(page, step);
+  }
+  await touch("touchEnd");
+  await client.detach();
+}
+
+/** Presses an arrow key so often on a slider that has the focus, as fast as it repeats. */
+export async function pressArrows(page, slider, key, count) {
+  await mark(slider);
+  await slider.focus();
+  for (let press = 0; press < count; press++) await page.keyboard.press(key);
+}

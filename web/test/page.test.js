@@ -5,7 +5,17 @@ import { readFileSync, readdirSync } from "node:fs";
 import { resolve } from "node:path";
 import { test } from "node:test";
 import { top } from "../tools/places.js";
-import { limits, setUp, settled, skip, slide, verdict } from "./browser.js";
+import {
+  dragWithFinger,
+  dragWithMouse,
+  limits,
+  marked,
+  pressArrows,
+  setUp,
+  settled,
+  skip,
+  verdict,
+} from "./browser.js";
 
 const set = setUp();
 const gallery = readdirSync(resolve(top, "models"))
@@ -29,14 +39,97 @@ async function drop(page, content, name = "own.toml") {
 
 const close = (page) => page.context().close();
 
+/** Shows a model of the gallery. */
+async function choose(page, name) {
+  await page.evaluate(() => {
+    document.documentElement.dataset.state = "chosen";
+  });
+  await page.selectOption("#pick", `gallery:${name}`);
+  await settled(page);
+}
+
+/** The sliders of all values, or the first of each group; all groups are open. */
+async function sliders(page, which) {
+  await page.evaluate(() => {
+    for (const group of document.querySelectorAll("#sliders .group")) group.open = true;
+  });
+  const row = which === "all" ? ".row" : ".row:nth-child(2)";
+  return page.locator(`#sliders .group:not([hidden]) ${row} input[type=range]`).all();
+}
+
+/** The slider of a value. */
+const sliderOf = (page, kind, name) => page.locator(`[id='value-${kind}-${name}']`);
+
+/** Drags sliders of every model of the gallery; `drag` moves one, and gives the value at which it ends, within how many steps. */
+async function goOn(which, options, drag) {
+  const page = await set.open("", options);
+  let count = 0;
+  for (const name of gallery) {
+    await choose(page, name);
+    for (const slider of await sliders(page, which)) {
+      const id = await slider.getAttribute("id");
+      const before = await marked(slider);
+      const expected = await drag(page, slider, before);
+      const after = await marked(slider);
+      assert.ok(after.isSame, `${name}, ${id}: another slider took its place`);
+      assert.ok(
+        Math.abs(after.value - expected.value) <= expected.within * after.step,
+        `${name}, ${id}: at ${after.value}, moved to ${expected.value}`,
+      );
+      count += 1;
+    }
+  }
+  process.stdout.write(`# ${count} sliders\n`);
+  assert.deepEqual(page.complaints, []);
+  await close(page);
+}
+
+/** Ends at a quarter of the length, or at three quarters of it, whichever is farther. */
+const toOtherSide = (drag) => async (page, slider, before) => {
+  const [from, to] = before.ends;
+  const part = (before.value - from) / (to - from) < 0.5 ? 0.75 : 0.25;
+  await drag(page, slider, part);
+  const length = (await slider.boundingBox()).width - 16;
+  // Within two pixels, or the step of the slider.
+  return { value: from + part * (to - from), within: 1 + (2 * (to - from)) / (length * before.step) };
+};
+
+test("a slider that is dragged with the mouse goes on being dragged", { skip }, () =>
+  goOn("all", {}, toOtherSide(dragWithMouse)),
+);
+
+test("a slider that is dragged with a finger goes on being dragged", { skip }, () =>
+  goOn(
+    "first",
+    { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+    toOtherSide(dragWithFinger),
+  ),
+);
+
+test("arrow keys move a slider, each by a step, and it keeps the focus", { skip }, () =>
+  goOn("first", {}, async (page, slider, before) => {
+    const up = before.value < (before.ends[0] + before.ends[1]) / 2;
+    await pressArrows(page, slider, up ? "ArrowRight" : "ArrowLeft", 12);
+    await settled(page);
+    assert.ok((await marked(slider)).isFocused);
+    return { value: before.value + (up ? 12 : -12) * before.step, within: 1 };
+  }),
+);
+
+test("the strip is dragged with the mouse", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
+  await limits(page);
+  await dragWithMouse(page, page.locator(".strip-slider"), 0.9);
+  await verdict(page, "none");
+  await dragWithMouse(page, page.locator(".strip-slider"), 0.2);
+  await verdict(page, "one");
+  await close(page);
+});
+
 test("every model of the gallery is shown, and nothing is complained of", { skip }, async () => {
   const page = await set.open();
   for (const name of gallery) {
-    await page.evaluate(() => {
-      document.documentElement.dataset.state = "chosen";
-    });
-    await page.selectOption("#pick", `gallery:${name}`);
-    await settled(page);
+    await choose(page, name);
     assert.equal(await page.evaluate(() => document.documentElement.dataset.state), "shown", name);
     assert.ok((await page.locator("#drawings figure svg").count()) >= 1, name);
     assert.ok((await page.locator("#sliders .row").count()) >= 1, name);
@@ -49,9 +142,9 @@ test("every model of the gallery is shown, and nothing is complained of", { skip
 test("the drawer jams where its limit says", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
   await limits(page);
-  await slide(page, ".strip-slider", "0.665");
+  await page.locator(".strip-slider").fill("0.665");
   await verdict(page, "one");
-  await slide(page, ".strip-slider", "0.67");
+  await page.locator(".strip-slider").fill("0.67");
   await verdict(page, "none");
   assert.match(await page.textContent("#verdict"), /No solution/);
   assert.match(
@@ -65,7 +158,6 @@ test("the drawer jams where its limit says", { skip }, async () => {
 test("a second solution of the paper's example appears where its limit says", { skip }, async () => {
   const page = await set.open("#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8");
   await limits(page);
-  const slider = "[id='value-parameter-mu_1']";
   await page.fill(".row:has([id='value-parameter-mu_1']) .field", "0.4526");
   await page.press(".row:has([id='value-parameter-mu_1']) .field", "Enter");
   await verdict(page, "one");
@@ -73,7 +165,7 @@ test("a second solution of the paper's example appears where its limit says", { 
   await page.press(".row:has([id='value-parameter-mu_1']) .field", "Enter");
   await verdict(page, "several");
   assert.match(await page.textContent("#verdict"), /2 solutions/);
-  await slide(page, slider, "0.1");
+  await dragWithMouse(page, sliderOf(page, "parameter", "mu_1"), 0.1);
   await verdict(page, "one");
   await close(page);
 });
@@ -108,7 +200,7 @@ test("a link shows a colleague the same", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer");
   const edited = text("drawer").replace('A drawer pushed off-centre"', 'Ein Schübchen 🗄"');
   await drop(page, edited);
-  await slide(page, "[id='value-parameter-mu']", "0.8");
+  await sliderOf(page, "parameter", "mu").fill("0.8");
   await verdict(page, "none");
   await page.waitForFunction(() => location.hash.includes("text=") && location.hash.includes("mu%3D0.8"));
   const address = await page.evaluate(() => location.hash);

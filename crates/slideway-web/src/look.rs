@@ -80,7 +80,8 @@ impl Verdict {
 /// Faults of the model. That the question has no answer, or that the state cannot be assembled, is none: then there
 /// are reasons, and a drawing without forces or none at all.
 pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) -> Result<Look, Faults> {
-    let model = asked.model()?;
+    let file = Model::parse(&asked.text)?;
+    let model = asked.set(&file)?;
     let checked = check(&model)?;
     let mechanism = Mechanism::new(&model)?;
     let configuration = Configuration::new(&mechanism);
@@ -93,7 +94,7 @@ pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) ->
         title: line(&title(&mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
         left_out: model.parameters.len().saturating_sub(MOST),
-        quantities: quantities(&model, &asked.text, &mechanism, &checked.coordinates)?,
+        quantities: quantities(&file, &model, &asked.text, &mechanism, &checked.coordinates)?,
         loads: checked.loads,
         drives: checked.drives.into_iter().map(|drive| drive.name).collect(),
         drawings: sheets.iter().filter_map(Drawing::of).collect(),

@@ -45,23 +45,28 @@ pub(crate) struct Quantity {
 
 /// The first parameters, the coordinates, and the rates of those that can move, in the order of the file.
 ///
+/// Meaning, unit, and the ends of a parameter's slider are those of the model as it is in the file, whatever is set: a
+/// slider that is dragged stays the same slider.
+///
 /// # Errors
 /// Parameters without a value that is allowed.
 pub(crate) fn quantities(
+    file: &Model,
     model: &Model,
     text: &str,
     mechanism: &Mechanism,
     state: &[CoordinateSummary],
 ) -> Result<Vec<Quantity>, Faults> {
     let values = model.parameter_values(&model.constants()?);
-    let parameters = model.parameters.iter().zip(values).take(MOST);
+    let values_in_file = file.constants().map_or_else(|_| values.clone(), |known| file.parameter_values(&known));
+    let parameters = file.parameters.iter().zip(values_in_file.into_iter().zip(values)).take(MOST);
     let mut all: Vec<Quantity> =
-        parameters.map(|(parameter, value)| of_parameter(model, text, parameter, value)).collect();
+        parameters.map(|(parameter, values)| of_parameter(file, text, parameter, values)).collect();
     let size = mechanism.size;
-    for (index, coordinate) in model.coordinates.iter().enumerate() {
+    for (index, coordinate) in file.coordinates.iter().enumerate() {
         let Some(state) = state.get(index) else { continue };
-        all.push(of_position(model, mechanism, coordinate, state, size));
-        all.push(of_rate(model, state, size));
+        all.push(of_position(file, mechanism, coordinate, state, size));
+        all.push(of_rate(file, state, size));
     }
     Ok(all)
 }
@@ -83,22 +88,28 @@ impl Quantity {
     }
 }
 
-fn of_parameter(model: &Model, text: &str, parameter: &slideway::model::Parameter, value: f64) -> Quantity {
-    let si = model.parameter_unit(&parameter.name);
-    let unit = model.units.parameter(&parameter.name, &si);
-    let is_friction = model.is_friction_coefficient(&parameter.name);
-    let formula = &model.formulas[parameter.value.index()];
+/// A parameter of the model in the file, with its value there and its present one.
+fn of_parameter(
+    file: &Model,
+    text: &str,
+    parameter: &slideway::model::Parameter,
+    (in_file, value): (f64, f64),
+) -> Quantity {
+    let si = file.parameter_unit(&parameter.name);
+    let unit = file.units.parameter(&parameter.name, &si);
+    let is_friction = file.is_friction_coefficient(&parameter.name);
+    let formula = &file.formulas[parameter.value.index()];
     let is_computed = formula.expression.symbols().any(|(symbol, _)| matches!(symbol, Symbol::Parameter(_)));
-    let ends = if is_friction && si.is_empty() && value >= 0.0 {
-        [0.0, FRICTION.max(AROUND[1] * value)]
+    let ends = if is_friction && si.is_empty() && in_file >= 0.0 {
+        [0.0, FRICTION.max(AROUND[1] * in_file)]
     } else if si == "rad" {
-        [value - FRAC_PI_2, value + FRAC_PI_2]
-    } else if value == 0.0 {
+        [in_file - FRAC_PI_2, in_file + FRAC_PI_2]
+    } else if in_file == 0.0 {
         [-unit.scale(), unit.scale()]
-    } else if value > 0.0 {
-        AROUND.map(|part| part * value)
+    } else if in_file > 0.0 {
+        AROUND.map(|part| part * in_file)
     } else {
-        [AROUND[1] * value, -AROUND[1] * value]
+        [AROUND[1] * in_file, -AROUND[1] * in_file]
     };
     let meaning = match formula.origin.source {
         Source::Model => comment(text, formula.origin.span.end),
@@ -120,7 +131,7 @@ fn comment(text: &str, end: usize) -> Option<String> {
 }
 
 fn of_position(
-    model: &Model,
+    file: &Model,
     mechanism: &Mechanism,
     coordinate: &Coordinate,
     state: &CoordinateSummary,
@@ -135,7 +146,7 @@ fn of_position(
     let meaning = Some(state.positive.clone());
     Quantity {
         meaning,
-        ..Quantity::new("position", &state.name, &model.units.of(state.unit), state.value, ends)
+        ..Quantity::new("position", &state.name, &file.units.of(state.unit), state.value, ends)
     }
 }
 
@@ -147,8 +158,8 @@ fn travel(mechanism: &Mechanism, joint: slideway::ids::JointId) -> Option<[f64; 
     }
 }
 
-fn of_rate(model: &Model, state: &CoordinateSummary, size: f64) -> Quantity {
+fn of_rate(file: &Model, state: &CoordinateSummary, size: f64) -> Quantity {
     let usual = if state.unit == "rad" { 1.0 } else { size };
     let reach = if state.rate == 0.0 { usual } else { AROUND[1] * state.rate.abs() };
-    Quantity::new("rate", &state.name, &model.units.of_rate(state.unit), state.rate, [-reach, reach])
+    Quantity::new("rate", &state.name, &file.units.of_rate(state.unit), state.rate, [-reach, reach])
 }

@@ -97,9 +97,16 @@ impl Asked {
     /// # Errors
     /// All faults of both, with the warnings of settings that may be the reason for them.
     pub(crate) fn model(&self) -> Result<Model, Faults> {
-        let model = Model::parse(&self.text)?;
-        model.with(&self.settings).map_err(|mut faults| {
-            faults.append(model.warnings_of(&self.settings));
+        self.set(&Model::parse(&self.text)?)
+    }
+
+    /// The model of the file with the settings.
+    ///
+    /// # Errors
+    /// All faults of the settings, with their warnings, which may be the reason for them.
+    pub(crate) fn set(&self, file: &Model) -> Result<Model, Faults> {
+        file.with(&self.settings).map_err(|mut faults| {
+            faults.append(file.warnings_of(&self.settings));
             faults
         })
     }
