@@ -5,13 +5,20 @@ import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/
 import { toml } from "@codemirror/legacy-modes/mode/toml";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { EditorState } from "@codemirror/state";
-import { EditorView, drawSelection, highlightActiveLine, highlightSpecialChars, keymap, lineNumbers } from "@codemirror/view";
+import {
+  EditorView,
+  drawSelection,
+  highlightActiveLine,
+  highlightSpecialChars,
+  keymap,
+  lineNumbers,
+} from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 
 const colours = HighlightStyle.define([
   { tag: tags.comment, color: "var(--muted)" },
   { tag: [tags.propertyName, tags.atom], color: "var(--reaction)" },
-  { tag: [tags.string, tags.number], color: "var(--velocity)" },
+  { tag: [tags.string, tags.number], color: "color-mix(in srgb, var(--velocity) 70%, var(--ink))" },
   { tag: tags.bracket, color: "var(--friction)" },
 ]);
 
@@ -67,7 +74,11 @@ export class Editor {
           StreamLanguage.define(toml),
           syntaxHighlighting(colours),
           keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap, indentWithTab]),
-          EditorView.contentAttributes.of({ "aria-label": "Text of the model file", "aria-multiline": "true" }),
+          EditorView.contentAttributes.of({
+            "aria-label": "Text of the model file",
+            "aria-multiline": "true",
+            tabindex: "0",
+          }),
           EditorView.lineWrapping,
           look,
           listener,

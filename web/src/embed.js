@@ -44,7 +44,7 @@ class Live extends HTMLElement {
   #strip;
   #parts = {
     box: element("div", { id: "verdict-box" }),
-    verdict: element("h2", { role: "status" }),
+    verdict: element("span", { role: "status" }),
     certainty: element("p"),
     reasons: element("ul"),
   };
@@ -73,7 +73,7 @@ class Live extends HTMLElement {
     }
     const root = this.attachShadow({ mode: "open" });
     const { box, verdict, certainty, reasons } = this.#parts;
-    box.append(verdict, certainty, reasons);
+    box.append(element("h2", {}, verdict), certainty, reasons);
     const pictures = element("div", { id: "drawings", role: "list", "aria-label": "The mechanism and its solutions" });
     const figure = element("div", { class: "live", hidden: true }, box, pictures);
     root.append(

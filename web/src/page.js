@@ -17,7 +17,14 @@ const LARGEST_FILE = 4 << 20;
 /** Without a change for this long (ms) what takes longer is computed, too. */
 const REST = 250;
 
-const module = load("engine.wasm");
+const module = load("engine.wasm", (bytes) => {
+  byId("loading").value = bytes;
+});
+module
+  .catch(() => {})
+  .finally(() => {
+    byId("loading").hidden = true;
+  });
 /** One engine follows what is dragged, the other answers what takes longer. */
 const live = new Engine(module, "worker.js");
 const slow = new Turns(new Engine(module, "worker.js"));
@@ -58,14 +65,21 @@ const motion = new MotionPanel(byId("panel-motion"), (until) => {
 
 /** Shows the present state, and all that follows from it. */
 function refresh() {
+  // What was asked of another model is not shown any more.
+  const asking = state;
+  const ifSame =
+    (act) =>
+    (...given) => {
+      if (asking === state) act(...given);
+    };
   const wanted = (margins) =>
     newest.want(
       () => ({
         question: { ask: "look", ...state.asked(), margins },
         options: { seconds: 10, progress: showProgress },
       }),
-      took,
-      failed,
+      ifSame(took),
+      ifSame(failed),
     );
   wanted(false);
   thoroughly(wanted);
@@ -162,30 +176,35 @@ function showFaults(faults, question) {
         ? "✎ One fault in the model or the values"
         : `✎ ${errors.length} faults in the model or the values`;
     parts.certainty.textContent = "";
-    parts.reasons.replaceChildren(...errors.slice(0, 5).map(({ message }) => element("li", {}, message)));
+    parts.reasons.replaceChildren(...errors.slice(0, 50).map((fault) => listed(fault, fault.message, question.text)));
   }
   sliders.showFaults(errors, question.settings, state.changes);
   editor.showFaults(faults, question.text);
-  const listed = JSON.stringify([faults, question.text]);
-  if (listed === faultsListed) return;
-  faultsListed = listed;
+  const all = JSON.stringify([faults, question.text]);
+  if (all === faultsListed) return;
+  faultsListed = all;
   byId("faults").replaceChildren(
     ...faults.slice(0, 50).map((fault) => {
-      const words = [fault.message, fault.hint].filter(Boolean).join(" – ");
-      const line = element("li", { class: fault.is_warning ? "warning" : "error" });
-      if (fault.place?.text !== "model") line.append(words);
-      else
-        line.append(
-          element(
-            "button",
-            { type: "button", onclick: () => editor.goTo(fault.place) },
-            `${lineOf(question.text, fault.place.from)}: ${words}`,
-          ),
-        );
+      const line = listed(fault, [fault.message, fault.hint].filter(Boolean).join(" – "), question.text);
+      line.className = fault.is_warning ? "warning" : "error";
       return line;
     }),
   );
 }
+
+/** A fault in a list: a button that goes to its place, if that is in the text. */
+const listed = ({ place }, words, text) =>
+  element(
+    "li",
+    {},
+    place?.text === "model"
+      ? element(
+          "button",
+          { type: "button", class: "link", onclick: () => editor.goTo(place) },
+          `${lineOf(text, place.from)}: ${words}`,
+        )
+      : words,
+  );
 
 const lineOf = (text, place) => `line ${text.slice(0, place).split("\n").length}`;
 
@@ -238,7 +257,8 @@ function begin(next) {
   state = next;
   look = null;
   told("asking");
-  notice("");
+  document.documentElement.dataset.begun = String(Number(document.documentElement.dataset.begun ?? 0) + 1);
+  notice(state.unread.join(" "));
   limitsOf = "";
   strip.show(null);
   editor.text = state.text;
@@ -329,6 +349,7 @@ function showStrip(asked = state.changes) {
     setStrip(first);
   }
   const quantity = varied();
+  byId("invitation").textContent = invitation(quantity);
   choice.value = key(quantity);
   endUnit.textContent = quantity.unit;
   [state.strip.from, state.strip.to].forEach((value, index) => {
@@ -337,6 +358,12 @@ function showStrip(asked = state.changes) {
   strip.prepare(state.strip, quantity, asked.get(key(quantity)) === state.changes.get(key(quantity)));
   askLimits();
 }
+
+/** The question that the strip answers, and what to do. */
+const invitation = ({ kind, name, meaning, is_friction }) =>
+  `${is_friction ? "Does it jam?" : "What changes?"} Drag the ${
+    kind === "position" ? `position ${name}` : meaning ? `${meaning} (${name})` : name
+  }.`;
 
 function setStrip(quantity) {
   const { from, to } = scale(quantity.from, quantity.to);
@@ -461,7 +488,7 @@ byId("share").addEventListener("click", async () => {
 });
 
 async function copy(text, button, done) {
-  const before = button.textContent;
+  button.dataset.name ??= button.textContent;
   try {
     await navigator.clipboard.writeText(text);
     button.textContent = done;
@@ -469,7 +496,7 @@ async function copy(text, button, done) {
     button.textContent = "Not allowed here";
   }
   setTimeout(() => {
-    button.textContent = before;
+    button.textContent = button.dataset.name;
   }, 1500);
 }
 
@@ -504,6 +531,17 @@ byId("downloads").addEventListener("click", async ({ target }) => {
   } catch (error) {
     notice(error.message);
   }
+});
+
+// Escape and a press elsewhere close a menu.
+addEventListener("keydown", ({ key: pressed }) => {
+  const open = pressed === "Escape" && document.querySelector(".menu[open]");
+  if (!open) return;
+  open.open = false;
+  open.querySelector("summary").focus();
+});
+addEventListener("pointerdown", ({ target }) => {
+  for (const menu of document.querySelectorAll(".menu[open]")) if (!menu.contains(target)) menu.open = false;
 });
 
 const theme = byId("theme");

@@ -19,6 +19,8 @@ export class State {
   until = "";
   /** Which tab is open. */
   tab = "numbers";
+  /** What of the address could not be read, in sentences. */
+  unread = [];
 
   /** Settings of a question; without those of some quantities. */
   settings(...without) {
@@ -75,7 +77,9 @@ export class State {
     if (text) {
       state.text = await unpacked(text);
     } else {
-      const entry = known(parts.get("model")) ?? known("gallery:drawer");
+      const wanted = parts.get("model");
+      const entry = known(wanted) ?? known("gallery:drawer");
+      if (wanted && !known(wanted)) state.unread.push(`There is no model ${wanted}: this is the drawer.`);
       state.from = `${entry.kind}:${entry.name}`;
       state.text = entry.text;
     }
@@ -85,8 +89,13 @@ export class State {
         state.changes.set(`${kind} ${name}`, value.join("="));
       }
     }
-    state.strip = read(parts.get("vary"));
-    const [x, y] = [read(parts.get("x")), read(parts.get("y"))];
+    const range = (part) => {
+      const found = read(parts.get(part));
+      if (parts.get(part) && !found) state.unread.push(`The range ${parts.get(part)} of the address cannot be read.`);
+      return found;
+    };
+    state.strip = range("vary");
+    const [x, y] = [range("x"), range("y")];
     if (x && y) state.map = { x, y, colours: parts.get("colours") ?? "solutions" };
     state.until = parts.get("until") ?? "";
     state.tab = parts.get("tab") ?? "numbers";
@@ -102,7 +111,7 @@ const written = ({ kind, name, from, to }) => [kind, name, from, to].join("~");
 function read(text) {
   const [kind, name, from, to] = (text ?? "").split("~");
   const ends = [from, to].map(Number);
-  return name && ends.every(Number.isFinite) ? { kind, name, from: ends[0], to: ends[1] } : null;
+  return name && ends.every(Number.isFinite) && ends[0] < ends[1] ? { kind, name, from: ends[0], to: ends[1] } : null;
 }
 
 /** A word of a command line. */

@@ -70,6 +70,8 @@ export class Strip {
   show(report) {
     this.#report = report;
     this.#words.textContent = report ? inWords(report, this.#quantity, this.#vary) : "";
+    // The picture says the same to those who see it.
+    this.#words.classList.add("unseen");
     this.#draw();
   }
 
@@ -78,6 +80,7 @@ export class Strip {
     this.#report = null;
     this.#draw();
     this.#words.textContent = text;
+    this.#words.classList.remove("unseen");
   }
 
   /** Shows the present value (in the unit of the quantity). */

@@ -8,12 +8,23 @@ const GRACE = 3;
 
 let compiled;
 
-/** The module of the engine, compiled once; a promise. */
-export function load(address) {
-  compiled ??= WebAssembly.compileStreaming(fetch(address)).catch(async () =>
-    // A server that does not know the type of the file.
-    WebAssembly.compile(await (await fetch(address)).arrayBuffer()),
-  );
+/** The module of the engine, compiled once; a promise. `progress(bytes)` learns how much of it has come. */
+export function load(address, progress = () => {}) {
+  compiled ??= fetch(address).then((response) => {
+    if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
+    let bytes = 0;
+    const counted = response.body.pipeThrough(
+      new TransformStream({
+        transform(part, through) {
+          bytes += part.length;
+          progress(bytes);
+          through.enqueue(part);
+        },
+      }),
+    );
+    // A server may not know the type of the file.
+    return WebAssembly.compileStreaming(new Response(counted, { headers: { "content-type": "application/wasm" } }));
+  });
   return compiled;
 }
 
@@ -65,7 +76,7 @@ export class Engine {
 
   /** The worker may be in any state: another one takes its place. */
   #fail(error) {
-    this.#worker.terminate();
+    this.#worker?.terminate();
     this.#worker = null;
     const asked = this.#asked;
     this.#asked = null;
@@ -93,10 +104,18 @@ export class Engine {
     this.cancel();
     const number = ++this.#number;
     return new Promise((resolve, reject) => {
-      const timer = setTimeout(() => this.#fail(new Ended("it took too long")), 1000 * (seconds + GRACE));
-      this.#asked = { number, resolve, reject, progress, timer };
+      const asked = { number, resolve, reject, progress, timer: undefined };
+      this.#asked = asked;
       this.begin();
       this.#worker.postMessage({ number, question, seconds });
+      // On a slow line the engine itself comes late: the time begins when it is there.
+      this.#module.then(
+        () => {
+          if (this.#asked !== asked) return;
+          asked.timer = setTimeout(() => this.#fail(new Ended("it took too long")), 1000 * (seconds + GRACE));
+        },
+        () => {},
+      );
     });
   }
 }

@@ -77,6 +77,8 @@ const mark = (slider) =>
   slider.evaluate((element) => {
     element.scrollIntoView({ block: "center" });
     element.marked = true;
+    element.isPressed = false;
+    element.addEventListener("pointerdown", () => (element.isPressed = true), { once: true });
   });
 
 /** Whether the slider is the element that was marked, and is in the page; its value, ends and step. */
@@ -89,13 +91,24 @@ export const marked = (slider) =>
     step: Number(element.step),
   }));
 
-/** The way of a pointer over a slider: from its handle to a part of its length. */
-async function way(slider, part) {
-  await mark(slider);
-  const box = await slider.boundingBox();
-  const { value, ends } = await marked(slider);
-  const at = (share) => ({ x: box.x + 8 + share * (box.width - 16), y: box.y + box.height / 2 });
-  return [at((value - ends[0]) / (ends[1] - ends[0])), at(part)];
+/**
+ * The way of a pointer over a slider, from its handle to a part of its length, and the handle pressed by `press`; again if an
+ * answer moved the handle away from under the pointer before it was pressed, as a person would.
+ */
+async function pressed(slider, part, press, release) {
+  for (let attempt = 0; attempt < 5; attempt++) {
+    await mark(slider);
+    // Waits until it stands still and nothing covers it.
+    await slider.hover({ trial: true });
+    const box = await slider.boundingBox();
+    const { value, ends } = await marked(slider);
+    const at = (share) => ({ x: box.x + 8 + share * (box.width - 16), y: box.y + box.height / 2 });
+    const way = [at((value - ends[0]) / (ends[1] - ends[0])), at(part)];
+    await press(way[0]);
+    if (await slider.evaluate(({ isPressed }) => isPressed)) return way;
+    await release();
+  }
+  throw new Error("the slider cannot be pressed");
 }
 
 const STEPS = 20;
@@ -109,30 +122,36 @@ const pause = async (page, step) => {
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 };
 
-/** Drags the handle of a slider with the mouse to a part of its length, in twenty moves. */
-export async function dragWithMouse(page, slider, part) {
-  const [from, to] = await way(slider, part);
-  await page.mouse.move(from.x, from.y);
-  await page.mouse.down();
+/** Drags the handle of a slider to a part of its length, in twenty moves. */
+async function drag(page, slider, part, { press, move, release }) {
+  const [from, to] = await pressed(slider, part, press, release);
   for (let step = 1; step <= STEPS; step++) {
-    const { x, y } = between(from, to, step);
-    await page.mouse.move(x, y);
+    await move(between(from, to, step));
     await pause(page, step);
   }
-  await page.mouse.up();
+  await release();
 }
 
-/** Drags the handle of a slider with a finger to a part of its length, in twenty moves. */
+/** Drags a slider with the mouse. */
+export const dragWithMouse = (page, slider, part) =>
+  drag(page, slider, part, {
+    press: async ({ x, y }) => {
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+    },
+    move: ({ x, y }) => page.mouse.move(x, y),
+    release: () => page.mouse.up(),
+  });
+
+/** Drags a slider with a finger. */
 export async function dragWithFinger(page, slider, part) {
-  const [from, to] = await way(slider, part);
   const client = await page.context().newCDPSession(page);
   const touch = (type, ...touchPoints) => client.send("Input.dispatchTouchEvent", { type, touchPoints });
-  await touch("touchStart", from);
-  for (let step = 1; step <= STEPS; step++) {
-    await touch("touchMove", between(from, to, step));
-    await pause(page, step);
-  }
-  await touch("touchEnd");
+  await drag(page, slider, part, {
+    press: (at) => touch("touchStart", at),
+    move: (at) => touch("touchMove", at),
+    release: () => touch("touchEnd"),
+  });
   await client.detach();
 }
 

@@ -117,8 +117,10 @@ async function gather(packages) {
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
   writeFileSync(resolve(page, "library.json"), JSON.stringify(ask({ ask: "library" }).answer));
-  for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"])
+  for (const name of ["style.css", "manifest.webmanifest", "icon.svg"])
     cpSync(resolve(web, "src", name), resolve(page, name));
+  const index = readFileSync(resolve(web, "src/index.html"), "utf8");
+  writeFileSync(resolve(page, "index.html"), index.replace("{{ engine bytes }}", statSync(engine).size));
   writeFileSync(resolve(page, "notices.txt"), notices(packages));
   const files = readdirSync(page).sort();
   const hash = createHash("sha256");
@@ -129,18 +131,20 @@ async function gather(packages) {
   writeFileSync(resolve(page, "service.js"), service.replace("{{ version }}", version).replace("{{ files }}", kept));
 }
 
-function weigh() {
-  for (const name of ["engine.wasm", "page.js"]) {
+/** Compresses what is sent as text or code, each file beside itself, so that a server need not do it for every visitor. */
+function compress() {
+  const shown = (length) => `${(length / 1e6).toFixed(2)} MB`;
+  for (const name of readdirSync(page).filter((file) => /\.(wasm|js|css|json|html|svg|txt)$/.test(file))) {
     const bytes = readFileSync(resolve(page, name));
-    const [gzip, brotli] = [
-      gzipSync(bytes, { level: 9 }),
-      brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } }),
-    ].map(({ length }) => length);
-    const shown = (length) => `${(length / 1e6).toFixed(2)} MB`;
-    say(
-      `${name}: ${shown(statSync(resolve(page, name)).size)}, compressed ${shown(gzip)} (gzip) or ${shown(brotli)} (brotli)`,
-    );
-    if (gzip > LARGEST) throw new Error(`${name} has more than 2 MiB compressed`);
+    const gzip = gzipSync(bytes, { level: 9 });
+    const brotli = brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } });
+    writeFileSync(resolve(page, `${name}.gz`), gzip);
+    writeFileSync(resolve(page, `${name}.br`), brotli);
+    if (["engine.wasm", "page.js"].includes(name))
+      say(
+        `${name}: ${shown(bytes.length)}, compressed ${shown(gzip.length)} (gzip) or ${shown(brotli.length)} (brotli)`,
+      );
+    if (gzip.length > LARGEST) throw new Error(`${name} has more than 2 MiB compressed`);
   }
 }
 
@@ -151,7 +155,7 @@ try {
     rmSync(page, { recursive: true, force: true });
     mkdirSync(page, { recursive: true });
     await gather(await bundle());
-    weigh();
+    compress();
     say(`The page is in ${page}.`);
     const into = process.argv.indexOf("--into");
     if (into > 0) cpSync(page, resolve(process.argv[into + 1]), { recursive: true });

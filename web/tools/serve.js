@@ -6,6 +6,7 @@ import { execFileSync } from "node:child_process";
 import { createReadStream, existsSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, normalize, resolve, sep } from "node:path";
+import { pipeline } from "node:stream";
 import { fileURLToPath } from "node:url";
 import { page, web } from "./places.js";
 
@@ -21,22 +22,51 @@ const TYPES = {
   ".webmanifest": "application/manifest+json",
 };
 
+/** Endings of the files that the build compressed, by the name of their coding; the better one first. */
+const CODINGS = { br: ".br", gzip: ".gz" };
+
+/** The file of a folder that a request names; `null` if there is none. */
+function fileOf(folder, url) {
+  let name;
+  try {
+    name = decodeURIComponent(new URL(url, "http://localhost").pathname);
+  } catch {
+    return null;
+  }
+  if (name.includes("\0")) return null;
+  let file = resolve(folder, `.${normalize(name)}`);
+  if (statSync(file, { throwIfNoEntry: false })?.isDirectory()) file = resolve(file, "index.html");
+  return file.startsWith(folder + sep) && statSync(file, { throwIfNoEntry: false })?.isFile() ? file : null;
+}
+
+function answer(folder, request, response) {
+  const file = fileOf(folder, request.url);
+  if (!file) {
+    response.writeHead(404).end();
+    return;
+  }
+  const accepted = (request.headers["accept-encoding"] ?? "").split(",").map((coding) => coding.trim());
+  const coding = Object.keys(CODINGS).find((name) => accepted.includes(name) && existsSync(file + CODINGS[name]));
+  response.writeHead(200, {
+    "content-type": TYPES[extname(file)] ?? "application/octet-stream",
+    ...(coding && { "content-encoding": coding }),
+    vary: "accept-encoding",
+    "cache-control": "no-cache",
+    "x-content-type-options": "nosniff",
+  });
+  pipeline(createReadStream(coding ? file + CODINGS[coding] : file), response, () => {});
+}
+
 /** Serves a folder on this machine alone; the server once it listens. */
 export function serve(folder, port = 0) {
   const server = createServer((request, response) => {
-    const { pathname } = new URL(request.url, "http://localhost");
-    let file = resolve(folder, `.${normalize(decodeURIComponent(pathname))}`);
-    if (existsSync(file) && statSync(file).isDirectory()) file = resolve(file, "index.html");
-    if (!file.startsWith(folder + sep) || !existsSync(file)) {
-      response.writeHead(404).end();
-      return;
+    try {
+      answer(folder, request, response);
+    } catch {
+      // A name that no file can have, such as one that is too long.
+      if (!response.headersSent) response.writeHead(404);
+      response.end();
     }
-    response.writeHead(200, {
-      "content-type": TYPES[extname(file)] ?? "application/octet-stream",
-      "cache-control": "no-cache",
-      "x-content-type-options": "nosniff",
-    });
-    createReadStream(file).pipe(response);
   });
   return new Promise((done) => server.listen(port, "127.0.0.1", () => done(server)));
 }
