@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
     ("choice", &[]),
-    ("expression", &["interval"]),
+    ("expression", &["interval", "printable"]),
     ("ids", &[]),
     ("fault", &["expression", "printable", "units"]),
     ("units", &["choice", "expression"]),
@@ -26,7 +26,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ),
     ("attainability", &["configuration", "ids", "kinetics", "mechanism", "modes", "report", "sharing"]),
     ("pattern", &["ids", "mechanism", "model", "modes"]),
-    ("import", &["drawing", "expression", "model", "printable"]),
+    ("import", &["drawing", "expression", "model", "printable", "progress"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
     ("template", &["configuration", "fault", "mechanism", "model", "printable"]),
