@@ -42,6 +42,14 @@ impl<'o> Files<'o> {
         }
     }
 
+    /// A further file that is written; whether it can be is seen later.
+    ///
+    /// # Errors
+    /// If it is one of the files that are read, or another one that is written.
+    pub(crate) fn claim(&mut self, path: &Path) -> Result<(), Failure> {
+        self.write(path, Place::of(path))
+    }
+
     /// Standard output, which may be a file, too.
     ///
     /// # Errors
@@ -54,10 +62,11 @@ impl<'o> Files<'o> {
     /// A further file that is written.
     ///
     /// # Errors
-    /// If it is one of the files that are read, or another one that is written, or exists and must not be
-    /// overwritten: better said before the work than after it.
+    /// If it is one of the files that are read, or another one that is written; if it exists and must not be
+    /// overwritten, or is a folder, or in none: better said before the work than after it.
     pub(crate) fn beside(&mut self, path: &Path) -> Result<Output, Failure> {
-        self.write(path, Place::of(path))?;
+        self.claim(path)?;
+        be_possible(path)?;
         if !self.destination.force && is_regular(path) {
             return Err(Failure::OutputExists { path: path.to_owned() });
         }
@@ -68,6 +77,7 @@ impl<'o> Files<'o> {
     ///
     /// # Errors
     /// If it is one of those that are written.
+    #[cfg(feature = "parquet")]
     pub(crate) fn read(&mut self, path: &Path) -> Result<(), Failure> {
         let place = Place::of_input(path);
         if self.outputs.iter().any(|output| output.takes_the_place_of(&place)) {
@@ -138,10 +148,23 @@ impl Place {
             return false;
         };
         let unfinished = beside(Path::new(name), PARTIAL);
-        let begins = |start: &Path| {
-            other_name.as_encoded_bytes().starts_with(start.as_os_str().as_encoded_bytes())
-        };
+        let begins =
+            |start: &Path| other_name.as_encoded_bytes().starts_with(start.as_os_str().as_encoded_bytes());
         folder == other_folder && (name == other_name || begins(&unfinished))
+    }
+}
+
+/// Refuses folders, and files in what is no folder.
+fn be_possible(path: &Path) -> Result<(), Failure> {
+    let failure = |error| Err(Failure::CannotWrite { path: path.to_owned(), error });
+    if path.is_dir() {
+        return failure(io::ErrorKind::IsADirectory.into());
+    }
+    match followed(path).parent().map(fs::metadata) {
+        _ if path.exists() => Ok(()),
+        Some(Ok(folder)) if !folder.is_dir() => failure(io::ErrorKind::NotADirectory.into()),
+        Some(Err(error)) => failure(error),
+        _ => Ok(()),
     }
 }
 

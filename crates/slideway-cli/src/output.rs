@@ -38,7 +38,10 @@ impl Output {
     /// A file. [`crate::files::Files`] sees to it that it may be written.
     pub(crate) fn file(color: ColorChoice, path: &Path, overwrite: bool) -> Self {
         let is_stream = path.exists() && !is_regular(path);
-        Self { color, file: Some(OutputFile { path: path.to_owned(), target: followed(path), overwrite, is_stream }) }
+        Self {
+            color,
+            file: Some(OutputFile { path: path.to_owned(), target: followed(path), overwrite, is_stream }),
+        }
     }
 
     /// The file it goes to; a link is followed.

@@ -83,7 +83,10 @@ impl Picture {
 ///
 /// # Errors
 /// As [`Files::beside`], and if its ending names no format.
-pub(crate) fn beside(plot: &PlotArguments, files: &mut Files<'_>) -> Result<Option<(Picture, Output)>, Failure> {
+pub(crate) fn beside(
+    plot: &PlotArguments,
+    files: &mut Files<'_>,
+) -> Result<Option<(Picture, Output)>, Failure> {
     let Some(path) = &plot.plot else { return Ok(None) };
     let file = files.beside(path)?;
     Ok(Some((Picture::of(path)?, file)))

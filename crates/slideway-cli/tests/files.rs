@@ -92,7 +92,10 @@ fn an_input_is_known_by_any_of_its_names() {
         ("modes b.json --proof x --output x.json", "two outputs would go to `x.json`"),
         ("solve m.toml --proof x --output ./x", "two outputs would go to `x`"),
         ("limits m.toml --vary mu=0..1 --plot a.svg --output b.svg", "two outputs would go to `b.svg`"),
-        ("sweep m.toml --vary mu=0..1:3 -o t.csv --plot t.csv.partial.svg", "two outputs would go to `t.csv`"),
+        (
+            "sweep m.toml --vary mu=0..1:3 -o t.csv --plot t.csv.partial.svg",
+            "two outputs would go to `t.csv`",
+        ),
     ] {
         let folder = folder();
         let path = |name: &str| folder.path().join(name);
@@ -117,7 +120,11 @@ fn an_input_is_known_by_any_of_its_names() {
     reading.stdin(source);
     for command in [&mut appending, &mut reading] {
         let refused = Run::of(command.current_dir(folder.path()).output().unwrap());
-        assert!(refused.code == 2 && refused.stderr.contains("would overwrite its input"), "{}", refused.stderr);
+        assert!(
+            refused.code == 2 && refused.stderr.contains("would overwrite its input"),
+            "{}",
+            refused.stderr
+        );
         assert_eq!(contents(folder.path()), before);
     }
 }
@@ -141,7 +148,10 @@ fn no_link_is_followed_where_unfinished_tables_are_kept() {
                 assert_eq!(fs::read_to_string(path("other")).unwrap(), "of someone else\n", "{what}");
                 assert_eq!(fs::read(path("t.csv")).ok(), (done.code == 0).then(|| table.clone()), "{what}");
                 if !is_hard && ending.is_empty() {
-                    assert!(done.code == 2 && done.stderr.contains("t.csv.partial` is no regular file"), "{what}");
+                    assert!(
+                        done.code == 2 && done.stderr.contains("t.csv.partial` is no regular file"),
+                        "{what}"
+                    );
                 }
             }
         }
@@ -153,12 +163,29 @@ fn no_link_is_followed_where_unfinished_tables_are_kept() {
 #[test]
 fn a_full_disk_is_told() {
     let full = || File::options().write(true).open("/dev/full").unwrap();
-    for words in ["--version", "--help", "help questions", "help", "solve --help", "questions", "solve models/drawer.toml"] {
+    for words in [
+        "--version",
+        "--help",
+        "help questions",
+        "help",
+        "solve --help",
+        "questions",
+        "solve models/drawer.toml",
+    ] {
         let words: Vec<&str> = words.split(' ').collect();
         let run = Run::of(command(&words).stdout(full()).output().unwrap());
         assert!(run.code == 2 && run.stderr.contains("no space left on device"), "{words:?}: {}", run.stderr);
     }
-    let run = slideway(&["sweep", "models/drawer.toml", "--vary", "mu=0..0.5:2001", "--format", "csv", "--output", "/dev/full"]);
+    let run = slideway(&[
+        "sweep",
+        "models/drawer.toml",
+        "--vary",
+        "mu=0..0.5:2001",
+        "--format",
+        "csv",
+        "--output",
+        "/dev/full",
+    ]);
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("cannot be written: no space left on device"), "{}", run.stderr);
 }
@@ -194,5 +221,3 @@ fn links_are_followed_and_two_outputs_do_not_share_a_file() {
     let output = command(&words).current_dir(folder.path()).output().unwrap();
     assert!(String::from_utf8(output.stderr).unwrap().contains("would overwrite its input"));
 }
-
-/// A file whose name has an end of line does not break the comments of a table.

@@ -307,6 +307,7 @@ fn an_unfinished_table_that_was_changed_is_not_continued() {
     }
 }
 
+/// A file whose name has an end of line does not break the comments of a table.
 #[cfg(unix)]
 #[test]
 fn a_name_with_an_end_of_line_stays_within_its_comment() {

@@ -13,7 +13,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("fault", &["expression", "printable", "units"]),
     ("units", &["choice", "expression"]),
     ("model", &["expression", "fault", "ids", "interval", "units"]),
-    ("drawing", &["fault", "ids", "model"]),
+    ("drawing", &["fault", "ids", "model", "printable"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model", "modes", "units"]),
     ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
     ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),

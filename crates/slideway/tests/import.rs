@@ -272,9 +272,12 @@ fn names_are_made_valid_and_stay_apart() {
 /// Keys of TOML are bare only if they are ASCII (TOML 1.0, Keys). Fillers of Hangul are letters that nobody sees.
 #[test]
 fn names_of_any_letters_are_read() {
-    let foreign = PLATE.replace("plate 2", "Träger").replace("tip", "точка").replace("disc", "e\u{3164}\u{115f}x");
+    let foreign =
+        PLATE.replace("plate 2", "Träger").replace("tip", "точка").replace("disc", "e\u{3164}\u{115f}x");
     let text = imported(&foreign);
-    for line in ["[bodies.\"Träger\"]   # layer Träger", "\"точка\" = ", "[bodies.e__x]   # layer e\\u3164\\u115fx"] {
+    for line in
+        ["[bodies.\"Träger\"]   # layer Träger", "\"точка\" = ", "[bodies.e__x]   # layer e\\u3164\\u115fx"]
+    {
         assert!(text.lines().any(|other| other.starts_with(line)), "{line}\n{text}");
     }
     only_joints_are_missing(&text);
@@ -295,8 +298,9 @@ fn many_points_take_time_in_proportion() {
     let text = imported(&rows);
     assert_eq!(text.matches("# rack\n").count(), 30_000);
     assert!(text.contains("p_30000 = [\"0 mm\", \""));
-    let circles: String =
-        (0..8000).map(|circle| format!(" 0 CIRCLE 8 plate 10 {} 20 {} 40 0.1", circle % 90, circle / 90)).collect();
+    let circles: String = (0..8000)
+        .map(|circle| format!(" 0 CIRCLE 8 plate 10 {} 20 {} 40 0.1", circle % 90, circle / 90))
+        .collect();
     assert_eq!(imported(&with_blocks("", circles.trim())).matches("   # plate\n").count(), 8000);
     assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
 

@@ -33,9 +33,10 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
         let reason = "it states linear equations, and lengths of blocks are no linear functions".to_owned();
         return Err(Failure::NoProof { reason });
     }
-    let proof = arguments.proof.as_deref().map(|path| {
-        ProofFiles::new(path, checker_reads(&problem, arguments), &mut files)
-    });
+    let proof = arguments
+        .proof
+        .as_deref()
+        .map(|path| ProofFiles::new(path, checker_reads(&problem, arguments), &mut files));
     let proof = proof.transpose()?;
     let mut watch = Watch::since(begun, arguments.time_limit());
     let report = answer(&problem, arguments, &mut |progress| watch.look(progress));

@@ -3,8 +3,8 @@
 use super::models::list;
 use crate::arguments::{Arguments, Destination, NewArguments};
 use crate::failure::Failure;
-use crate::files::Files;
 use crate::faulty_input::FaultyInput;
+use crate::files::Files;
 use crate::outcome::Outcome;
 use crate::output::{Output, complain};
 use anstream::ColorChoice;

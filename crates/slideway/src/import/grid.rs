@@ -43,7 +43,11 @@ impl Grid {
     }
 
     /// The least number of those whose place is near one.
-    pub(super) fn first_near(&self, at: Vector2<f64>, place: impl Fn(usize) -> Vector2<f64>) -> Option<usize> {
+    pub(super) fn first_near(
+        &self,
+        at: Vector2<f64>,
+        place: impl Fn(usize) -> Vector2<f64>,
+    ) -> Option<usize> {
         let [x, y] = self.cell(at);
         let beside = |part: i64| [part.saturating_sub(1), part, part.saturating_add(1)];
         let around = beside(x).into_iter().flat_map(|x| beside(y).map(|y| [x, y]));

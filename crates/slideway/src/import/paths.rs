@@ -272,7 +272,8 @@ fn outline(layer: &Layer, grid: &Grid, work: Work<'_>) -> (Vec<Corner>, usize) {
     let (closed, open): (Vec<Path>, Vec<Path>) = layer.paths.iter().cloned().partition(|path| path.is_closed);
     let (joined, left_open) = chained(open, grid.clone(), work);
     let lines = closed.into_iter().map(|path| path.corners).chain(joined);
-    let areas = lines.map(|corners| without_repetition(corners, near)).map(|corners| (area(&corners), corners));
+    let areas =
+        lines.map(|corners| without_repetition(corners, near)).map(|corners| (area(&corners), corners));
     let (loops, flat): (Vec<_>, Vec<_>) = areas.partition(|(area, _)| *area != 0.0);
     let others = (loops.len() + flat.len() + left_open).saturating_sub(1);
     // The first of the greatest.

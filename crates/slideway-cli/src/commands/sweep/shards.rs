@@ -34,8 +34,7 @@ pub(super) fn write(
     };
     let path = shard_path(folder, shard);
     // Whether it may be written is asked once it is known what is there.
-    let forced = Destination { output: Some(path.clone()), force: true };
-    Files::new(output, &forced, Some(&model.file)).answer()?;
+    Files::new(output, &arguments.destination, Some(&model.file)).claim(&path)?;
     let input = Input::read(model, output.color())?;
     let model = input.model()?;
     let options = arguments.options().map_err(|faults| input.refused(faults))?;
