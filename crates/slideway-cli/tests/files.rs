@@ -7,7 +7,7 @@
 mod command;
 
 use command::{Run, command, slideway, top};
-use fs::{self, File};
+use std::fs::{self, File};
 use std::os::unix::fs::symlink;
 use std::path::Path;
 

@@ -189,21 +189,10 @@ impl Bodies {
     /// A text names the nearest point if that is near, and of several texts the nearest names it; what has
     /// none is named after its body.
     fn name_spots(&mut self, drawing: &Drawing, work: Work<'_>) {
-        let mut across: Vec<usize> = (0..self.spots.len()).collect();
-        across.sort_by(|a, b| self.spots[*a].at.x.total_cmp(&self.spots[*b].at.x));
-        let greatest = self.spots.iter().map(|spot| spot.radius).fold(0.0, f64::max);
+        let order = Order::of(&self.spots);
         let mut nearest: BTreeMap<usize, (f64, &Words)> = BTreeMap::new();
-        for (words, done) in drawing.layers.iter().flat_map(|layer| &layer.words).zip(1..) {
-            let reach = BESIDE * words.height;
-            let from = across.partition_point(|spot| self.spots[*spot].at.x < words.at.x - reach - greatest);
-            let within = across[from..].iter().copied();
-            let within = within.take_while(|spot| self.spots[*spot].at.x <= words.at.x + reach + greatest);
-            let distance = |spot: usize| (self.spots[spot].at - words.at).norm() - self.spots[spot].radius;
-            let distances = within.enumerate().map_while(|(looked, spot)| {
-                goes_on(work, "names", done + looked).then(|| (distance(spot), spot))
-            });
-            let found = distances.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let Some((distance, index)) = found.filter(|(distance, _)| *distance <= reach) else { continue };
+        for words in drawing.layers.iter().flat_map(|layer| &layer.words) {
+            let Some((distance, index)) = order.nearest(words, work) else { continue };
             if nearest.get(&index).is_none_or(|(other, _)| distance < *other) {
                 nearest.insert(index, (distance, words));
             }
@@ -216,6 +205,48 @@ impl Bodies {
             let body = spot.bodies.first().map_or("ground", |body| self.layers[*body].name.as_str());
             spot.name = names.fresh(&format!("{body}_1"), "point");
         }
+    }
+}
+
+/// Points in the order of one of their coordinates, the one in which they are farther apart.
+struct Order<'s> {
+    spots: &'s [Spot],
+    axis: usize,
+    order: Vec<usize>,
+    /// The greatest radius of a circle about one of them.
+    radius: f64,
+}
+
+impl<'s> Order<'s> {
+    fn of(spots: &'s [Spot]) -> Self {
+        let places = || spots.iter().map(|spot| spot.at);
+        let least = places().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+        let greatest = places().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+        let axis = (greatest - least).imax();
+        let mut order: Vec<usize> = (0..spots.len()).collect();
+        order.sort_by(|a, b| spots[*a].at[axis].total_cmp(&spots[*b].at[axis]));
+        Self { spots, axis, order, radius: spots.iter().map(|spot| spot.radius).fold(0.0, f64::max) }
+    }
+
+    /// How far words are from the nearest point or circle, and which one that is, if it is beside them. Looks at
+    /// points ever farther away, as long as they may be nearer than what is found.
+    fn nearest(&self, words: &Words, work: Work<'_>) -> Option<(f64, usize)> {
+        let Self { spots, axis, order, radius } = self;
+        let along = |spot: usize| spots[spot].at[*axis] - words.at[*axis];
+        let from = order.partition_point(|spot| along(*spot) < 0.0);
+        let (after, before) = (order[from..].iter(), order[..from].iter().rev());
+        let mut best = None;
+        let mut look = |looked: usize, spot: usize| {
+            let bound = best.map_or(BESIDE * words.height, |(distance, _)| distance);
+            let distance = (spots[spot].at - words.at).norm() - spots[spot].radius;
+            if distance <= bound && best.is_none_or(|best| (distance, spot) < best) {
+                best = Some((distance, spot));
+            }
+            along(spot).abs() - radius <= bound && goes_on(work, "names", looked)
+        };
+        let _ = after.enumerate().all(|(looked, spot)| look(looked, *spot));
+        let _ = before.enumerate().all(|(looked, spot)| look(looked, *spot));
+        best
     }
 }
 
