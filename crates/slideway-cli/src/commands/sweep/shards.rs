@@ -5,7 +5,6 @@ use super::{Work, format, tell, unswept, watch};
 use crate::arguments::{Destination, ModelArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::files::Files;
-use crate::files::Files;
 use crate::input::Input;
 use crate::metadata::command_of_shards;
 use crate::outcome::Outcome;
