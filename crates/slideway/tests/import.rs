@@ -301,7 +301,7 @@ fn many_points_take_time_in_proportion() {
     let circles: String = (0..8000)
         .map(|circle| format!(" 0 CIRCLE 8 plate 10 {} 20 {} 40 0.1", circle % 90, circle / 90))
         .collect();
-    assert_eq!(imported(&with_blocks("", circles.trim())).matches("   # plate\n").count(), 8000);
+    assert_eq!(imported(&with_blocks(BLOCK, circles.trim())).matches("   # plate\n").count(), 8000);
     assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
 
     let mut calls = 0;

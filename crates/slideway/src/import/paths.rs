@@ -7,6 +7,7 @@ use super::shown;
 use crate::expression::{is_reserved, is_valid_name};
 use crate::model::OutlineCorner;
 use crate::model::outline::moments;
+use crate::printable::is_hidden;
 use crate::progress::Work;
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
@@ -261,7 +262,8 @@ struct Names {
 impl Names {
     /// A valid name that is like a text, and not taken.
     fn fresh(&mut self, text: &str, prefix: &str) -> String {
-        let kept = |character: char| if character.is_alphanumeric() { character } else { '_' };
+        let is_seen = |character: char| character.is_alphanumeric() && !is_hidden(character);
+        let kept = |character: char| if is_seen(character) { character } else { '_' };
         let mut name: String = text.trim().chars().map(kept).collect();
         if !is_valid_name(&name) || is_reserved(&name) || name == "ground" {
             name = format!("{prefix}_{name}");
