@@ -298,9 +298,8 @@ fn many_points_take_time_in_proportion() {
     let text = imported(&rows);
     assert_eq!(text.matches("# rack\n").count(), 30_000);
     assert!(text.contains("p_30000 = [\"0 mm\", \""));
-    let circles: String = (0..8000)
-        .map(|circle| format!(" 0 CIRCLE 8 plate 10 {} 20 {} 40 0.1", circle % 90, circle / 90))
-        .collect();
+    let circle = |index: i32| format!(" 0 CIRCLE 8 plate 10 {} 20 {} 40 0.1", index % 90, index / 90);
+    let circles: String = (0..8000).map(circle).collect();
     assert_eq!(imported(&with_blocks(BLOCK, circles.trim())).matches("   # plate\n").count(), 8000);
     assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
 
