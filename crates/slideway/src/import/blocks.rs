@@ -59,24 +59,20 @@ impl<'s, 't> Reader<'s, 't> {
             self.counted(1)?;
             let name = record.first(8).map_or("0", |group| group.value);
             let inserted = if record.kind == "INSERT" { self.inserted(record)? } else { None };
-            match inserted {
-                Some((block, placements)) => {
-                    for (placement, done) in placements.iter().zip(1..) {
-                        if !goes_on(self.work, "insertions", done) {
-                            break;
-                        }
-                        drawing.add(&block, placement, name);
-                        self.counted(block.size())?;
+            if let Some((block, placements)) = inserted {
+                for (placement, done) in placements.iter().zip(1..) {
+                    if !goes_on(self.work, "insertions", done) {
+                        break;
                     }
+                    drawing.add(&block, placement, name);
+                    self.counted(block.size())?;
                 }
-                None => {
-                    let layer = drawing.layer(name);
-                    let before = layer.paths.len();
-                    layer.read(record, &vertices)?;
-                    let corners = layer.paths[before..].iter().map(|path| path.corners.len()).sum();
-                    self.counted(corners)?;
-                }
+                continue;
             }
+            let layer = drawing.layer(name);
+            let before = layer.paths.len();
+            layer.read(record, &vertices)?;
+            self.counted(layer.paths[before..].iter().map(|path| path.corners.len()).sum())?;
         }
         Ok(drawing)
     }

@@ -213,7 +213,7 @@ impl Bodies {
 struct Order<'s> {
     spots: &'s [Spot],
     axis: usize,
-    order: Vec<usize>,
+    numbers: Vec<usize>,
     /// The greatest radius of a circle about one of them.
     radius: f64,
 }
@@ -224,18 +224,18 @@ impl<'s> Order<'s> {
         let least = places().reduce(|a, b| a.inf(&b)).unwrap_or_default();
         let greatest = places().reduce(|a, b| a.sup(&b)).unwrap_or_default();
         let axis = (greatest - least).imax();
-        let mut order: Vec<usize> = (0..spots.len()).collect();
-        order.sort_by(|a, b| spots[*a].at[axis].total_cmp(&spots[*b].at[axis]));
-        Self { spots, axis, order, radius: spots.iter().map(|spot| spot.radius).fold(0.0, f64::max) }
+        let mut numbers: Vec<usize> = (0..spots.len()).collect();
+        numbers.sort_by(|a, b| spots[*a].at[axis].total_cmp(&spots[*b].at[axis]));
+        Self { spots, axis, numbers, radius: spots.iter().map(|spot| spot.radius).fold(0.0, f64::max) }
     }
 
     /// How far words are from the nearest point or circle, and which one that is, if it is beside them. Looks at
     /// points ever farther away, as long as they may be nearer than what is found.
     fn nearest(&self, words: &Words, work: Work<'_>) -> Option<(f64, usize)> {
-        let Self { spots, axis, order, radius } = self;
+        let Self { spots, axis, numbers, radius } = self;
         let along = |spot: usize| spots[spot].at[*axis] - words.at[*axis];
-        let from = order.partition_point(|spot| along(*spot) < 0.0);
-        let (after, before) = (order[from..].iter(), order[..from].iter().rev());
+        let from = numbers.partition_point(|spot| along(*spot) < 0.0);
+        let (after, before) = (numbers[from..].iter(), numbers[..from].iter().rev());
         let mut best = None;
         let mut look = |looked: usize, spot: usize| {
             let bound = best.map_or(BESIDE * words.height, |(distance, _)| distance);
