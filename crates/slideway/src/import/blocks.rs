@@ -47,15 +47,17 @@ impl<'s, 't> Reader<'s, 't> {
     pub(super) fn read(&mut self, records: &[Record<'_>]) -> Result<Drawing, ImportFault> {
         let mut drawing = Drawing::default();
         let mut records = records.iter().peekable();
+        let mut done = 0;
         while let Some(record) = records.next() {
             let mut vertices = Vec::new();
             while let Some(vertex) = records.next_if(|next| next.kind == "VERTEX") {
                 vertices.push(vertex);
             }
             records.next_if(|next| next.kind == "SEQEND");
-            if !goes_on(self.work, "entities", self.count) {
+            if !goes_on(self.work, "entities", done) {
                 break;
             }
+            done += 1;
             self.counted(1)?;
             let name = record.first(8).map_or("0", |group| group.value);
             let inserted = if record.kind == "INSERT" { self.inserted(record)? } else { None };
