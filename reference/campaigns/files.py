@@ -5,7 +5,7 @@ Every attack prepares a folder and, beside it, files that no command may touch; 
 is there afterwards, byte for byte, with what was there before. It expects exit codes, names that may appear or
 change, and that neither the terminal nor a table is given invisible characters.
 
-    python3 reference/campaigns/files.py [--seed N] [--only TEXT] [--failures FOLDER]
+    python3 reference/campaigns/files.py [--seed N] [--only TEXT] [--failures FILE]
 
 Python's standard library only. The program is target/debug/slideway, or what SLIDEWAY names. Attacks with a full or
 read-only disk need a file system of their own, which only root can mount; otherwise they are skipped, and the last
@@ -65,7 +65,6 @@ class Campaign:
     def __init__(self, options):
         self.random = random.Random(options.seed)
         self.only = options.only
-        self.kept = options.failures
         self.attacks, self.failures, self.skipped = 0, [], []
         self.top = Path(tempfile.mkdtemp(prefix="slideway-files-"))
 
@@ -472,7 +471,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="attacks whose names contain this text")
-    parser.add_argument("--failures", type=Path, help="file for what fails")
+    parser.add_argument("--failures", type=Path, help="file for the failures, in words")
     options = parser.parse_args()
     campaign = Campaign(options)
     try:
