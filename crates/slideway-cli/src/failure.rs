@@ -80,7 +80,7 @@ pub(crate) enum Failure {
     /// A motion was interrupted, and its table so far is kept.
     MotionInterrupted { path: PathBuf },
     /// An output, or what is kept beside it while it is unfinished, would take the place of the input.
-    OverwritesInput { path: PathBuf },
+    OverwritesInput { name: String },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
     /// Parquet files need a feature that the program was built without.
@@ -188,9 +188,7 @@ impl Failure {
             Self::MotionInterrupted { path } => {
                 format!("interrupted; the table of the motion so far is in `{}`", path.display())
             }
-            Self::OverwritesInput { path } => {
-                format!("the output would overwrite its input `{}`", path.display())
-            }
+            Self::OverwritesInput { name } => format!("the output would overwrite its input `{name}`"),
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), Reason(error))
             }
@@ -292,6 +290,7 @@ fn hint_on(error: &TableError) -> Option<&'static str> {
     match error {
         TableError::Exists { .. } => Some(OVERWRITE),
         TableError::Unfinished { .. } => Some("continue it with --resume, or start over with --force"),
+        TableError::NoFile { .. } => Some("remove it, or choose another name for the table"),
         TableError::InUse { .. } => Some("wait until it ends, or choose another name"),
         TableError::Damaged { .. } => Some("start over with --force"),
         TableError::NothingToResume { .. } => Some("omit --resume"),

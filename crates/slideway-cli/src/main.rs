@@ -5,12 +5,12 @@ mod commands;
 mod diagnostics;
 mod failure;
 mod faulty_input;
+mod files;
 mod halt;
 mod input;
 mod metadata;
 mod outcome;
 mod output;
-mod paths;
 mod picture;
 mod pixels;
 mod threads;
@@ -26,6 +26,7 @@ use outcome::Outcome;
 use output::{Output, complain};
 use slideway::printable;
 use std::borrow::Cow;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -67,7 +68,13 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 fn explain(error: &clap::Error) -> ! {
     let is_printable =
         |word: std::ffi::OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
-    if !error.use_stderr() || std::env::args_os().all(is_printable) {
+    if !error.use_stderr() {
+        let printed = error.print().and_then(|()| io::stdout().flush());
+        let told = Output::standard(ColorChoice::Auto).told(printed).map(|()| Outcome::Done);
+        let outcome = told.unwrap_or_else(|failure| refuse(&failure, ColorChoice::Auto));
+        std::process::exit(i32::from(outcome as u8));
+    }
+    if std::env::args_os().all(is_printable) {
         error.exit();
     }
     let plain = Arguments::command().styles(Styles::plain()).try_get_matches().err();

@@ -1,9 +1,9 @@
 //! Where answers and complaints go: standard output, a file that is written whole or not at all, standard
 //! error.
 
-use crate::arguments::{CheckFormat, Destination};
+use crate::arguments::CheckFormat;
 use crate::failure::Failure;
-use crate::paths::followed;
+use crate::files::{followed, is_regular};
 use anstream::{AutoStream, ColorChoice};
 use slideway::report::{Report, Style};
 use slideway_tables::{PARTIAL, beside};
@@ -20,8 +20,13 @@ pub(crate) struct Output {
 
 #[derive(Debug)]
 struct OutputFile {
+    /// Its path as it was given, for messages.
     path: PathBuf,
+    /// The file that is meant: links are followed.
+    target: PathBuf,
     overwrite: bool,
+    /// Whether it is a device or a pipe, which is written directly.
+    is_stream: bool,
 }
 
 impl Output {
@@ -30,42 +35,27 @@ impl Output {
         Self { color, file: None }
     }
 
-    /// Where the arguments want it, which is not where `input` is read from.
-    ///
-    /// # Errors
-    /// If it would take the place of the input, or the file exists and must not be overwritten: better said
-    /// before the work than after it.
-    pub(crate) fn to(&self, destination: &Destination, input: Option<&Path>) -> Result<Self, Failure> {
-        if let (Some(input), Some(file)) = (input, destination.file())
-            && takes_the_place_of(&file, input)
-        {
-            return Err(Failure::OverwritesInput { path: input.to_owned() });
+    /// A file. [`crate::files::Files`] sees to it that it may be written.
+    pub(crate) fn file(color: ColorChoice, path: &Path, overwrite: bool) -> Self {
+        let is_stream = path.exists() && !is_regular(path);
+        Self {
+            color,
+            file: Some(OutputFile { path: path.to_owned(), target: followed(path), overwrite, is_stream }),
         }
-        let file = destination
-            .output
-            .as_ref()
-            .filter(|path| path.as_os_str() != "-")
-            .map(|path| OutputFile { path: path.clone(), overwrite: destination.force });
-        if let Some(file) = &file
-            && !file.overwrite
-            && is_regular(&file.path)
-        {
-            return Err(Failure::OutputExists { path: file.path.clone() });
-        }
-        Ok(Self { color: self.color, file })
     }
 
     /// The file it goes to; a link is followed.
     pub(crate) fn path(&self) -> Option<PathBuf> {
-        self.file.as_ref().map(|file| followed(&file.path))
+        self.file.as_ref().map(|file| file.target.clone())
     }
 
     /// From now on it goes beside the file, to `FILE.partial`, unless it goes to a device or a pipe; gives
-    /// that path.
+    /// that path. A link of that name is replaced, not followed.
     pub(crate) fn be_partial(&mut self) -> Option<PathBuf> {
-        let file = self.file.as_mut().filter(|file| !file.path.exists() || is_regular(&file.path))?;
-        *file = OutputFile { path: beside(&followed(&file.path), PARTIAL), overwrite: true };
-        Some(file.path.clone())
+        let file = self.file.as_mut().filter(|file| !file.is_stream)?;
+        let path = beside(&file.target, PARTIAL);
+        *file = OutputFile { path: path.clone(), target: path.clone(), overwrite: true, is_stream: false };
+        Some(path)
     }
 
     /// When to use colours.
@@ -96,6 +86,17 @@ impl Output {
         }
     }
 
+    /// Whether a stream was written. A reader that goes away early (`| head`) has seen all it wanted.
+    ///
+    /// # Errors
+    /// If it could not be written.
+    pub(crate) fn told(&self, written: io::Result<()>) -> Result<(), Failure> {
+        match written {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(self.failure(error)),
+            _ => Ok(()),
+        }
+    }
+
     /// Whether text that goes there may use colours.
     pub(crate) fn style(&self) -> Style {
         let choice = match self.color {
@@ -111,16 +112,13 @@ impl Output {
     /// If it cannot be written, or would go to a terminal.
     pub(crate) fn write_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         if let Some(file) = &self.file {
-            return file.write(bytes);
+            return if file.is_stream { self.told(fs::write(&file.path, bytes)) } else { file.write(bytes) };
         }
         let mut stream = io::stdout().lock();
         if stream.is_terminal() {
             return Err(Failure::BinaryOnTerminal);
         }
-        match stream.write_all(bytes).and_then(|()| stream.flush()) {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput { error }),
-            _ => Ok(()),
-        }
+        self.told(stream.write_all(bytes).and_then(|()| stream.flush()))
     }
 
     /// Writes a report in the form that is asked for.
@@ -134,35 +132,24 @@ impl Output {
         })
     }
 
-    /// Writes the answer. A reader that goes away early (`| head`) has seen all it wanted.
+    /// Writes the answer.
     ///
     /// # Errors
     /// If it cannot be written.
     pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
-        if let Some(file) = &self.file {
-            return file.write(text.as_bytes());
+        if self.file.is_some() {
+            return self.write_bytes(text.as_bytes());
         }
         let mut stream = AutoStream::new(io::stdout(), self.color).lock();
-        match stream.write_all(text.as_bytes()).and_then(|()| stream.flush()) {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput { error }),
-            _ => Ok(()),
-        }
+        self.told(stream.write_all(text.as_bytes()).and_then(|()| stream.flush()))
     }
 }
 
 impl OutputFile {
-    /// Through a temporary file in the same directory that is renamed; devices and pipes are written
-    /// directly.
+    /// Through a temporary file in the same directory that is renamed.
     fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         let failure = |error| Failure::CannotWrite { path: self.path.clone(), error };
-        if self.path.exists() && !is_regular(&self.path) {
-            return match fs::write(&self.path, bytes) {
-                Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(failure(error)),
-                _ => Ok(()),
-            };
-        }
-        // A link is followed: its target is replaced, not the link.
-        let target = followed(&self.path);
+        let target = &self.target;
         let directory = match target.parent() {
             Some(parent) if parent != Path::new("") => parent,
             _ => Path::new("."),
@@ -173,12 +160,13 @@ impl OutputFile {
         {
             use std::os::unix::fs::PermissionsExt;
             // As any new file: all rights but those that the umask takes.
-            let mode = fs::metadata(&target).map_or(0o666, |metadata| metadata.permissions().mode());
+            let found = fs::symlink_metadata(target).ok().filter(fs::Metadata::is_file);
+            let mode = found.map_or(0o666, |metadata| metadata.permissions().mode());
             builder.permissions(fs::Permissions::from_mode(mode));
         }
         let mut file = builder.tempfile_in(directory).map_err(failure)?;
         file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(failure)?;
-        let written = if self.overwrite { file.persist(&target) } else { file.persist_noclobber(&target) };
+        let written = if self.overwrite { file.persist(target) } else { file.persist_noclobber(target) };
         match written {
             Ok(_) => Ok(()),
             Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
@@ -187,18 +175,6 @@ impl OutputFile {
             Err(error) => Err(failure(error.error)),
         }
     }
-}
-
-/// Whether a file, or what is kept beside it while it is unfinished, has the place of an input.
-fn takes_the_place_of(file: &Path, input: &Path) -> bool {
-    let Ok(input) = input.canonicalize() else { return false };
-    let unfinished = beside(file, PARTIAL);
-    input == file
-        || input.as_os_str().as_encoded_bytes().starts_with(unfinished.as_os_str().as_encoded_bytes())
-}
-
-fn is_regular(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|metadata| metadata.is_file())
 }
 
 /// Writes a message to standard error; if that is closed there is nobody to tell.

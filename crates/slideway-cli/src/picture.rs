@@ -1,7 +1,8 @@
 //! Files of pictures, in the format that their ending names.
 
-use crate::arguments::{Destination, PlotArguments};
+use crate::arguments::PlotArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::output::Output;
 use crate::pixels;
 use slideway_pictures::NotFinite;
@@ -81,18 +82,12 @@ impl Picture {
 /// work begins.
 ///
 /// # Errors
-/// If the file exists, is the input, is that of the answer, or has an ending that names no format.
+/// As [`Files::beside`], and if its ending names no format.
 pub(crate) fn beside(
     plot: &PlotArguments,
-    answer: &Destination,
-    input: Option<&Path>,
-    output: &Output,
+    files: &mut Files<'_>,
 ) -> Result<Option<(Picture, Output)>, Failure> {
     let Some(path) = &plot.plot else { return Ok(None) };
-    let destination = answer.beside(path);
-    if answer.file().is_some_and(|file| Some(file) == destination.file()) {
-        return Err(Failure::SameOutput { path: path.clone() });
-    }
-    let picture = Picture::of(path)?;
-    Ok(Some((picture, output.to(&destination, input)?)))
+    let file = files.beside(path)?;
+    Ok(Some((Picture::of(path)?, file)))
 }

@@ -4,7 +4,7 @@
 
 mod command;
 
-use command::{command, slideway, top};
+use command::{command, slideway};
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -307,39 +307,6 @@ fn an_unfinished_table_that_was_changed_is_not_continued() {
     }
 }
 
-/// A link to what does not exist yet is followed; two spellings of one file are one file.
-#[cfg(unix)]
-#[test]
-fn links_are_followed_and_two_outputs_do_not_share_a_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let link = folder.path().join("link.csv");
-    std::os::unix::fs::symlink("table.csv", &link).unwrap();
-    let name = link.to_str().unwrap();
-    assert_eq!(slideway(&["sweep", DRAWER, "--vary", "mu=0.1,0.2", "--output", name]).code, 0);
-    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-    assert!(fs::read_to_string(folder.path().join("table.csv")).unwrap().contains("point,mu"));
-
-    let model = command::top().join("models/frictional-oscillator.toml");
-    fs::copy(model, folder.path().join("model.toml")).unwrap();
-    std::os::unix::fs::symlink("same.svg", folder.path().join("link.svg")).unwrap();
-    for words in [
-        "simulate model.toml --until 1s --plot same.svg --animate ./same.svg",
-        "simulate model.toml --until 1s --plot same.svg --animate link.svg",
-        "limits model.toml --vary mu --output same.svg --plot ../folder/same.svg",
-    ] {
-        let folder_name = folder.path().file_name().unwrap().to_str().unwrap();
-        let words = words.replace("folder", folder_name);
-        let words: Vec<&str> = words.split(' ').collect();
-        let output = command(&words).current_dir(folder.path()).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && said.contains("two outputs"), "{words:?}: {said}");
-        assert!(!folder.path().join("same.svg").exists());
-    }
-    let words = ["check", "model.toml", "--force", "--output", "./model.toml"];
-    let output = command(&words).current_dir(folder.path()).output().unwrap();
-    assert!(String::from_utf8(output.stderr).unwrap().contains("would overwrite its input"));
-}
-
 /// A file whose name has an end of line does not break the comments of a table.
 #[cfg(unix)]
 #[test]
@@ -354,15 +321,6 @@ fn a_name_with_an_end_of_line_stays_within_its_comment() {
         "{table}"
     );
     assert_eq!(lines(&table).len(), 3, "{table}");
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_is_told() {
-    let run =
-        slideway(&["sweep", DRAWER, "--vary", "mu=0..0.5:2001", "--format", "csv", "--output", "/dev/full"]);
-    assert_eq!(run.code, 2);
-    assert!(run.stderr.contains("cannot be written: no space left on device"), "{}", run.stderr);
 }
 
 /// A run in a shell that lets no file grow beyond so many bytes: the system refuses to write more, as on a
@@ -570,46 +528,4 @@ fn bad_arguments_are_told() {
     // The same text was a panic of `limits`.
     let run = slideway(&["limits", DRAWER, "--vary", "mu=0..abc"]);
     assert!(run.code == 2 && run.stderr.contains("unknown name `abc`"), "{}", run.stderr);
-}
-
-/// Whatever is written, and however its path is spelt: not over what is read, nor where an unfinished table
-/// would be over it.
-#[test]
-fn no_command_writes_over_its_input() {
-    let folder = tempfile::tempdir().unwrap();
-    let model = std::fs::read_to_string(top().join("models/drawer.toml")).unwrap();
-    let problem = r#"{"M": [[1]], "q": [-1]}"#;
-    for (words, content) in [
-        ("check in.toml -o ./in.toml", &*model),
-        ("solve in.toml -o ./in.toml", &model),
-        ("hold in.toml -o ./in.toml", &model),
-        ("drive in.toml -o ./in.toml", &model),
-        ("size in.toml --vary mu --margin 1.5 -o ./in.toml", &model),
-        ("limits in.toml --vary mu=0..1 -o ./in.toml", &model),
-        ("limits in.svg --vary mu=0..1 --plot ./in.svg", &model),
-        ("map in.svg --x mu=0..1 --y a=0..1m -o ./in.svg", &model),
-        ("map in.json --x mu=0..1 --y a=0..1m -o ./in.json", &model),
-        ("draw in.svg -o ./in.svg", &model),
-        ("draw in.png -o ./in.png", &model),
-        ("report in.html -o ./in.html", &model),
-        ("simulate in.csv --until 1s -o ./in.csv", &model),
-        ("simulate in.svg --until 1s --plot ./in.svg", &model),
-        ("simulate in.gif --until 1s --animate ./in.gif", &model),
-        ("simulate in.csv.partial --until 1s -o ./in.csv", &model),
-        ("sweep in.csv --vary mu=0..1:3 -o ./in.csv", &model),
-        ("sweep in.svg --vary mu=0..1:3 -o table.csv --plot ./in.svg", &model),
-        ("sweep in.csv.partial --vary mu=0..1:3 -o ./in.csv", &model),
-        ("sweep in.csv.partial.state --vary mu=0..1:3 -o ./in.csv", &model),
-        ("modes in.json -o ./in.json", problem),
-        ("modes in.npz -o ./in.npz", problem),
-    ] {
-        let words: Vec<&str> = words.split(' ').chain(["--force"]).collect();
-        let file = folder.path().join(words[1]);
-        std::fs::write(&file, content).unwrap();
-        let output = command(&words).current_dir(folder.path()).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{words:?}: {said}");
-        assert!(said.contains("would overwrite its input"), "{words:?}: {said}");
-        assert_eq!(std::fs::read_to_string(&file).unwrap(), content, "{words:?}");
-    }
 }

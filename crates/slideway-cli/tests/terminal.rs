@@ -226,6 +226,17 @@ fn names_of_files_and_arguments_are_told_without_their_controls() {
     }
 }
 
+/// The command to check a proof with is one for a shell.
+#[test]
+fn the_note_of_a_proof_quotes_its_files() {
+    let folder = Folder::new("proof");
+    folder.write("p.json", r#"{"type": "lcp", "M": [[1]], "q": [-1]}"#);
+    let (told, code) = on_terminal(&mut folder.command(&["modes", "p.json", "--proof", "q\u{1b}]0;x\u{7}"]));
+    assert_eq!(code, 0, "{told}");
+    assert!(told.contains(r"check_proof.py p.json $'q\033]0;x\007'"), "{told}");
+    assert_inert(&without_styles(&told).0, "proof");
+}
+
 #[test]
 fn files_hold_no_controls_and_json_gives_the_title_back() {
     let folder = Folder::new("files");

@@ -85,9 +85,9 @@ fn is_shaping(character: char) -> bool {
     matches!(character, '\u{200c}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}')
 }
 
-/// Whether a character is invisible where it stands, or changes how others are shown. (Unicode 17: general
+/// Whether a character is invisible where it stands, or changes how others are shown: such are no letters of names. (Unicode 17: general
 /// category Cc, Zl and Zp, the property `Default_Ignorable_Code_Point`, annotation marks, and noncharacters.)
-fn is_hidden(character: char) -> bool {
+pub fn is_hidden(character: char) -> bool {
     match character {
         '\t' => false,
         '\u{ad}'

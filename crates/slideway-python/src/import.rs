@@ -1,9 +1,10 @@
 //! Models to complete, from drawings.
 
 use crate::fault::in_python;
+use crate::work::Watch;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use slideway::import::{DRAWING_LIMIT, ImportFault, ImportOptions, Unit, dxf};
+use slideway::import::{DRAWING_LIMIT, ImportFault, ImportOptions, Unit, dxf_with};
 use std::path::PathBuf;
 
 /// The text of a model file with the outlines and points of a drawing, to be completed with joints, masses and
@@ -21,6 +22,11 @@ use std::path::PathBuf;
 ///     says.
 /// title : str, optional
 ///     The title of the model. Default: the name of the file without its ending.
+/// time_limit : float, optional
+///     The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+/// progress : callable, optional
+///     Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+///     raises.
 ///
 /// Returns
 /// -------
@@ -33,6 +39,8 @@ use std::path::PathBuf;
 ///     What keeps the drawing from being read, with its line.
 /// OSError
 ///     The file cannot be read.
+/// TimeoutError
+///     The work was not done within `time_limit`.
 ///
 /// Examples
 /// --------
@@ -43,13 +51,16 @@ use std::path::PathBuf;
 /// >>> "[bodies.crank]" in slideway.import_dxf(drawing, unit="mm")
 /// True
 #[pyfunction]
-#[pyo3(signature = (path, *, unit = None, title = None))]
+#[pyo3(signature = (path, *, unit = None, title = None, time_limit = None, progress: "Progress | None" = None))]
 pub(crate) fn import_dxf(
     py: Python<'_>,
     path: PathBuf,
     unit: Option<&str>,
     title: Option<String>,
+    time_limit: Option<f64>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
+    let watch = Watch::new(time_limit, progress)?;
     let refused = |fault: ImportFault| PyValueError::new_err(in_python(&fault.to_string()));
     let unit: Option<Unit> = unit.map(str::parse).transpose().map_err(PyValueError::new_err)?;
     if std::fs::metadata(&path)?.len() > DRAWING_LIMIT {
@@ -58,5 +69,6 @@ pub(crate) fn import_dxf(
     let text = String::from_utf8(std::fs::read(&path)?).map_err(|_| refused(ImportFault::Encoding))?;
     let stem = || path.file_stem().and_then(|stem| stem.to_str()).map(str::to_owned);
     let options = ImportOptions { title: title.or_else(stem), unit };
-    py.detach(|| dxf(&text, &options)).map_err(refused)
+    let model = watch.run(py, |callback| dxf_with(&text, &options, callback).transpose())?;
+    model.whole()?.map_err(refused)
 }

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyString, PyTuple};
 use slideway::Faults;
 use slideway::model::Value;
+use slideway::printable;
 use slideway::progress::Progress;
 use slideway::sweep::{
     GridAxis, Rows, SampledAxis, Sampling, Shard, Spread, Sweep, SweepOptions, SweepPoints, SweepState,
@@ -185,7 +186,7 @@ pub(crate) fn unfinished(state: &SweepState, points: u64) -> PyErr {
 /// What is wrong with files.
 pub(crate) fn os_error(error: &TableError) -> PyErr {
     let hint = error.source().map(|source| format!(": {source}")).unwrap_or_default();
-    PyOSError::new_err(format!("{error}{hint}"))
+    PyOSError::new_err(printable::lines(&format!("{error}{hint}")))
 }
 
 /// A sweep of a model that is ready to be computed, with its exact ends of modes.

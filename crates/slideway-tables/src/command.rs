@@ -15,9 +15,9 @@ const LONGEST_ARGUMENT: usize = 131_072;
 /// it has to be.
 pub fn quoted(word: &OsStr) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
-    match word.to_str() {
+    match word.to_str().filter(|text| printable::line(text) == *text) {
         Some(text) if !text.is_empty() && text.chars().all(plain) => text.to_owned(),
-        Some(text) if printable::line(text) == text => format!("'{}'", text.replace('\'', "'\\''")),
+        Some(text) => format!("'{}'", text.replace('\'', "'\\''")),
         _ => {
             let bytes = word.as_encoded_bytes().iter().map(|byte| match byte {
                 b'\n' => "\\n".to_owned(),

@@ -17,6 +17,9 @@ pub enum TableError {
     /// An unfinished table is where a new one would be written.
     #[error("there is an unfinished sweep: `{}`", path.display())]
     Unfinished { path: PathBuf },
+    /// A link, a folder, a device or a pipe is where an unfinished table would be kept.
+    #[error("`{}` is no regular file, and an unfinished table would be kept there", path.display())]
+    NoFile { path: PathBuf },
     /// Another program writes the unfinished table.
     #[error("another sweep is writing `{}`", path.display())]
     InUse { path: PathBuf },

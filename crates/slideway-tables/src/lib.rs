@@ -18,7 +18,7 @@
 //! `writing.rs` leads rows into a table, `partial.rs` is that table until it is whole; `encoder.rs` makes bytes
 //! of rows, with `csv.rs` or `record.rs`, from whose records `npz.rs` and `parquet/` make files. `shard.rs` is
 //! what a shard tells of itself, `shards.rs` the folder of all; `parquet/reader.rs` reads their rows,
-//! `parquet/seal.rs` tells whether they are what was written. `command.rs` is the command line of a sweep, `arrow.rs`
+//! `parquet/seal.rs` tells whether they are what was written. `identity.rs` tells files apart. `command.rs` is the command line of a sweep, `arrow.rs`
 //! its rows as columns in memory.
 //!
 //! # Features
@@ -32,6 +32,7 @@ mod csv;
 mod encoder;
 mod error;
 mod format;
+mod identity;
 mod layout;
 mod metadata;
 pub mod npz;
@@ -48,6 +49,7 @@ pub use command::quoted;
 pub use encoder::Encoder;
 pub use error::{Difference, Reason, TableError};
 pub use format::TableFormat;
+pub use identity::FileIdentity;
 pub use layout::Layout;
 pub use metadata::Metadata;
 pub use partial::{Continued, PARTIAL, PartialFile, Resume, beside, unfinished};

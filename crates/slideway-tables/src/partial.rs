@@ -1,14 +1,15 @@
 //! A table on its way: `FILE.partial` holds what is done, `FILE.partial.state` what is needed to go on.
 //!
 //! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
-//! Checksums tell whether both files are still what was written.
+//! Checksums tell whether both files are still what was written. Only regular files are written, and only new ones
+//! or what has been checked: never what a link of such a name leads to.
 
-use crate::{Encoder, Metadata, Part, TableError, TableFormat, npz};
+use crate::{Encoder, FileIdentity, Metadata, Part, TableError, TableFormat, npz};
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use slideway::sweep::SweepState;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -90,14 +91,13 @@ impl PartialFile {
             Resume::IfAny if unfinished(target).is_some() => return Self::reopen(target, encoder, overwrite),
             Resume::No | Resume::IfAny => {}
         }
-        let (file, is_new) = locked(&path, true)?;
         // Without a state beside it there is nothing in it to go on with.
-        if !is_new && !overwrite && resume == Resume::No {
-            return Err(TableError::Unfinished { path });
-        }
+        let old = if overwrite || resume == Resume::IfAny { Old::Replaced } else { Old::Kept };
+        let state = beside(target, STATE);
+        be_a_file(&state)?;
+        let file = locked(&path, old)?;
         // An old state must not be taken for that of the new table.
-        remove(&beside(target, STATE))?;
-        file.set_len(0).map_err(|error| TableError::writing(&path, error))?;
+        remove(&state).map_err(|error| TableError::writing(&state, error))?;
         let target = target.to_owned();
         let rows = Hasher::new();
         let mut file = Self { target, overwrite, file, encoder, bytes: 0, rows, kept_at: Instant::now() };
@@ -123,7 +123,8 @@ impl PartialFile {
         let (path, state_path) = (beside(target, PARTIAL), beside(target, STATE));
         let nothing = || TableError::NothingToResume { path: path.clone() };
         // Locked before the state is read: whoever still writes would change it.
-        let (mut file, _) = locked(&path, false)?;
+        let mut file = locked(&path, Old::Continued)?;
+        be_a_file(&state_path)?;
         let text = fs::read(&state_path).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => nothing(),
             _ => TableError::reading(&state_path, error),
@@ -140,15 +141,16 @@ impl PartialFile {
         if !same {
             return Err(TableError::AnotherSweep { path, command: kept.command });
         }
-        // The beginning is written again: completing an archive may have been interrupted in the middle of
-        // it.
         let head = encoder.head();
         let bytes = kept.bytes.checked_sub(head.len() as u64).ok_or_else(|| damaged(&path))?;
-        file.write_all(&head).map_err(|error| TableError::writing(&path, error))?;
-        let rows = checksum(&mut file, bytes)
+        let rows = checksum(&mut file, head.len() as u64, bytes)
             .map_err(|error| TableError::reading(&path, error))?
             .filter(|rows| rows.clone().finalize() == kept.crc)
             .ok_or_else(|| damaged(&path))?;
+        // The beginning is written again: completing an archive may have been interrupted in the middle of it.
+        let repaired = file.seek(SeekFrom::Start(0)).and_then(|_| file.write_all(&head));
+        let ready = repaired.and_then(|()| file.seek(SeekFrom::Start(kept.bytes)));
+        ready.map_err(|error| TableError::writing(&path, error))?;
         // What was written behind the last state is computed again.
         file.set_len(kept.bytes).map_err(|error| TableError::writing(&path, error))?;
         let target = target.to_owned();
@@ -205,7 +207,9 @@ impl PartialFile {
         let text = sealed(serde_json::to_vec(&kept)?);
         // The old state stays until the new one is whole.
         let next = beside(&self.target, NEXT_STATE);
-        let written = fs::write(&next, text).and_then(|()| fs::rename(&next, beside(&self.target, STATE)));
+        let written = fresh(&next)
+            .and_then(|mut file| file.write_all(&text))
+            .and_then(|()| fs::rename(&next, beside(&self.target, STATE)));
         if written.is_err() {
             let _ = fs::remove_file(&next);
         }
@@ -231,10 +235,10 @@ impl PartialFile {
             return Err(TableError::Exists { path: self.target.clone() });
         }
         fs::rename(&finished, &self.target).map_err(|error| TableError::writing(&self.target, error))?;
-        remove(&beside(&self.target, STATE))?;
-        if finished != self.path() {
-            // Last of all: with it the lock goes, and another table may begin.
-            remove(&self.path())?;
+        // The unfinished table last of all: with it the lock goes, and another table may begin.
+        let left = [Some(beside(&self.target, STATE)), Some(self.path()).filter(|path| *path != finished)];
+        for path in left.into_iter().flatten() {
+            remove(&path).map_err(|error| TableError::writing(&path, error))?;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -271,9 +275,7 @@ impl PartialFile {
     ) -> io::Result<ControlFlow<(), PathBuf>> {
         let path = beside(&self.target, CONVERTED);
         let records = (&self.file, self.bytes);
-        let mut options = OpenOptions::new();
-        let opened = options.read(true).write(true).create(true).truncate(true).open(&path);
-        let converted = opened.and_then(|file| {
+        let converted = fresh(&path).and_then(|file| {
             let flow = crate::parquet::convert(records, (&self.encoder, &state.tally), &file, go_on)?;
             file.sync_all()?;
             Ok(flow)
@@ -292,68 +294,86 @@ impl PartialFile {
     }
 }
 
-/// Opens an unfinished table for this program alone, and says whether it is new; without `create` it has to
-/// be there.
-fn locked(path: &Path, create: bool) -> Result<(File, bool), TableError> {
-    let mut attempts = 100;
-    loop {
-        let (file, is_new) = opened(path, create)?;
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => return Err(TableError::InUse { path: path.to_owned() }),
-            // Some network file systems have no locks; there it is left to the user.
-            Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
-                return Err(TableError::writing(path, error));
-            }
-            _ => {}
-        }
-        // Another program may have completed it, and given it its final name, between opening and locking.
-        attempts -= 1;
-        if is_at(&file, path) {
-            return Ok((file, is_new));
-        }
-        if attempts == 0 {
-            return Err(TableError::InUse { path: path.to_owned() });
-        }
-    }
+/// What becomes of an unfinished table that is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Old {
+    /// There has to be one.
+    Continued,
+    /// It is in the way.
+    Kept,
+    Replaced,
 }
 
-fn opened(path: &Path, create: bool) -> Result<(File, bool), TableError> {
-    let mut options = OpenOptions::new();
-    options.read(true).write(true);
-    if create {
-        match options.clone().create_new(true).open(path) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            created => {
-                return created.map(|file| (file, true)).map_err(|error| TableError::writing(path, error));
+/// Opens an unfinished table for this program alone: a new file, unless an old one is continued.
+fn locked(path: &Path, old: Old) -> Result<File, TableError> {
+    let writing = |error| TableError::writing(path, error);
+    // Another program may complete it, and give it its final name, at any time before it is locked.
+    for _ in 0..100 {
+        if old != Old::Continued {
+            match created(path) {
+                Ok(file) if is_mine(&file, path)? => return Ok(file),
+                Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(writing(error)),
+                _ => {}
             }
         }
-    }
-    match options.open(path) {
-        Ok(file) => Ok((file, false)),
-        Err(error) if !create && error.kind() == io::ErrorKind::NotFound => {
-            Err(TableError::NothingToResume { path: path.to_owned() })
+        be_a_file(path)?;
+        let file = match OpenOptions::new().read(true).write(true).open(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound && old == Old::Continued => {
+                return Err(TableError::NothingToResume { path: path.to_owned() });
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            opened => opened.map_err(writing)?,
+        };
+        if !is_mine(&file, path)? {
+            continue;
         }
-        Err(error) => Err(TableError::writing(path, error)),
+        match old {
+            Old::Continued => return Ok(file),
+            Old::Kept => return Err(TableError::Unfinished { path: path.to_owned() }),
+            // Not written over: it may have other names, too.
+            Old::Replaced => remove(path).map_err(writing)?,
+        }
+    }
+    Err(TableError::InUse { path: path.to_owned() })
+}
+
+/// Locks an open file, and says whether it is what has its name: neither has it been renamed, nor was it opened
+/// through a link.
+fn is_mine(file: &File, path: &Path) -> Result<bool, TableError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => return Err(TableError::InUse { path: path.to_owned() }),
+        // Some network file systems have no locks; there it is left to the user.
+        Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+            return Err(TableError::writing(path, error));
+        }
+        _ => {}
+    }
+    let identity = FileIdentity::of_file(file, path);
+    Ok(identity.is_some() && identity == FileIdentity::at_name(path))
+}
+
+/// Refuses links, folders, devices and pipes in the place of a file.
+fn be_a_file(path: &Path) -> Result<(), TableError> {
+    match fs::symlink_metadata(path) {
+        Ok(metadata) if !metadata.is_file() => Err(TableError::NoFile { path: path.to_owned() }),
+        _ => Ok(()),
     }
 }
 
-/// Whether a file is still found under a name.
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let identity = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
-    let [file, found] = [file.metadata(), fs::metadata(path)].map(|metadata| metadata.ok().map(identity));
-    file.is_some() && file == found
+/// A file that was not there before.
+fn created(path: &Path) -> io::Result<File> {
+    OpenOptions::new().read(true).write(true).create_new(true).open(path)
 }
 
-/// Whether a file is still found under a name.
-#[cfg(not(unix))]
-fn is_at(_: &File, path: &Path) -> bool {
-    path.exists()
+/// A new file in the place of one that an ended run has left.
+fn fresh(path: &Path) -> io::Result<File> {
+    remove(path)?;
+    created(path)
 }
 
-/// The checksum of the next bytes of a file; none if there are not so many.
-fn checksum(file: &mut File, bytes: u64) -> io::Result<Option<Hasher>> {
+/// The checksum of so many bytes of a file from a place on; none if there are not so many.
+fn checksum(file: &mut File, from: u64, bytes: u64) -> io::Result<Option<Hasher>> {
+    file.seek(SeekFrom::Start(from))?;
     let mut hasher = Hasher::new();
     let mut buffer = vec![0; 1 << 16];
     let mut source = file.take(bytes);
@@ -385,10 +405,10 @@ pub fn unfinished(target: &Path) -> Option<PathBuf> {
 }
 
 /// Removes a file if it is there.
-fn remove(path: &Path) -> Result<(), TableError> {
+fn remove(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(TableError::writing(path, error)),
-        _ => Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        removed => removed,
     }
 }
 

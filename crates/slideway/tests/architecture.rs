@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
     ("choice", &[]),
-    ("expression", &["interval"]),
+    ("expression", &["interval", "printable"]),
     ("ids", &[]),
     ("fault", &["expression", "printable", "units"]),
     ("units", &["choice", "expression"]),
     ("model", &["expression", "fault", "ids", "interval", "units"]),
-    ("drawing", &["fault", "ids", "model"]),
+    ("drawing", &["fault", "ids", "model", "printable"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model", "modes", "units"]),
     ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
     ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),
@@ -26,7 +26,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ),
     ("attainability", &["configuration", "ids", "kinetics", "mechanism", "modes", "report", "sharing"]),
     ("pattern", &["ids", "mechanism", "model", "modes"]),
-    ("import", &["drawing", "expression", "model", "printable"]),
+    ("import", &["drawing", "expression", "model", "printable", "progress"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
     ("template", &["configuration", "fault", "mechanism", "model", "printable"]),

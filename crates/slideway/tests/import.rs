@@ -5,11 +5,15 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use slideway::Model;
-use slideway::import::{ImportFault, ImportOptions, Unit, dxf};
+use slideway::import::{ImportFault, ImportOptions, Unit, dxf, dxf_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::outline::polygon;
+use slideway::printable;
+use slideway::progress::Progress;
 use std::f64::consts::TAU;
 use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 /// Coordinates have the decimals of the greatest one, which has nine digits: with some 200 mm they are right to
 /// 5e-10 m, and distances to this.
@@ -265,6 +269,48 @@ fn names_are_made_valid_and_stay_apart() {
     assert!(text.contains("\npoint_pi = "), "{text}");
 }
 
+/// Keys of TOML are bare only if they are ASCII (TOML 1.0, Keys). Fillers of Hangul are letters that nobody sees.
+#[test]
+fn names_of_any_letters_are_read() {
+    let foreign =
+        PLATE.replace("plate 2", "Träger").replace("tip", "точка").replace("disc", "e\u{3164}\u{115f}x");
+    let text = imported(&foreign);
+    for line in
+        ["[bodies.\"Träger\"]   # layer Träger", "\"точка\" = ", "[bodies.e__x]   # layer e\\u3164\\u115fx"]
+    {
+        assert!(text.lines().any(|other| other.starts_with(line)), "{line}\n{text}");
+    }
+    only_joints_are_missing(&text);
+}
+
+fn only_joints_are_missing(text: &str) {
+    let faults = Model::parse(text).unwrap_err().to_string();
+    assert!(faults.contains("`joints` is missing") && faults.lines().count() < 4, "{faults}\n{text}");
+}
+
+/// A block with a point and a text in 30,000 rows, and 8,000 circles of one layer: this took minutes where each was
+/// compared with every other. A callback may end it.
+#[test]
+fn many_points_take_time_in_proportion() {
+    let begun = Instant::now();
+    let marked = "0 BLOCK 2 mark 10 0 20 0 0 POINT 8 0 10 0 20 0 0 TEXT 8 0 1 p 10 0 20 0 40 0.1 0 ENDBLK";
+    let rows = with_blocks(marked, "0 INSERT 2 mark 8 rack 10 0 20 0 71 30000 45 1");
+    let text = imported(&rows);
+    assert_eq!(text.matches("# rack\n").count(), 30_000);
+    assert!(text.contains("p_30000 = [\"0 mm\", \""));
+    let circle = |index: i32| format!(" 0 CIRCLE 8 plate 10 {} 20 {} 40 0.1", index % 90, index / 90);
+    let circles: String = (0..8000).map(circle).collect();
+    assert_eq!(imported(&with_blocks(BLOCK, circles.trim())).matches("   # plate\n").count(), 8000);
+    assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+
+    let mut calls = 0;
+    let mut end = |_: &Progress| {
+        calls += 1;
+        if calls < 20 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    assert_eq!(dxf_with(&rows, &ImportOptions::default(), &mut end), Ok(None));
+}
+
 /// The example of the book is what the program makes of its drawing, completed.
 #[test]
 fn the_example_of_the_book_is_the_drawing_completed() {
@@ -307,9 +353,18 @@ proptest! {
             Err(fault) => prop_assert!(!fault.to_string().contains(escape)),
             Ok(text) => {
                 prop_assert!(!text.contains(escape) && !text.contains("NaN") && !text.contains("inf"), "{text}");
-                let faults = Model::parse(&text).unwrap_err().to_string();
-                prop_assert!(faults.contains("`joints` is missing") && faults.lines().count() < 4, "{faults}\n{text}");
+                only_joints_are_missing(&text);
             }
         }
+    }
+
+    /// Whatever layers and texts are called, the model is read, and shows no character that nobody sees.
+    #[test]
+    fn any_names_are_read(layer in any::<String>(), text in any::<String>()) {
+        let kept = |text: &str| text.replace(['\n', '\r'], " ");
+        let drawing = PLATE.replace("plate 2", &kept(&layer)).replace("tip", &kept(&text));
+        let model = imported(&drawing);
+        only_joints_are_missing(&model);
+        prop_assert!(printable::lines(&model) == model, "{model}");
     }
 }

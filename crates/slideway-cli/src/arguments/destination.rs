@@ -1,6 +1,5 @@
 //! Where the answer goes, and in which form.
 
-use crate::paths::followed;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -17,14 +16,9 @@ pub(crate) struct Destination {
 }
 
 impl Destination {
-    /// A further file beside the answer.
-    pub(crate) fn beside(&self, path: &Path) -> Self {
-        Self { output: Some(path.to_owned()), force: self.force }
-    }
-
-    /// The file of the answer, however its path is spelt; none for standard output.
-    pub(crate) fn file(&self) -> Option<PathBuf> {
-        self.output.as_deref().filter(|path| path.as_os_str() != "-").map(followed)
+    /// The file of the answer; none for standard output.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.output.as_deref().filter(|path| path.as_os_str() != "-")
     }
 }
 

@@ -1,6 +1,6 @@
 //! `slideway import`
 
-use super::Destination;
+use super::{Destination, TimeArguments};
 use clap::Args;
 use slideway::import::Unit;
 use std::path::PathBuf;
@@ -15,7 +15,9 @@ beside them their names. The layer `ground` gives points of ground. What is left
 
 Exit codes:
   0    done
-  2    invalid input: the drawing, the files or the arguments";
+  2    invalid input: the drawing, the files or the arguments
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway import`.
 #[derive(Debug, Args)]
@@ -26,6 +28,9 @@ pub(crate) struct ImportArguments {
     /// Unit of length of the drawing: in, ft, mm, cm, m, km, um, dm. By default the one that it says.
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<Unit>,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

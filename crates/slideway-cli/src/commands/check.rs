@@ -2,6 +2,7 @@
 
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -9,7 +10,7 @@ use slideway::check::{self};
 
 /// Says what a model consists of, and whether it can be solved.
 pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model_without_warnings()?;
     let report = check::check(&model).map_err(|faults| input.refused(faults))?;

@@ -2,6 +2,7 @@
 
 use crate::arguments::{DrawArguments, PictureTheme, Which};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -20,7 +21,7 @@ use slideway_pictures::page::reasons;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
     let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
     let input = Input::read(&arguments.model, output.color())?;

@@ -2,6 +2,7 @@
 
 use crate::arguments::DriveArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -15,11 +16,12 @@ const PLOTTED_ROWS: usize = 801;
 
 /// Says which efforts the drives need.
 pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = picture::beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let plot = picture::beside(&arguments.plot, &mut files)?;
     if plot.is_some() && arguments.vary.is_none() {
         return Err(Failure::NoLine);
     }
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let output = files.answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let vary = arguments.vary.as_deref().map(|vary| input.vary(&model, vary)).transpose()?;

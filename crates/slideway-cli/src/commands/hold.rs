@@ -2,6 +2,7 @@
 
 use crate::arguments::{Drives, HoldArguments};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -11,7 +12,7 @@ use slideway::standstill::{self, HoldOptions};
 
 /// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
 pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);

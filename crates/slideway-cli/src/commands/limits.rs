@@ -2,6 +2,7 @@
 
 use crate::arguments::LimitsArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -13,8 +14,9 @@ use slideway_pictures::plot::{limits_figure, to_svg};
 
 /// Says for which values each contact mode exists, and plots it if asked to.
 pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = picture::beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let plot = picture::beside(&arguments.plot, &mut files)?;
+    let output = files.answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let options = LimitsOptions::new(input.vary(&model, &arguments.vary)?)

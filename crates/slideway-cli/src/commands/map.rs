@@ -2,6 +2,7 @@
 
 use crate::arguments::{Destination, MapArguments};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -15,7 +16,7 @@ use slideway_pictures::map::to_svg;
 pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, Failure> {
     let destination = Destination { output: Some(arguments.output.clone()), force: arguments.force };
     let picture = Picture::unless_json(&arguments.output)?;
-    let output = output.to(&destination, Some(&arguments.model.file))?;
+    let output = Files::new(output, &destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let [width, height] = arguments.size;

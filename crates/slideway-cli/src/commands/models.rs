@@ -2,6 +2,7 @@
 
 use crate::arguments::ModelsArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use slideway::fault::nearest;
@@ -13,7 +14,7 @@ const WIDTH: usize = 80;
 
 /// Lists the gallery, or writes one of its models.
 pub(crate) fn models(arguments: &ModelsArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination, None)?;
+    let output = Files::new(output, &arguments.destination, None).answer()?;
     output.write(&match &arguments.name {
         None => {
             let models = MODELS.iter().map(|model| (model.name, model.summary(), model.shows()));

@@ -6,6 +6,7 @@ mod stream;
 use super::proof::ProofFiles;
 use crate::arguments::{ModesArguments, ModesFormat};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -23,7 +24,8 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     if arguments.stream {
         return stream::stream(arguments, output);
     }
-    let output = output.to(&arguments.destination, Some(&arguments.file))?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.file));
+    let output = files.answer()?;
     // A large file takes its part of the time.
     let begun = Instant::now();
     let problem = read(arguments)?;
@@ -31,10 +33,10 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
         let reason = "it states linear equations, and lengths of blocks are no linear functions".to_owned();
         return Err(Failure::NoProof { reason });
     }
-    let proof = arguments.proof.as_deref().map(|path| {
-        let given = Some(arguments.file.as_path()).filter(|_| checker_reads(&problem, arguments));
-        ProofFiles::new(path, given, (&arguments.destination, &output))
-    });
+    let proof = arguments
+        .proof
+        .as_deref()
+        .map(|path| ProofFiles::new(path, checker_reads(&problem, arguments), &mut files));
     let proof = proof.transpose()?;
     let mut watch = Watch::since(begun, arguments.time_limit());
     let report = answer(&problem, arguments, &mut |progress| watch.look(progress));

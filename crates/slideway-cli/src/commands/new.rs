@@ -4,6 +4,7 @@ use super::models::list;
 use crate::arguments::{Arguments, Destination, NewArguments};
 use crate::failure::Failure;
 use crate::faulty_input::FaultyInput;
+use crate::files::Files;
 use crate::outcome::Outcome;
 use crate::output::{Output, complain};
 use anstream::ColorChoice;
@@ -37,7 +38,7 @@ pub(crate) fn new(arguments: &NewArguments, output: &Output) -> Result<Outcome, 
     let file = file(template, arguments.destination.as_ref());
     let force = arguments.destination.as_ref().is_some_and(|destination| destination.force);
     let destination = Destination { output: Some(file.clone()), force };
-    let to_file = output.to(&destination, None)?;
+    let to_file = Files::new(output, &destination, None).answer()?;
     let settings = if asks && arguments.settings.entries().is_empty() && file != Path::new("-") {
         dimensions(template, output.color())?
     } else {

@@ -1,11 +1,12 @@
 //! `--proof FILE`: why the listed solutions are all, for a checker that shares nothing with slideway.
 
-use crate::arguments::Destination;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::output::{Output, complain};
 use crate::watch::Watch;
 use slideway::modes::{ModeProblem, SearchOptions, prove};
 use slideway::raw_problem::exact_json;
+use slideway_tables::{beside, quoted};
 use std::path::{Path, PathBuf};
 
 /// The files of a proof.
@@ -17,23 +18,19 @@ pub(super) struct ProofFiles {
 }
 
 impl ProofFiles {
-    /// Where the arguments want them; `given` is the problem's file if the checker reads it.
+    /// Where the arguments want them; a problem that the checker does not read as it is given goes to a file of
+    /// its own.
     ///
     /// # Errors
-    /// If a file exists and must not be overwritten: better said before the work than after it.
-    pub(super) fn new(
-        path: &Path,
-        given: Option<&Path>,
-        (destination, output): (&Destination, &Output),
-    ) -> Result<Self, Failure> {
-        let proof = output.to(&destination.beside(path), given)?;
-        let mut problem = None;
-        if given.is_none() {
-            let mut name = path.as_os_str().to_owned();
-            name.push(".json");
-            let path = PathBuf::from(name);
-            problem = Some((output.to(&destination.beside(&path), None)?, path));
-        }
+    /// As [`Files::beside`].
+    pub(super) fn new(path: &Path, checker_reads: bool, files: &mut Files<'_>) -> Result<Self, Failure> {
+        let proof = files.beside(path)?;
+        let problem = if checker_reads {
+            None
+        } else {
+            let path = beside(path, ".json");
+            Some((files.beside(&path)?, path))
+        };
         Ok(Self { proof, path: path.to_owned(), problem })
     }
 
@@ -68,8 +65,8 @@ impl ProofFiles {
                 format!("{} cells", cells.join(" x "))
             },
             proof.nodes,
-            problem.display(),
-            self.path.display()
+            quoted(problem.as_os_str()),
+            quoted(self.path.as_os_str())
         );
         complain(&note, self.proof.color());
         Ok(())

@@ -2,6 +2,7 @@
 
 use crate::arguments::ReportArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -17,7 +18,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     if let Some(path) = &arguments.destination.output {
         be_a_page(path)?;
     }
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mut watch = Watch::new(arguments.time.time_limit);

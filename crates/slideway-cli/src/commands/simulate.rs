@@ -2,6 +2,7 @@
 
 use crate::arguments::{CheckFormat, Preference, SimulateArguments};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::halt::Halt;
 use crate::input::Input;
 use crate::metadata::metadata;
@@ -32,7 +33,7 @@ const MOST_ROWS: f64 = 1e7;
 
 /// Follows a mechanism in time.
 pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
-    let mut files = Files::new(arguments, output)?;
+    let mut files = Written::new(arguments, output)?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
@@ -184,7 +185,7 @@ impl Question<'_> {
 }
 
 /// The files that are written beside what is told.
-struct Files<'a> {
+struct Written<'a> {
     arguments: &'a SimulateArguments,
     table: Option<(SeriesFormat, Output)>,
     plot: Option<(Picture, Output)>,
@@ -193,15 +194,12 @@ struct Files<'a> {
     interrupted: Option<PathBuf>,
 }
 
-impl<'a> Files<'a> {
+impl<'a> Written<'a> {
     /// Before the work it is seen whether they can be written.
     fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
-        let place = |path: &Path| {
-            let destination = arguments.destination.beside(path);
-            output.to(&destination, Some(&arguments.model.file))
-        };
+        let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
         let table = match arguments.destination.output.as_deref() {
-            Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),
+            Some(path) => Some((SeriesFormat::of(path)?, files.beside(path)?)),
             None => None,
         };
         let file = table.as_ref().and_then(|(_, output)| output.path());
@@ -209,17 +207,11 @@ impl<'a> Files<'a> {
             return Err(TableError::Unfinished { path }.into());
         }
         let animation = match arguments.animate.as_deref() {
-            Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
+            Some(path) => Some((AnimationFormat::of(path)?, files.beside(path)?)),
             None => None,
         };
-        let plot = beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
-        let outputs = [table.as_ref().map(|(_, file)| file), plot.as_ref().map(|(_, file)| file)];
-        let others = outputs.map(|file| file.and_then(Output::path));
-        if let (Some(path), Some((_, file))) = (&arguments.animate, &animation)
-            && others.contains(&file.path())
-        {
-            return Err(Failure::SameOutput { path: path.clone() });
-        }
+        let plot = beside(&arguments.plot, &mut files)?;
+        files.standard()?;
         if arguments.all_branches && (table.is_some() || plot.is_some() || animation.is_some()) {
             return Err(Failure::SeveralMotions);
         }

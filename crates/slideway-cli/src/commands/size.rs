@@ -2,6 +2,7 @@
 
 use crate::arguments::SizeArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -12,8 +13,9 @@ use slideway_pictures::plot::{size_figure, to_svg};
 
 /// Finds the value of a parameter at which a margin is just met.
 pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = picture::beside(&arguments.plot, &arguments.destination, Some(&arguments.model.file), output)?;
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let plot = picture::beside(&arguments.plot, &mut files)?;
+    let output = files.answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let vary = input.vary(&model, &arguments.vary)?;

@@ -3,6 +3,7 @@
 use super::proof::ProofFiles;
 use crate::arguments::{Format, SolveArguments};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -12,14 +13,14 @@ use slideway::solve::{SolveOptions, exact_mode_problem, solve_with};
 
 /// Finds and writes all solutions of a model.
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let output = files.answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model_within_bounds()?;
     let search = &arguments.search;
     let options = SolveOptions::default().search(search.options()).most(search.max_solutions);
     let proof = arguments.proof.as_deref();
-    let proof =
-        proof.map(|path| ProofFiles::new(path, None, (&arguments.destination, &output))).transpose()?;
+    let proof = proof.map(|path| ProofFiles::new(path, false, &mut files)).transpose()?;
     let mut watch = Watch::new(arguments.search.time.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
         .map_err(|faults| input.refused(faults))?;

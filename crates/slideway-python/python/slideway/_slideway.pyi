@@ -1506,7 +1506,7 @@ def hlcp(a: ArrayLike, b: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> r
     All solutions of `A w - B z = q`.
     """
 
-def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str | None = None) -> str:
+def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str | None = None, time_limit: float | None = None, progress: Progress | None = None) -> str:
     """
     The text of a model file with the outlines and points of a drawing, to be completed with joints, masses and
     coordinates.
@@ -1523,6 +1523,11 @@ def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str
         says.
     title : str, optional
         The title of the model. Default: the name of the file without its ending.
+    time_limit : float, optional
+        The longest that it may take (s); then `TimeoutError` is raised. Default: no limit.
+    progress : callable, optional
+        Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
+        raises.
 
     Returns
     -------
@@ -1535,6 +1540,8 @@ def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str
         What keeps the drawing from being read, with its line.
     OSError
         The file cannot be read.
+    TimeoutError
+        The work was not done within `time_limit`.
 
     Examples
     --------

@@ -94,7 +94,7 @@ pub(super) fn line(path: &[&str]) -> String {
 }
 
 /// A key with quotation marks where it needs them.
-fn written_key(key: &str) -> String {
+pub(crate) fn written_key(key: &str) -> String {
     let is_bare = |character: char| character.is_ascii_alphanumeric() || character == '_' || character == '-';
     if !key.is_empty() && key.chars().all(is_bare) { key.to_owned() } else { text(key).written().to_owned() }
 }

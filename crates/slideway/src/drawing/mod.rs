@@ -41,6 +41,7 @@ pub use quantity::Quantity;
 use crate::fault::Faults;
 use crate::ids::{BodyId, CoordinateId, DriveId, Frame, JointId};
 use crate::model::Model;
+pub(crate) use entry::written_key;
 use entry::{Entries, Table, line};
 
 /// The fixed frame, where a body is expected.

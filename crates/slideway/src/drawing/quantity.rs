@@ -1,5 +1,7 @@
 //! Values as a model file writes them.
 
+use crate::printable::is_hidden;
+
 /// A number in SI units, or a text with a unit or an expression: `0.3`, `"25 mm"`, `"2*l*cos(alpha)"`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity(String);
@@ -47,11 +49,11 @@ impl From<String> for Quantity {
     }
 }
 
-/// A text in quotation marks.
+/// A text in quotation marks, without characters that nobody sees.
 pub(super) fn text(value: &str) -> Quantity {
     let escaped = |character: char| match character {
         '"' | '\\' => format!("\\{character}"),
-        control if control.is_control() => format!("\\U{:08x}", u32::from(control)),
+        hidden if hidden.is_control() || is_hidden(hidden) => format!("\\U{:08x}", u32::from(hidden)),
         other => other.to_string(),
     };
     Quantity(format!("\"{}\"", value.chars().map(escaped).collect::<String>()))

@@ -1,5 +1,6 @@
 //! The names an expression may use.
 
+use crate::printable::is_hidden;
 use slideway_modes::names::all_nearest;
 use std::collections::HashMap;
 
@@ -143,7 +144,8 @@ pub fn is_valid_name(name: &str) -> bool {
 }
 
 pub(super) fn starts_name(character: char) -> bool {
-    character.is_alphabetic() || character == '_'
+    // Some fillers of Hangul count as letters, and nobody sees them.
+    (character.is_alphabetic() && !is_hidden(character)) || character == '_'
 }
 
 pub(super) fn continues_name(character: char) -> bool {

@@ -4,19 +4,21 @@ use super::curves::arcs;
 use super::entities::{Drawing, Layer, Path, Words, sign_of_plane};
 use super::groups::{Record, Sections};
 use super::paths::Corner;
-use super::{ImportFault, shown};
+use super::{ImportFault, goes_on, shown};
 use crate::model::OutlineCorner;
 use crate::model::outline::Piece;
+use crate::progress::Work;
 use nalgebra::{Matrix2, Vector2};
 
 /// Blocks within blocks are inserted down to this depth.
 const DEPTH: usize = 64;
-/// Entities of a drawing with all that its blocks insert.
+/// Entities of a drawing with all that its blocks insert, and the corners of their lines.
 pub(super) const ENTITIES: usize = 1_000_000;
 
 /// Reads entities, and those of the blocks that they insert.
 pub(super) struct Reader<'s, 't> {
     sections: &'s Sections<'t>,
+    work: Work<'s>,
     /// How many entities there are so far.
     count: usize,
     /// The names of the blocks that are being inserted, each within the one before.
@@ -37,32 +39,42 @@ struct Placement {
 
 impl<'s, 't> Reader<'s, 't> {
     /// For the entities of a drawing with these blocks.
-    pub(super) fn new(sections: &'s Sections<'t>) -> Self {
-        Self { sections, count: 0, within: Vec::new() }
+    pub(super) fn new(sections: &'s Sections<'t>, work: Work<'s>) -> Self {
+        Self { sections, work, count: 0, within: Vec::new() }
     }
 
     /// Reads records in their order.
     pub(super) fn read(&mut self, records: &[Record<'_>]) -> Result<Drawing, ImportFault> {
         let mut drawing = Drawing::default();
         let mut records = records.iter().peekable();
+        let mut done = 0;
         while let Some(record) = records.next() {
             let mut vertices = Vec::new();
             while let Some(vertex) = records.next_if(|next| next.kind == "VERTEX") {
                 vertices.push(vertex);
             }
             records.next_if(|next| next.kind == "SEQEND");
+            if !goes_on(self.work, "entities", done) {
+                break;
+            }
+            done += 1;
             self.counted(1)?;
             let name = record.first(8).map_or("0", |group| group.value);
             let inserted = if record.kind == "INSERT" { self.inserted(record)? } else { None };
-            match inserted {
-                Some((block, placements)) => {
-                    for placement in &placements {
-                        self.counted(block.entities())?;
-                        drawing.add(&block, placement, name);
+            if let Some((block, placements)) = inserted {
+                for (placement, done) in placements.iter().zip(1..) {
+                    if !goes_on(self.work, "insertions", done) {
+                        break;
                     }
+                    drawing.add(&block, placement, name);
+                    self.counted(block.size())?;
                 }
-                None => drawing.layer(name).read(record, &vertices)?,
+                continue;
             }
+            let layer = drawing.layer(name);
+            let before = layer.paths.len();
+            layer.read(record, &vertices)?;
+            self.counted(layer.paths[before..].iter().map(|path| path.corners.len()).sum())?;
         }
         Ok(drawing)
     }
@@ -110,12 +122,15 @@ pub(super) fn left_out(record: &Record<'_>) -> String {
 }
 
 impl Drawing {
-    fn entities(&self) -> usize {
+    /// How much is copied where it is inserted.
+    fn size(&self) -> usize {
         let of_layer = |layer: &Layer| {
             layer.paths.iter().map(|path| path.corners.len()).sum::<usize>()
                 + layer.circles.len()
                 + layer.points.len()
                 + layer.words.len()
+                + layer.left_out.len()
+                + 1
         };
         self.layers.iter().map(of_layer).sum()
     }

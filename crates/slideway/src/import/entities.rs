@@ -13,6 +13,8 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Drawing {
     pub(super) layers: Vec<Layer>,
+    /// Which layer has a name.
+    named: BTreeMap<String, usize>,
 }
 
 /// What a layer holds, in units of the drawing.
@@ -44,9 +46,10 @@ pub(super) struct Words {
 
 impl Drawing {
     pub(super) fn layer(&mut self, name: &str) -> &mut Layer {
-        let found = self.layers.iter().position(|layer| layer.name == name);
+        let found = self.named.get(name).copied();
         let index = found.unwrap_or_else(|| {
             self.layers.push(Layer { name: name.to_owned(), ..Layer::default() });
+            self.named.insert(name.to_owned(), self.layers.len() - 1);
             self.layers.len() - 1
         });
         &mut self.layers[index]

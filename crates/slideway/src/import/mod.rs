@@ -6,18 +6,20 @@
 //!
 //! # Files
 //! `groups.rs` reads the group codes of the format, `entities.rs` the entities of the drawing, `curves.rs` ellipses
-//! and splines, `blocks.rs` inserts blocks, `paths.rs` joins lines and arcs, `written.rs` writes the model. Group codes are those of the *DXF
-//! Reference* of Autodesk.
+//! and splines, `blocks.rs` inserts blocks, `paths.rs` joins lines and arcs, `grid.rs` finds what is near,
+//! `written.rs` writes the model. Group codes are those of the *DXF Reference* of Autodesk.
 
 mod blocks;
 mod curves;
 mod entities;
+mod grid;
 mod groups;
 mod paths;
 mod written;
 
 use crate::model::SIZE_LIMIT;
 use crate::printable;
+use crate::progress::{Callback, Progress, Work, undisturbed, watched};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -153,14 +155,30 @@ fn in_words(left_out: &[String]) -> String {
 /// # Errors
 /// What keeps the drawing from being read, with its line.
 pub fn dxf(text: &str, options: &ImportOptions) -> Result<String, ImportFault> {
+    undisturbed(|work| model_of(text, options, work))
+}
+
+/// [`dxf`] with a callback that receives the progress and may end the work; `None` if it does.
+///
+/// # Errors
+/// As [`dxf`].
+pub fn dxf_with(
+    text: &str,
+    options: &ImportOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<String>, ImportFault> {
+    watched(callback, |work| model_of(text, options, work))
+}
+
+fn model_of(text: &str, options: &ImportOptions, work: Work<'_>) -> Result<String, ImportFault> {
     let sections = groups::sections(text)?;
     let unit = match (options.unit, sections.unit) {
         (Some(unit), _) => unit,
         (None, None | Some(0)) => return Err(ImportFault::NoUnit),
         (None, Some(code)) => Unit::of_code(code).ok_or(ImportFault::UnknownUnit { code })?,
     };
-    let drawing = blocks::Reader::new(&sections).read(&sections.entities)?;
-    let bodies = paths::Bodies::of(&drawing);
+    let drawing = blocks::Reader::new(&sections, work).read(&sections.entities)?;
+    let bodies = paths::Bodies::of(&drawing, work);
     if bodies.layers.is_empty() && bodies.spots.is_empty() {
         return Err(ImportFault::Nothing { left_out: bodies.left_out });
     }
@@ -170,6 +188,13 @@ pub fn dxf(text: &str, options: &ImportOptions) -> Result<String, ImportFault> {
     let model = written::model(&bodies, unit, options.title.as_deref());
     let size = model.len();
     if size as u64 > SIZE_LIMIT { Err(ImportFault::TooLarge { size }) } else { Ok(model) }
+}
+
+/// Tells now and then how many of something are done, and whether to go on.
+fn goes_on(work: Work<'_>, counted: &'static str, done: usize) -> bool {
+    const BETWEEN: usize = 512;
+    let progress = Progress { counted, done: done as u64, fraction: None, found: None };
+    !done.is_multiple_of(BETWEEN) || work.tell(&progress).is_continue()
 }
 
 /// A text of the drawing, as it may stand in messages.

@@ -1,10 +1,14 @@
 //! Polygons of lines and arcs, and the bodies and points that a drawing shows.
 
 use super::entities::{Drawing, Layer, Path, Words};
+use super::goes_on;
+use super::grid::Grid;
 use super::shown;
 use crate::expression::{is_reserved, is_valid_name};
 use crate::model::OutlineCorner;
 use crate::model::outline::moments;
+use crate::printable::is_hidden;
+use crate::progress::Work;
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
@@ -114,13 +118,15 @@ fn reversed(corners: &[Corner]) -> Vec<Corner> {
 
 impl Bodies {
     /// What a drawing shows.
-    pub(super) fn of(drawing: &Drawing) -> Self {
-        let near = JOINED * size(drawing);
+    pub(super) fn of(drawing: &Drawing, work: Work<'_>) -> Self {
+        let (corner, size) = extent(drawing);
+        let grid = Grid::new(corner, JOINED * size);
+        let mut of_spots = grid.clone();
         let mut bodies = Self { layers: Vec::new(), spots: Vec::new(), left_out: Vec::new() };
         let mut names = Names::default();
         for layer in &drawing.layers {
             let is_ground = layer.name.eq_ignore_ascii_case("ground");
-            let (outline, left_over) = outline(layer, near);
+            let (outline, left_over) = outline(layer, &grid, work);
             bodies.note(layer, left_over);
             if is_ground && !outline.is_empty() {
                 bodies.left_out.push("the outline of the layer ground: ground has none".to_owned());
@@ -131,9 +137,9 @@ impl Bodies {
                 let name = names.fresh(&layer.name, "layer");
                 bodies.layers.push(Body { name, layer: layer.name.clone(), outline });
             }
-            bodies.add_spots(layer, owner, near);
+            bodies.add_spots((layer, owner), &mut of_spots, work);
         }
-        bodies.name_spots(drawing);
+        bodies.name_spots(drawing, work);
         bodies
     }
 
@@ -157,20 +163,24 @@ impl Bodies {
     }
 
     /// The points and centres of circles of a layer; near others they are the same.
-    fn add_spots(&mut self, layer: &Layer, owner: Option<usize>, near: f64) {
+    fn add_spots(&mut self, (layer, owner): (&Layer, Option<usize>), grid: &mut Grid, work: Work<'_>) {
         let centres = layer.circles.iter().copied();
         let points = layer.points.iter().map(|point| (*point, 0.0));
-        for (at, radius) in centres.chain(points) {
-            let found = self.spots.iter().position(|spot| (spot.at - at).norm() <= near);
-            let index = found.unwrap_or_else(|| {
+        for ((at, radius), done) in centres.chain(points).zip(1..) {
+            if !goes_on(work, "points", done) {
+                return;
+            }
+            let index = grid.first_near(at, |spot| self.spots[spot].at).unwrap_or_else(|| {
                 let (name, bodies) = (String::new(), Vec::new());
                 self.spots.push(Spot { name, at, bodies, is_of_ground: false, radius });
+                grid.add(at, self.spots.len() - 1);
                 self.spots.len() - 1
             });
             let spot = &mut self.spots[index];
             spot.radius = spot.radius.max(radius);
             match owner {
-                Some(body) if !spot.bodies.contains(&body) => spot.bodies.push(body),
+                // Bodies come one after the other.
+                Some(body) if spot.bodies.last() != Some(&body) => spot.bodies.push(body),
                 Some(_) => {}
                 None => spot.is_of_ground = true,
             }
@@ -179,15 +189,12 @@ impl Bodies {
 
     /// A text names the nearest point if that is near, and of several texts the nearest names it; what has
     /// none is named after its body.
-    fn name_spots(&mut self, drawing: &Drawing) {
+    fn name_spots(&mut self, drawing: &Drawing, work: Work<'_>) {
+        let order = Order::of(&self.spots);
         let mut nearest: BTreeMap<usize, (f64, &Words)> = BTreeMap::new();
         for words in drawing.layers.iter().flat_map(|layer| &layer.words) {
-            let distances = self.spots.iter().map(|spot| (spot.at - words.at).norm() - spot.radius);
-            let Some((index, distance)) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) else {
-                continue;
-            };
-            let is_nearer = nearest.get(&index).is_none_or(|(other, _)| distance < *other);
-            if distance <= BESIDE * words.height && is_nearer {
+            let Some((distance, index)) = order.nearest(words, work) else { continue };
+            if nearest.get(&index).is_none_or(|(other, _)| distance < *other) {
                 nearest.insert(index, (distance, words));
             }
         }
@@ -202,14 +209,61 @@ impl Bodies {
     }
 }
 
+/// Points in the order of one of their coordinates, the one in which they are farther apart.
+struct Order<'s> {
+    spots: &'s [Spot],
+    axis: usize,
+    numbers: Vec<usize>,
+    /// The greatest radius of a circle about one of them.
+    radius: f64,
+}
+
+impl<'s> Order<'s> {
+    fn of(spots: &'s [Spot]) -> Self {
+        let places = || spots.iter().map(|spot| spot.at);
+        let least = places().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+        let greatest = places().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+        let axis = (greatest - least).imax();
+        let mut numbers: Vec<usize> = (0..spots.len()).collect();
+        numbers.sort_by(|a, b| spots[*a].at[axis].total_cmp(&spots[*b].at[axis]));
+        Self { spots, axis, numbers, radius: spots.iter().map(|spot| spot.radius).fold(0.0, f64::max) }
+    }
+
+    /// How far words are from the nearest point or circle, and which one that is, if it is beside them. Looks at
+    /// points ever farther away, as long as they may be nearer than what is found.
+    fn nearest(&self, words: &Words, work: Work<'_>) -> Option<(f64, usize)> {
+        let Self { spots, axis, numbers, radius } = self;
+        let along = |spot: usize| spots[spot].at[*axis] - words.at[*axis];
+        let from = numbers.partition_point(|spot| along(*spot) < 0.0);
+        let (after, before) = (numbers[from..].iter(), numbers[..from].iter().rev());
+        let mut best = None;
+        let mut look = |looked: usize, spot: usize| {
+            let bound = best.map_or(BESIDE * words.height, |(distance, _)| distance);
+            let distance = (spots[spot].at - words.at).norm() - spots[spot].radius;
+            if distance <= bound && best.is_none_or(|best| (distance, spot) < best) {
+                best = Some((distance, spot));
+            }
+            along(spot).abs() - radius <= bound && goes_on(work, "names", looked)
+        };
+        let _ = after.enumerate().all(|(looked, spot)| look(looked, *spot));
+        let _ = before.enumerate().all(|(looked, spot)| look(looked, *spot));
+        best
+    }
+}
+
 /// Names that are taken.
 #[derive(Default)]
-struct Names(BTreeSet<String>);
+struct Names {
+    taken: BTreeSet<String>,
+    /// The last number behind each name.
+    last: BTreeMap<String, usize>,
+}
 
 impl Names {
     /// A valid name that is like a text, and not taken.
     fn fresh(&mut self, text: &str, prefix: &str) -> String {
-        let kept = |character: char| if character.is_alphanumeric() { character } else { '_' };
+        let is_seen = |character: char| character.is_alphanumeric() && !is_hidden(character);
+        let kept = |character: char| if is_seen(character) { character } else { '_' };
         let mut name: String = text.trim().chars().map(kept).collect();
         if !is_valid_name(&name) || is_reserved(&name) || name == "ground" {
             name = format!("{prefix}_{name}");
@@ -218,18 +272,19 @@ impl Names {
             prefix.clone_into(&mut name);
         }
         let base = name.strip_suffix("_1").unwrap_or(&name).to_owned();
-        let mut number = 1;
-        while self.0.contains(&name) {
+        let mut number = self.last.get(&base).copied().unwrap_or(1);
+        while self.taken.contains(&name) {
             number += 1;
             name = format!("{base}_{number}");
         }
-        self.0.insert(name.clone());
+        self.last.insert(base, number);
+        self.taken.insert(name.clone());
         name
     }
 }
 
-/// The diagonal of the rectangle around everything.
-fn size(drawing: &Drawing) -> f64 {
+/// The least corner of the rectangle around everything, and its diagonal.
+fn extent(drawing: &Drawing) -> (Vector2<f64>, f64) {
     let of_layer = |layer: &Layer| {
         let corners = layer.paths.iter().flat_map(|path| &path.corners).map(|corner| corner.at);
         let circles = layer.circles.iter().flat_map(|(centre, radius)| {
@@ -241,29 +296,28 @@ fn size(drawing: &Drawing) -> f64 {
     let places: Vec<Vector2<f64>> = drawing.layers.iter().flat_map(of_layer).collect();
     let least = places.iter().copied().reduce(|a, b| a.inf(&b));
     let greatest = places.iter().copied().reduce(|a, b| a.sup(&b));
-    least.zip(greatest).map_or(0.0, |(least, greatest)| (greatest - least).norm())
+    least.zip(greatest).map_or_else(Default::default, |(least, greatest)| (least, (greatest - least).norm()))
 }
 
 /// The greatest closed line of a layer, or its greatest circle, and how many other lines it has.
-fn outline(layer: &Layer, near: f64) -> (Vec<Corner>, usize) {
+fn outline(layer: &Layer, grid: &Grid, work: Work<'_>) -> (Vec<Corner>, usize) {
+    let near = grid.near();
     let (closed, open): (Vec<Path>, Vec<Path>) = layer.paths.iter().cloned().partition(|path| path.is_closed);
-    let (joined, left_open) = chained(open, near);
-    let (mut loops, flat): (Vec<Vec<Corner>>, Vec<Vec<Corner>>) = closed
-        .into_iter()
-        .map(|path| path.corners)
-        .chain(joined)
-        .map(|corners| without_repetition(corners, near))
-        .partition(|corners| area(corners) != 0.0);
-    let left_open = left_open + flat.len();
-    loops.sort_by(|a, b| area(b).total_cmp(&area(a)));
-    if loops.is_empty() {
+    let (joined, left_open) = chained(open, grid.clone(), work);
+    let lines = closed.into_iter().map(|path| path.corners).chain(joined);
+    let areas =
+        lines.map(|corners| without_repetition(corners, near)).map(|corners| (area(&corners), corners));
+    let (loops, flat): (Vec<_>, Vec<_>) = areas.partition(|(area, _)| *area != 0.0);
+    let others = (loops.len() + flat.len() + left_open).saturating_sub(1);
+    // The first of the greatest.
+    let Some((_, outline)) = loops.into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0)) else {
         let greatest =
             layer.circles.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, radius)| *radius > near);
         let circle = greatest.map(|(centre, radius)| arc(*centre, *radius, [0.0, TAU]));
-        return (circle.map_or_else(Vec::new, |circle| without_repetition(circle, near)), left_open);
-    }
-    let others = loops.len() - 1 + left_open;
-    (loops.swap_remove(0), others)
+        let circle = circle.map_or_else(Vec::new, |circle| without_repetition(circle, near));
+        return (circle, flat.len() + left_open);
+    };
+    (outline, others)
 }
 
 /// Without the straight pieces, and the arcs, that are shorter than what counts as one place.
@@ -288,17 +342,28 @@ fn without_repetition(corners: Vec<Corner>, near: f64) -> Vec<Corner> {
 }
 
 /// Closed lines that lines make which join end to end, and the number of those that make none.
-fn chained(paths: Vec<Path>, near: f64) -> (Vec<Vec<Corner>>, usize) {
-    let ends = Ends::of(&paths, near);
+fn chained(paths: Vec<Path>, mut grid: Grid, work: Work<'_>) -> (Vec<Vec<Corner>>, usize) {
+    let near = grid.near();
+    // The ends of the line i are 2 i and 2 i + 1.
+    let ends = paths.iter().flat_map(|path| [path.corners.first(), path.corners.last()]);
+    let ends: Vec<Vector2<f64>> = ends.map(|end| end.map(|corner| corner.at).unwrap_or_default()).collect();
+    ends.iter().enumerate().for_each(|(end, at)| grid.add(*at, end));
     let mut paths: Vec<Option<Path>> = paths.into_iter().map(Some).collect();
+    let mut taken = |index: usize, grid: &mut Grid| {
+        [2 * index, 2 * index + 1].into_iter().for_each(|end| grid.remove(ends[end], end));
+        paths[index].take()
+    };
     let (mut closed, mut open) = (Vec::new(), 0);
-    for index in 0..paths.len() {
-        let Some(Path { mut corners, .. }) = paths[index].take() else { continue };
+    for index in 0..ends.len() / 2 {
+        if !goes_on(work, "lines", index) {
+            break;
+        }
+        let Some(Path { mut corners, .. }) = taken(index, &mut grid) else { continue };
         let mut count = 1;
         while let [first, .., last] = corners[..]
             && (first.at - last.at).norm() > near
-            && let Some(next) = ends.at(last.at, &paths)
-            && let Some(Path { corners: mut more, .. }) = paths[next].take()
+            && let Some(next) = grid.first_near(last.at, |end| ends[end])
+            && let Some(Path { corners: mut more, .. }) = taken(next / 2, &mut grid)
         {
             if more.first().is_none_or(|start| (start.at - last.at).norm() > near) {
                 more = reversed(&more);
@@ -315,45 +380,4 @@ fn chained(paths: Vec<Path>, near: f64) -> (Vec<Vec<Corner>>, usize) {
         }
     }
     (closed, open)
-}
-
-/// Where lines end: cells of a grid as wide as what counts as one place, with the lines that end there.
-struct Ends {
-    cells: BTreeMap<[i64; 2], Vec<usize>>,
-    near: f64,
-    places: Vec<[Vector2<f64>; 2]>,
-}
-
-impl Ends {
-    fn of(paths: &[Path], near: f64) -> Self {
-        let place = |corner: Option<&Corner>| corner.map(|corner| corner.at).unwrap_or_default();
-        let places: Vec<[Vector2<f64>; 2]> =
-            paths.iter().map(|path| [place(path.corners.first()), place(path.corners.last())]).collect();
-        let mut ends = Self { cells: BTreeMap::new(), near, places };
-        for index in 0..paths.len() {
-            for end in ends.places[index] {
-                ends.cells.entry(ends.cell(end)).or_default().push(index);
-            }
-        }
-        ends
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "at most some 1e6 cells along the drawing, or saturated"
-    )]
-    fn cell(&self, place: Vector2<f64>) -> [i64; 2] {
-        [place.x, place.y].map(|part| (part / self.near.max(f64::MIN_POSITIVE)).floor() as i64)
-    }
-
-    /// A line that ends at a place and is still there.
-    fn at(&self, place: Vector2<f64>, paths: &[Option<Path>]) -> Option<usize> {
-        let [x, y] = self.cell(place);
-        let around = (-1..=1).flat_map(|across| (-1..=1).map(move |up| [x + across, y + up]));
-        let lines = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied();
-        let ends_there = |index: &usize| {
-            paths[*index].is_some() && self.places[*index].iter().any(|end| (end - place).norm() <= self.near)
-        };
-        lines.filter(ends_there).min()
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::paths::{Bodies, Body, Corner, Spot};
 use super::{Unit, shown};
-use crate::drawing::quoted;
+use crate::drawing::{quoted, written_key};
 use nalgebra::Vector2;
 use std::fmt::Write;
 
@@ -14,7 +14,11 @@ pub(super) fn model(bodies: &Bodies, unit: Unit, title: Option<&str>) -> String 
     let corners = bodies.layers.iter().flat_map(Body::places);
     let places = corners.chain(bodies.spots.iter().map(|spot| spot.at));
     let size = places.map(|place| place.amax()).fold(0.0, f64::max);
-    let writer = Writer { bodies, unit, decimals: decimals(size) };
+    let mut points = vec![Vec::new(); bodies.layers.len()];
+    for spot in &bodies.spots {
+        spot.bodies.iter().for_each(|body| points[*body].push(spot.name.as_str()));
+    }
+    let writer = Writer { bodies, points, unit, decimals: decimals(size) };
     let mut text = writer.head();
     if let Some(title) = title {
         let _ = writeln!(text, "title = {}", quoted(title));
@@ -30,6 +34,8 @@ pub(super) fn model(bodies: &Bodies, unit: Unit, title: Option<&str>) -> String 
 
 struct Writer<'b> {
     bodies: &'b Bodies,
+    /// Of each body.
+    points: Vec<Vec<&'b str>>,
     unit: Unit,
     /// Of coordinates.
     decimals: usize,
@@ -54,7 +60,7 @@ impl Writer<'_> {
 
     fn spot(&self, spot: &Spot) -> String {
         let owners: Vec<&str> = self.owners(spot).collect();
-        format!("{} = {}   # {}\n", spot.name, self.place(spot.at), owners.join(", "))
+        format!("{} = {}   # {}\n", written_key(&spot.name), self.place(spot.at), owners.join(", "))
     }
 
     fn owners<'s>(&'s self, spot: &'s Spot) -> impl Iterator<Item = &'s str> {
@@ -63,9 +69,9 @@ impl Writer<'_> {
     }
 
     fn body(&self, index: usize, body: &Body) -> String {
-        let mut text = format!("\n[bodies.{}]   # layer {}\n", body.name, shown(&body.layer));
-        let points = self.bodies.spots.iter().filter(|spot| spot.bodies.contains(&index));
-        let points: Vec<String> = points.map(|spot| quoted(&spot.name)).collect();
+        let key = written_key(&body.name);
+        let mut text = format!("\n[bodies.{key}]   # layer {}\n", shown(&body.layer));
+        let points: Vec<String> = self.points[index].iter().map(|name| quoted(name)).collect();
         let _ = writeln!(text, "points = [{}]", points.join(", "));
         text.push_str("massless = true\n");
         if let Some((centre, square)) = body.plate() {
@@ -98,8 +104,10 @@ impl Writer<'_> {
                 let ends = [0, 1].map(|end| quoted(&format!("{}.{}", pair[end], spot.name)));
                 let _ = write!(
                     text,
-                    "\n# [joints.{}_{}_{}]\n# type = \"hinge\"\n# between = [{}, {}]\n",
-                    spot.name, pair[0], pair[1], ends[0], ends[1]
+                    "\n# [joints.{}]\n# type = \"hinge\"\n# between = [{}, {}]\n",
+                    written_key(&format!("{}_{}_{}", spot.name, pair[0], pair[1])),
+                    ends[0],
+                    ends[1]
                 );
             }
         }

@@ -3,6 +3,7 @@
 use super::{answer, no_problem};
 use crate::arguments::ModesArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input;
 use crate::outcome::Outcome;
 use crate::output::Output;
@@ -19,6 +20,7 @@ const BUFFER: usize = 1 << 18;
 /// Answers every line. A line that has arrived is answered before another one is waited for.
 pub(super) fn batch(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
     let path = arguments.file.as_path();
+    let output = Files::new(output, &arguments.destination, Some(path)).answer()?;
     let failed = |error| no_problem(input::cannot_read(path, error));
     let (source, _) = input::open(path).map_err(no_problem)?;
     let mut source = BufReader::with_capacity(BUFFER, source);

@@ -3,6 +3,7 @@
 use super::read;
 use crate::arguments::ModesArguments;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
@@ -15,6 +16,7 @@ use std::time::Instant;
 /// Writes what is found, and at last what is known then. A reader that goes away ends the search.
 pub(super) fn stream(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
     let begun = Instant::now();
+    let output = Files::new(output, &arguments.destination, Some(&arguments.file)).answer()?;
     let problem = read(arguments)?;
     let mut stream = output.stream()?;
     let mut watch = Watch::beside_rows(arguments.time_limit());

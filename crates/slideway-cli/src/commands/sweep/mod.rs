@@ -6,6 +6,7 @@ mod shards;
 
 use crate::arguments::{ModelArguments, SweepArguments, table_endings};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::halt::Halt;
 use crate::input::Input;
 use crate::metadata::metadata;
@@ -39,8 +40,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
 /// A sweep into a table.
 fn table(model: &ModelArguments, arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
     let format = format(arguments)?;
-    let picture = picture::beside(&arguments.plot, &arguments.destination, Some(&model.file), output)?;
-    let destination = output.to(&arguments.destination, Some(&model.file))?;
+    let mut files = Files::new(output, &arguments.destination, Some(&model.file));
+    let picture = picture::beside(&arguments.plot, &mut files)?;
+    let destination = files.answer()?;
     let input = Input::read(model, output.color())?;
     let model = input.model()?;
     let options = arguments.options().map_err(|faults| input.refused(faults))?;

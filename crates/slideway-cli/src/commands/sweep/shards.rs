@@ -4,6 +4,7 @@ use super::plot::Plotting;
 use super::{Work, format, tell, unswept, watch};
 use crate::arguments::{Destination, ModelArguments, SweepArguments};
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::input::Input;
 use crate::metadata::command_of_shards;
 use crate::outcome::Outcome;
@@ -11,6 +12,7 @@ use crate::output::Output;
 use crate::picture;
 use crate::watch::Watch;
 use slideway::model::Model;
+use slideway::printable;
 use slideway::progress::Progress;
 use slideway::sweep::{Shard, Sweep};
 use slideway_tables::{
@@ -31,7 +33,7 @@ pub(super) fn write(
     };
     let path = shard_path(folder, shard);
     // Whether it may be written is asked once it is known what is there.
-    output.to(&Destination { output: Some(path.clone()), force: true }, Some(&model.file))?;
+    Files::new(output, &arguments.destination, Some(&model.file)).claim(&path)?;
     let input = Input::read(model, output.color())?;
     let model = input.model()?;
     let options = arguments.options().map_err(|faults| input.refused(faults))?;
@@ -40,7 +42,9 @@ pub(super) fn write(
     let sharded = ShardedSweep { metadata, settings: input.settings.clone(), options };
     if !force && let Some(manifest) = written_shard(&sharded, shard, folder)? {
         let (points, rows) = (manifest.part.points, manifest.tally.rows);
-        let told = format!("Shard {shard} is there: `{}`, points: {points}, rows: {rows}\n", path.display());
+        let file = path.display().to_string();
+        let told =
+            format!("Shard {shard} is there: `{}`, points: {points}, rows: {rows}\n", printable::line(&file));
         Output::standard(output.color()).write(&told)?;
         return Ok(Outcome::Done);
     }
@@ -66,16 +70,14 @@ pub(super) fn write(
 /// Merges the shards in a folder into one table.
 pub(super) fn merge(folder: &Path, arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
     let format = format(arguments)?;
-    let picture = picture::beside(&arguments.plot, &arguments.destination, None, output)?;
-    let destination = output.to(&arguments.destination, None)?;
+    let mut files = Files::new(output, &arguments.destination, None);
+    let picture = picture::beside(&arguments.plot, &mut files)?;
+    let destination = files.answer()?;
     let mut watch = watch(arguments, &destination);
     let Some(shards) = Shards::find(folder, &mut |progress| watch.look(progress))? else {
         return watch.whole(None);
     };
-    for path in shards.paths() {
-        output.to(&arguments.destination, Some(path))?;
-        picture::beside(&arguments.plot, &arguments.destination, Some(path), output)?;
-    }
+    shards.paths().try_for_each(|path| files.read(path))?;
     let ShardedSweep { metadata, settings, .. } = shards.sharded();
     let plot = match picture {
         Some(_) if shards.sweep().has_branches() && !shards.layout().attainability => {
