@@ -69,6 +69,12 @@ pub(crate) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -
     Lu::new(matrix, proceed)?.inverse(proceed)
 }
 
+/// The solution of linear equations; `None` if they are singular. Without unknowns it is empty, where nalgebra would
+/// read beyond its arrays.
+pub(crate) fn solution(matrix: DMatrix<f64>, right_hand_side: &DVector<f64>) -> Option<DVector<f64>> {
+    if matrix.is_empty() { Some(DVector::zeros(0)) } else { matrix.lu().solve(right_hand_side) }
+}
+
 /// Whether the Cholesky factorization of a symmetric matrix completes. Only the lower triangle is used.
 pub(crate) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> bool {
     let mut pace = Pace::new(proceed);
