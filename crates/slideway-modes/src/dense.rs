@@ -1,7 +1,7 @@
 //! Dense linear algebra that can be interrupted: with some thousand unknowns it takes seconds.
 //!
 //! Results equal nalgebra's to the last bit, because the operations are the same, in the same order. Each
-//! function calls its `proceed` now and then, and returns nothing once that is false.
+//! function with a `proceed` calls it now and then, and returns nothing once that is false.
 
 use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence};
 

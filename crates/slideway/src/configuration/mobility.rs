@@ -144,7 +144,7 @@ pub(crate) fn free_motions(mechanism: &Mechanism, configuration: &Configuration)
     motions
 }
 
-/// A motion of the bodies, (x, y, angle) of each: "rod rotates about (0.1, 0.2), block moves along (1, 0)".
+/// A motion of the bodies, (x, y, angle) of each: "rod rotates about (0.1, 0.2) m, block moves along (1, 0)".
 pub(crate) fn motion_in_words(
     mechanism: &Mechanism,
     configuration: &Configuration,
