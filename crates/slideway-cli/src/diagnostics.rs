@@ -10,10 +10,13 @@ use slideway::fault::{Fault, FaultKind, Place, Source};
 use slideway::model::SettingKind;
 use slideway::printable;
 use slideway::raw_problem::{RawFault, RawFaults};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// At most so many faults are shown in full.
 const SHOWN: usize = 50;
+/// How the texts of arguments are called.
+const COMMAND_LINE: &str = "command line";
 
 /// A message without a place.
 pub(crate) struct Note {
@@ -93,7 +96,7 @@ struct Texts {
     model_name: String,
     model: String,
     /// Each setting as it stands on the command line, and where its own text begins there.
-    settings: Vec<(String, usize)>,
+    settings: Vec<Shown>,
 }
 
 impl Texts {
@@ -113,23 +116,28 @@ impl Texts {
 
     fn group(&self, fault: &Fault, level: Level<'static>) -> Group<'static> {
         let group = Group::with_title(title(level, &fault.kind.to_string()));
-        let argument = argument(fault);
-        let group = match argument.as_ref().map(|(_, place)| place).or(fault.place.as_ref()) {
-            Some(place) => {
-                let (path, text, offset) = match (place.source, &argument) {
-                    (Source::Setting(index), _) => {
-                        let (text, offset) = &self.settings[index];
-                        ("command line", text.as_str(), *offset)
-                    }
-                    (Source::Argument, Some(((text, offset), _))) => ("command line", text.as_str(), *offset),
-                    _ => (self.model_name.as_str(), self.model.as_str(), 0),
-                };
-                let span = within(text, &(place.span.start + offset..place.span.end + offset));
-                group.element(snippet(text, span).path(printable::line(path).into_owned()))
+        let group = match self.shown(fault) {
+            Some((path, text, span)) => {
+                let span = within(&text, &span);
+                group.element(snippet(&text, span).path(printable::line(path).into_owned()))
             }
             None => group.element(origin(&self.model_name)),
         };
         group.elements(fault.kind.hint().as_deref().map(help))
+    }
+
+    /// The name of the text in which a fault lies, the text, and the place in it; none if it has none.
+    fn shown(&self, fault: &Fault) -> Option<(&str, Cow<'_, str>, Range<usize>)> {
+        let behind = |offset: usize, span: &Range<usize>| span.start + offset..span.end + offset;
+        if let Some(((text, offset), span)) = argument(fault) {
+            return Some((COMMAND_LINE, text.into(), behind(offset, &span)));
+        }
+        let Place { source, span } = fault.place.as_ref()?;
+        if let Source::Setting(index) = source {
+            let (text, offset) = self.settings.get(*index)?;
+            return Some((COMMAND_LINE, text.as_str().into(), behind(*offset, span)));
+        }
+        Some((self.model_name.as_str(), self.model.as_str().into(), span.clone()))
     }
 }
 
@@ -164,15 +172,12 @@ type Shown = (String, usize);
 
 /// The argument in which a fault lies that is no setting, and the place in it: that of the fault, or a name
 /// without a place that stands on the command line by itself, such as that of a load.
-fn argument(fault: &Fault) -> Option<(Shown, Place)> {
-    match (&fault.argument, &fault.place, &fault.kind) {
-        (Some(text), Some(place), _) => {
-            Some((with_option(text).unwrap_or_else(|| (text.to_string(), 0)), place.clone()))
+fn argument(fault: &Fault) -> Option<(Shown, Range<usize>)> {
+    match (&fault.place, &fault.kind) {
+        (Some(Place { source: Source::Argument(text), span }), _) => {
+            Some((with_option(text).unwrap_or_else(|| (text.to_string(), 0)), span.clone()))
         }
-        (None, None, FaultKind::UnknownName { name, .. }) => {
-            let place = Place { source: Source::Argument, span: 0..name.len() };
-            Some((with_option(name)?, place))
-        }
+        (None, FaultKind::UnknownName { name, .. }) => Some((with_option(name)?, 0..name.len())),
         _ => None,
     }
 }

@@ -69,6 +69,12 @@ refused! {
     hold_vary_without_load: ["hold", KLEPP, "--vary", "mu_1"];
     map_without_answer: ["map", "models/bracket-on-pole.toml", "--x", "x=0.1 m..0.5 m", "--y", "B=0.1 m..0.2 m", "--output", "map.svg", "--size", "8x8"];
     hold_vary_geometry: ["hold", DRAWER, "--load", "push", "--vary", "a"];
+    limits_no_valid_value: ["limits", "models/bracket-on-pole.toml", "--vary", "mu=1..2"];
+    limits_no_position: ["limits", "models/slider-crank.toml", "--vary", "l=10mm..20mm"];
+    size_no_valid_value: ["size", DRAWER, "--vary", "m=-2..-1", "--margin", "2"];
+    hold_no_valid_value: ["hold", DRAWER, "--vary", "m=-2..-1"];
+    report_no_valid_value: ["report", DRAWER, "--set", "a=0.2", "--vary", "m=-2..-1", "--output", "never.html"];
+    pounds_are_no_forces: ["solve", DRAWER, "--set", "Q=20 lb"];
     size_unknown_parameter: ["size", DRAWER, "--vary", "l", "--margin", "2"];
     size_reversed_range: ["size", DRAWER, "--vary", "L=1 m..0.1 m", "--margin", "2"];
     size_empty_range: ["size", DRAWER, "--vary", "L=1 m..1 m", "--margin", "2"];

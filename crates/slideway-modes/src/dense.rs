@@ -1,7 +1,7 @@
 //! Dense linear algebra that can be interrupted: with some thousand unknowns it takes seconds.
 //!
 //! Results equal nalgebra's to the last bit, because the operations are the same, in the same order. Each
-//! function calls its `proceed` now and then, and returns nothing once that is false.
+//! function with a `proceed` calls it now and then, and returns nothing once that is false.
 
 use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence};
 
@@ -67,6 +67,12 @@ pub(crate) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -
         return matrix.try_inverse();
     }
     Lu::new(matrix, proceed)?.inverse(proceed)
+}
+
+/// The solution of linear equations; `None` if they are singular. Without unknowns it is empty, where nalgebra would
+/// read beyond its arrays.
+pub(crate) fn solution(matrix: DMatrix<f64>, right_hand_side: &DVector<f64>) -> Option<DVector<f64>> {
+    if matrix.is_empty() { Some(DVector::zeros(0)) } else { matrix.lu().solve(right_hand_side) }
 }
 
 /// Whether the Cholesky factorization of a symmetric matrix completes. Only the lower triangle is used.

@@ -37,12 +37,11 @@ impl Texts<'_> {
         values.set_item("hint", fault.kind.hint().map(|hint| printable::lines(&in_python(&hint))))?;
         values.set_item("is_warning", matches!(fault.kind, FaultKind::Doubt(_)))?;
         if let Some(place) = &fault.place {
-            let (argument, text) = match place.source {
+            let (argument, text) = match &place.source {
                 Source::Model => (None, self.model.to_owned()),
-                Source::Setting(index) => self.setting(index),
-                Source::Argument => {
-                    let text = fault.argument.as_deref().unwrap_or_default().to_owned();
-                    (Some(text.split('=').next().unwrap_or_default().to_owned()), text)
+                Source::Setting(index) => self.setting(*index),
+                Source::Argument(text) => {
+                    (Some(text.split('=').next().unwrap_or_default().to_owned()), text.to_string())
                 }
             };
             let start = text.floor_char_boundary(place.span.start);

@@ -57,10 +57,10 @@ impl ToldFault {
 impl ToldPlace {
     fn of(fault: &Fault, asked: &Asked) -> Option<Self> {
         let place = fault.place.as_ref()?;
-        let (text, setting, of) = match place.source {
+        let (text, setting, of) = match &place.source {
             Source::Model => ("model", None, asked.text.clone()),
-            Source::Setting(index) => ("setting", Some(index), asked.settings.entries().get(index)?.text()),
-            Source::Argument => ("argument", None, fault.argument.as_ref()?.to_string()),
+            Source::Setting(index) => ("setting", Some(*index), asked.settings.entries().get(*index)?.text()),
+            Source::Argument(text) => ("argument", None, text.to_string()),
         };
         let [from, to] = [place.span.start, place.span.end].map(|byte| utf16(&of, byte));
         Some(Self { text, setting, from, to: to.max(from) })

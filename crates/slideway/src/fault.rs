@@ -19,15 +19,15 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// A text in which a fault can lie.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Source {
     /// The model file.
     Model,
     /// The value of the n-th setting (`--set`, `--at`, `--rate`), counted from 0 in the order of
     /// [`crate::model::Settings::entries`].
     Setting(usize),
-    /// [`Fault::argument`].
-    Argument,
+    /// An argument that is no setting, such as `mu=0..1`.
+    Argument(Arc<str>),
 }
 
 /// A stretch of one of the texts.
@@ -53,25 +53,22 @@ pub struct Fault {
     pub kind: FaultKind,
     /// Where; nothing where the fault concerns the input as a whole.
     pub place: Option<Place>,
-    /// The text of an argument that is no setting, such as `mu=0..1`, if the fault lies in one.
-    pub argument: Option<Arc<str>>,
 }
 
 impl Fault {
     /// A fault at a place.
     pub fn new(kind: FaultKind, place: Place) -> Self {
-        Self { kind, place: Some(place), argument: None }
+        Self { kind, place: Some(place) }
     }
 
     /// A fault of an argument that is no setting.
     pub fn of_argument(kind: FaultKind, text: &str, span: Range<usize>) -> Self {
-        let place = Place { source: Source::Argument, span };
-        Self { kind, place: Some(place), argument: Some(Arc::from(text)) }
+        Self::new(kind, Place { source: Source::Argument(Arc::from(text)), span })
     }
 
     /// A fault of the input as a whole.
     pub fn general(kind: FaultKind) -> Self {
-        Self { kind, place: None, argument: None }
+        Self { kind, place: None }
     }
 }
 
@@ -166,8 +163,8 @@ impl Faults {
     pub fn sorted(&self) -> Vec<&Fault> {
         let mut sorted: Vec<&Fault> = self.list.iter().collect();
         sorted.sort_by_key(|fault| match &fault.place {
-            Some(place) => (0, place.source, place.span.start),
-            None => (1, Source::Model, 0),
+            Some(place) => (0, &place.source, place.span.start),
+            None => (1, &Source::Model, 0),
         });
         // What is written once for two contacts may be found at each of them.
         let mut unique: Vec<&Fault> = Vec::with_capacity(sorted.len());
@@ -624,6 +621,11 @@ impl FaultKind {
             Self::NotUtf8 { .. } => Some("save it as UTF-8"),
             Self::MissingKey { key, .. } if key == "mu" => {
                 Some("write `mu = 0` for a contact without friction")
+            }
+            Self::WrongDimension { wanted, found }
+                if found.times(Dimension::ACCELERATION) == Some(*wanted) =>
+            {
+                Some("`lb`, `oz` and `kg` are units of mass; those of force are `lbf`, `ozf`, `kgf` and `N`")
             }
             Self::WrongDimension { .. } => Some(
                 "plain numbers are in SI units (m, kg, s, N, rad) on their own, and pure numbers in products",

@@ -2,12 +2,19 @@
 //! that names the case; none a wrong status, a panic or a long wait.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+use proptest::prelude::*;
 use slideway::check::check;
-use slideway::fault::{FaultKind, Faults};
-use slideway::gallery::{find, telescopic_boom};
+use slideway::drive::{drive, drive_with};
+use slideway::fault::{Fault, FaultKind, Faults, Source};
+use slideway::gallery::{MODELS, find, telescopic_boom};
+use slideway::limits::{FRICTION, limits_with, rest_limits_with};
+use slideway::map::map_with;
 use slideway::model::{Model, Settings};
-use slideway::report::{Proof, SolveReport, Status};
+use slideway::report::{Proof, SolveReport, Status, Style};
+use slideway::size::{Against, size_with};
 use slideway::solve::solve;
+use slideway::{DriveOptions, HoldOptions, LimitsOptions, MapOptions, Report, SizeOptions, Vary};
+use std::ops::ControlFlow;
 
 /// A weightless block pulled along its guide through its centre: nothing presses on the guide.
 fn pulled_along(kind: &str, angle: f64) -> SolveReport {
@@ -178,4 +185,90 @@ fn forces_that_may_be_zero_are_told_as_zero() {
     assert!(solution.contacts.iter().all(|contact| (contact.side, contact.normal_force) == (0, 0.0)));
     assert!(solution.contacts.iter().all(|contact| contact.friction_force == 0.0));
     assert_eq!(solution.coordinates[0].acceleration, 0.0);
+}
+
+/// A report without numbers that are not finite, faults, or nothing if it was ended.
+fn told<R: Report>(answer: Result<Option<R>, Faults>) {
+    match answer {
+        Ok(Some(report)) => {
+            let text = report.text(Style::Plain);
+            assert!(!text.contains("NaN") && !text.contains(" inf"), "{text}");
+        }
+        Ok(None) => {}
+        Err(faults) => {
+            let sorted = faults.sorted();
+            assert!(!sorted.is_empty());
+            // No setting was given in which a fault could lie.
+            let of_setting = |fault: &&Fault| {
+                fault.place.as_ref().is_some_and(|place| matches!(place.source, Source::Setting(_)))
+            };
+            assert!(!sorted.iter().any(of_setting), "{faults:?}");
+        }
+    }
+}
+
+/// What a question over a range answers, in every question that has one: a report without numbers that are not finite, or
+/// faults.
+fn asked_over(model: &Model, vary: &Vary, question: usize) {
+    let mut pieces = 0;
+    let mut callback = |_: &_| {
+        pieces += 1;
+        if pieces < 300 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let vary = vary.clone();
+    match question {
+        0 => told(limits_with(model, &LimitsOptions::new(vary).both_directions(true), &mut callback)),
+        1 => told(drive_with(model, &DriveOptions::default().vary(vary), &mut callback)),
+        2 => told(rest_limits_with(model, &vary, &HoldOptions::default(), &mut callback)),
+        3 => told(size_with(model, &SizeOptions::new(vary, 2.0), &mut callback)),
+        4 => told(size_with(model, &SizeOptions::new(vary, 0.5).against(Against::Efficiency), &mut callback)),
+        _ => {
+            let other = Vary::between(FRICTION, 0.5, 1.5);
+            told(map_with(model, &MapOptions::new(vary, other).size(4, 4), &mut callback));
+        }
+    }
+}
+
+/// Everything that may be varied in a model.
+fn quantities(model: &Model) -> Vec<String> {
+    let parameters = model.parameters.iter().map(|parameter| parameter.name.to_string());
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.name.to_string());
+    parameters.chain(coordinates).chain([FRICTION.to_owned()]).collect()
+}
+
+/// Ends of a range: of any magnitude, ordinary, or equal.
+fn ends() -> impl Strategy<Value = [f64; 2]> {
+    let any = || prop_oneof![-1.7e308..1.7e308, -1e3..1e3, -2.0..2.0, Just(0.0), Just(1e-310), Just(1e-9)];
+    [any(), any()].prop_map(|[one, other]| if one <= other { [one, other] } else { [other, one] })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// Ranges without a valid value, empty ones and those of enormous numbers are among them.
+    #[test]
+    fn no_question_over_a_range_panics(
+        number in 0..MODELS.len(),
+        name in any::<prop::sample::Index>(),
+        ends in ends(),
+        question in 0..6_usize,
+    ) {
+        let model = Model::parse(MODELS[number].text).unwrap();
+        let names = quantities(&model);
+        asked_over(&model, &Vary::between(&names[name.index(names.len())], ends[0], ends[1]), question);
+    }
+}
+
+/// Without friction no hinge has any: there is nothing to solve for.
+#[test]
+fn efforts_over_all_friction_begin_without_unknowns() {
+    for name in ["four-bar", "bell-crank"] {
+        let model = Model::parse(find(name).unwrap().text).unwrap();
+        let report = drive(&model, &DriveOptions::default().vary(Vary::between(FRICTION, 0.0, 2.0))).unwrap();
+        let course = report.course.unwrap();
+        for direction in &course.directions {
+            let first = &direction.rows[0];
+            assert_eq!((first.at, &first.efforts), (0.0, &first.frictionless), "{name}");
+        }
+    }
 }

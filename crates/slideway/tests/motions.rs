@@ -587,3 +587,13 @@ slide = "guide"
     assert!((front - 60.0).abs() < 1e-10 && (rear + 30.0).abs() < 1e-10, "{front} {rear}");
     assert_eq!(forces("0.1 m", "0.3 m", "30 N"), [None; 2]);
 }
+
+/// Two pads without friction in their guides press on a capsule that sticks to both, from an independent review.
+#[test]
+fn at_rest_guides_without_friction_slide_nowhere() {
+    let model = Model::parse(include_str!("findings/pinched_capsule.toml")).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(1.0)).unwrap();
+    assert_eq!(history.end, End::Finished);
+    let words = "0 gl is flat on the lower guide; gr is flat on the lower guide; pl sticks; pr sticks";
+    assert_eq!(self::words(&history), [words]);
+}

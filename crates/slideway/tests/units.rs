@@ -226,3 +226,31 @@ fn maps_show_their_axes() {
     let options = MapOptions::new(Vary::between("mu", "0", "1"), Vary::between("a", 0.0, 0.5)).size(20, 20);
     assert_shows(&text(&map(&model(), &options).expect("a map")), &["a from 0 to 500 mm"], &[]);
 }
+
+/// A collar on a vertical rod, from an independent review: B moves along x and C along y, so that BC turns about
+/// (0, l/2 - l sin(35 deg)), with l = 30 in.
+#[test]
+fn places_in_words_are_in_the_unit_of_lengths() {
+    let model = Model::parse(include_str!("findings/couple_and_collar.toml")).expect("a sound model");
+    for (system, place) in [
+        (UnitSystem::AsTyped, "(0, -2.2073) in"),
+        (UnitSystem::Inches, "(0, -2.2073) in"),
+        (UnitSystem::Millimetres, "(0, -56.0652) mm"),
+        (UnitSystem::Si, "(0, -0.0561) m"),
+    ] {
+        let report = hold(&model.clone().with_units(system), &HoldOptions::default()).expect("an answer");
+        assert_shows(&text(&report), &[&format!("BC rotates about {place}")], &[]);
+    }
+}
+
+/// The drawer in inches, with a load of 2 kN = 449.618 lbf, at 100 mm/s = 3.937 in/s.
+#[test]
+fn inches_and_pounds_are_a_system() {
+    let report = drive(&model().with_units(UnitSystem::Inches), &DriveOptions::default()).expect("an answer");
+    assert_shows(
+        &text(&report),
+        &["rate 3.937 in/s", "push needs 817.49 lbf instead of 449.62 lbf"],
+        &[" N "],
+    );
+    assert_shows(&text(&report), &["power in hp"], &["power in W"]);
+}

@@ -187,7 +187,7 @@ fn what_a_setting_causes_is_told_at_the_setting() {
     let model = Model::parse(&text).expect("a sound model");
     let found = of(&model.with(&Settings::default().parameter("rho", "80 deg")).expect("sound"));
     assert_eq!(names(&found), ["great_friction"]);
-    assert_eq!(found[0].1.as_ref().map(|place| place.source), Some(Source::Setting(0)));
+    assert_eq!(found[0].1.as_ref().map(|place| place.source.clone()), Some(Source::Setting(0)));
     assert_eq!(of(&model), []);
 }
 

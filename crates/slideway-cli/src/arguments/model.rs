@@ -31,8 +31,8 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<String>,
 
-    /// In which units numbers are shown to people: as in the model, those of the SI, or mm, degrees and
-    /// newtons. Overrides the `units` of the model file; JSON and tables are in SI units.
+    /// In which units numbers are shown to people: as in the model, those of the SI, mm, degrees and newtons,
+    /// or inches, degrees and pounds-force. Overrides the `units` of the model file; JSON and tables are in SI units.
     #[arg(long, value_name = "UNITS", ignore_case = true, value_parser = choice::<UnitSystem>())]
     units: Option<UnitSystem>,
 

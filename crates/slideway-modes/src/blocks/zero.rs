@@ -7,6 +7,7 @@ use super::frames::{Ball, Frame, matrix_in_frames};
 use super::problem::BlockProblem;
 use super::sector::{Vector, unit};
 use crate::certificate::{Sign, enclose_solution};
+use crate::dense::solution;
 use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::ContactState;
@@ -91,7 +92,7 @@ pub(super) fn newton(
     let mut point = start;
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
-        let next = matrix(problem, states, &slopes_at(problem, &point)).lu().solve(&load)?;
+        let next = solution(matrix(problem, states, &slopes_at(problem, &point)), &load)?;
         let step = (&next - &point).amax();
         let size = next.amax();
         if !size.is_finite() {
@@ -111,7 +112,7 @@ pub(super) fn newton(
 pub(super) fn start(problem: &BlockProblem, piece: &Piece) -> Option<DVector<f64>> {
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
     let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
-    matrix(problem, &piece.states, &slopes).lu().solve(&load(problem, &piece.states))
+    solution(matrix(problem, &piece.states, &slopes), &load(problem, &piece.states))
 }
 
 /// The slopes at a point; of contacts and hinges without force zero.

@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::preconditioned::{BaseSystem, Preconditioned};
+use crate::dense::solution;
 use crate::interval::{Interval, Sign};
 use crate::interval_matrix::{upper_product, upper_sum};
 use crate::problem::{ContactState, ProblemView};
@@ -112,7 +113,7 @@ fn largest_sizes(equations: &Preconditioned) -> Option<DVector<f64>> {
     let system = nalgebra::DMatrix::identity(contacts, contacts) - coupling;
     // Slightly more than the solution, so that rounding does not matter; the test below is what counts.
     let floor = constant.amax().max(f64::MIN_POSITIVE);
-    let trial = system.lu().solve(&constant.map(|value| value * 1.000_001 + floor * 1e-9))?;
+    let trial = solution(system, &constant.map(|value| value * 1.000_001 + floor * 1e-9))?;
     let holds = |(image, trial): (&f64, &f64)| *trial > 0.0 && image <= trial && trial.is_finite();
     image(&trial).iter().zip(&trial).all(holds).then_some(trial)
 }

@@ -1,5 +1,6 @@
 //! Linear equations along a line of parameters, and where inequalities of their solution hold.
 
+use crate::dense::solution;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 /// Relative rounding errors up to which an inequality counts as satisfied.
@@ -149,10 +150,7 @@ impl Line {
 
     /// The solution at a parameter; `None` if the equations are singular.
     pub(super) fn solution(&self, at: f64) -> Option<DVector<f64>> {
-        if self.right_hand_side[0].is_empty() {
-            return Some(DVector::zeros(0));
-        }
-        self.matrix_at(at).lu().solve(&self.right_hand_side_at(at))
+        solution(self.matrix_at(at), &self.right_hand_side_at(at))
     }
 
     /// Which unknowns are zero within rounding, at a parameter where the equations are regular: not greater

@@ -1,5 +1,6 @@
 //! Sufficient conditions for all determinants to have one sign, each requiring a few matrix operations.
 
+use crate::dense::solution;
 use nalgebra::{DMatrix, DVector};
 
 /// By how much the spectral radius must be below 1.
@@ -47,7 +48,7 @@ impl Family {
 fn dominates(t: &DMatrix<f64>) -> bool {
     let size = t.nrows();
     let matrix = DMatrix::identity(size, size) - t * (1.0 + MARGIN);
-    let Some(v) = matrix.lu().solve(&DVector::repeat(size, 1.0)) else { return false };
+    let Some(v) = solution(matrix, &DVector::repeat(size, 1.0)) else { return false };
     let image = t * &v;
     // Sums of nonnegative numbers: rounding is far below the margin.
     v.iter().zip(&image).all(|(v, image)| *v > 0.0 && v.is_finite() && *image < *v * (1.0 - MARGIN / 2.0))

@@ -1279,7 +1279,7 @@ class Model:
             Rates of coordinates by their names (m/s or rad/s).
         time : float or str, optional
             The time of the state (s).
-        units : {"as-typed", "SI", "mm"}, optional
+        units : {"as-typed", "SI", "mm", "in"}, optional
             The units in which texts show numbers.
         **values : float or str
             Parameters and coordinates by their names. A number is in SI units (rad for angles); a text may have a unit or be

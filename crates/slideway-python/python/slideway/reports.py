@@ -169,6 +169,7 @@ __all__ = [
     "Tally",
     "Theme",
     "Threshold",
+    "Tipping",
     "TreeReport",
     "UncertainMode",
     "UncertainParameter",
@@ -1090,6 +1091,8 @@ class CountLimits(Record):
     """Number of preload-gap states, which are counted apart."""
     known: Known
     """How these numbers are known."""
+    tipping: Tipping | None = None
+    """What tips where there is no solution; absent where nothing does."""
     proven: NDArray[np.float64]
     """The stretches for all values of which they are proven, both ends included. If `known` is `proven` nothing
     of the interval lies between them but what is next to ends of modes: `CountLimits::left_out`."""
@@ -1343,6 +1346,9 @@ class DriveDirection(Record):
     no_solution: float | None = None
     """From this factor of friction on there is no solution; absent if there always is one, or it was not
     computed."""
+    tips: tuple[str, ...] = ()
+    """The guided sliders that tip where there is no solution, or from that factor on: as block sliders they show
+    whether it moves."""
     blow_ups: tuple[BlowUp, ...] | None = None
     """Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many
     modes, or friction in hinges."""
@@ -1927,6 +1933,9 @@ class Margins(Record):
     """Up to this factor there is the same number of solutions (and of gap states); absent if it never changes."""
     no_solution: float | None = None
     """Just beyond this factor there is no solution, so that nothing moves; absent if there always is one."""
+    tips: tuple[str, ...] = ()
+    """The guided sliders that tip there, so that friction need not lock it: as block sliders they show whether
+    it moves on."""
     solutions_again: float | None = None
     """From this greater factor on there are solutions again; absent if there are none."""
     uniqueness: float | None = None
@@ -2764,6 +2773,17 @@ class Threshold(Record):
     needed, nothing if no friction suffices."""
     coefficients: tuple[Coefficients, ...]
     """Static coefficients of every contact at the threshold."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Tipping(Record):
+    """What tips in an interval without a solution."""
+
+    joints: tuple[str, ...]
+    """The guided sliders that would tip in a solution of the equations: as block sliders they show whether it
+    moves."""
+    throughout: bool
+    """Whether there is such a solution wherever that was asked: then friction does not lock it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)

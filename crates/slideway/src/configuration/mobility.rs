@@ -144,7 +144,7 @@ pub(crate) fn free_motions(mechanism: &Mechanism, configuration: &Configuration)
     motions
 }
 
-/// A motion of the bodies, (x, y, angle) of each: "rod rotates about (0.1, 0.2), block moves along (1, 0)".
+/// A motion of the bodies, (x, y, angle) of each: "rod rotates about (0.1, 0.2) m, block moves along (1, 0)".
 pub(crate) fn motion_in_words(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -161,7 +161,9 @@ pub(crate) fn motion_in_words(
         if angular.abs() * size > 1e-6 * scale {
             // The pole: the point that stays at rest, c + rot90(v)/omega.
             let pole = configuration.poses[index].position + rot90(velocity) / angular;
-            parts.push(format!("{} rotates about {}", body.name, components(pole, size)));
+            let length = mechanism.units.of("m");
+            let pole = components(pole.map(|value| length.number_of(value)), length.number_of(size));
+            parts.push(format!("{} rotates about {}", body.name, length.with(&pole)));
         } else if velocity.norm() > 1e-6 * scale {
             parts.push(format!("{} moves along {}", body.name, components(velocity.normalize(), 1.0)));
         }

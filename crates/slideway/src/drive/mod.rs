@@ -49,7 +49,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
-use crate::report::{finite, locked};
+use crate::report::finite;
 
 /// The most rows of a table that are computed.
 pub const GREATEST_ROWS: usize = 10_001;
@@ -135,7 +135,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         conclusion: Vec::new(),
     };
     report.suit_units();
-    report.conclusion = text::conclusion(&report, locked(model.has_guided_sliders()));
+    report.conclusion = text::conclusion(&report);
     finite(report)
 }
 

@@ -75,6 +75,10 @@ pub struct DriveDirection {
     /// computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
+    /// The guided sliders that tip where there is no solution, or from that factor on: as block sliders they show
+    /// whether it moves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tips: Vec<String>,
     /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too
     /// many modes, or friction in hinges.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -35,7 +35,16 @@ pub(super) fn direction(
     let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let (solutions, frictionless) = efforts(&report, &stages);
+    // What tips now, or just beyond the factor.
+    let tips = match &report.margins {
+        _ if !report.rejected.is_empty() => {
+            report.rejected.iter().map(|rejection| rejection.joint.clone()).collect()
+        }
+        Some(margins) => margins.tips.clone(),
+        None => Vec::new(),
+    };
     let found = DriveDirection {
+        tips,
         direction,
         status: report.status,
         solutions,

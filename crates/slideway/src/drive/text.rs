@@ -9,7 +9,7 @@ use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Report, Status, Style, Verdict, spaced};
+use crate::report::{LOCKED, Report, Status, Style, Verdict, spaced, tips};
 use crate::units::Unit;
 
 impl Report for DriveReport {
@@ -29,10 +29,10 @@ impl Report for DriveReport {
 
 /// One sentence for each direction, one for each factor of friction at which its efforts grow without bound, and
 /// one for the factor beyond which it locks, if no effort grows there.
-pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
+pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
     let mut sentences = Vec::new();
     for direction in &report.directions {
-        sentences.push(format!("{}: {}.", moving(direction.direction), outcome(report, direction, locked)));
+        sentences.push(format!("{}: {}.", moving(direction.direction), outcome(report, direction)));
         let blow_ups = direction.blow_ups.iter().flatten();
         sentences.extend(blow_ups.map(|blow_up| {
             format!(
@@ -47,11 +47,9 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
             |factor: f64| direction.blow_ups.iter().flatten().any(|blow_up| near(blow_up.at, factor));
         let comes = direction.no_solution.filter(|_| !direction.solutions.is_empty());
         sentences.extend(comes.filter(|&factor| !is_announced(factor)).map(|factor| {
-            format!(
-                "{}: beyond {} times the friction no effort moves it; none grows before.",
-                moving(direction.direction),
-                precise(factor)
-            )
+            let what =
+                tips(&direction.tips).unwrap_or_else(|| "no effort moves it; none grows before".to_owned());
+            format!("{}: beyond {} times the friction {what}.", moving(direction.direction), precise(factor))
         }));
     }
     sentences
@@ -70,10 +68,10 @@ fn moving(direction: Sense) -> &'static str {
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
-fn outcome(report: &DriveReport, direction: &DriveDirection, locked: &str) -> String {
+fn outcome(report: &DriveReport, direction: &DriveDirection) -> String {
     match (direction.solutions.as_slice(), direction.status) {
         ([], Status::Unknown) => "it is not known which effort moves it".to_owned(),
-        ([], _) => format!("no effort moves it, {locked}"),
+        ([], _) => tips(&direction.tips).unwrap_or_else(|| format!("no effort moves it, {LOCKED}")),
         ([only], _) => {
             // One drive that does no work without friction has no effort then.
             let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;

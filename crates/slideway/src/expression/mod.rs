@@ -7,9 +7,9 @@
 //! Units go on after a blank, `*` or `/`, each with a whole exponent. After `*` or `/` a name that is no unit
 //! ends the unit: `3 N*arm`. One that is both a unit and a name of the model is refused, with both ways to
 //! write it; only a slash without blanks always goes on with a unit, so that `9.81 m/s^2` means what it says
-//! beside a coordinate `s`. Units are `m dm cm mm um µm km in ft`, `kg g mg Mg`, `s ms min`, `N mN kN MN`,
-//! `Nm kNm J kJ`, `W kW`, `Pa kPa MPa GPa`, `rad mrad deg °`, `Hz rpm` and `%`. Hz counts as 1/s, rpm as
-//! 2π/60 1/s.
+//! beside a coordinate `s`. Units are `m dm cm mm um µm km in ft`, `kg g mg Mg lb oz`, `s ms min`,
+//! `N mN kN MN lbf ozf kgf`, `Nm kNm J kJ`, `W kW hp`, `Pa kPa MPa GPa psi`, `rad mrad deg °`, `Hz rpm` and `%`. Hz
+//! counts as 1/s, rpm as 2π/60 1/s; `lb` and `oz` are masses.
 //!
 //! | part | meaning |
 //! |---|---|

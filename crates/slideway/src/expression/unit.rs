@@ -23,6 +23,11 @@ const fn unit(name: &'static str, numerator: f64, denominator: f64, dimension: D
 }
 
 /// No tonne: `t` is time in every expression. `µ` is in Unicode twice, as micro sign and as Greek letter.
+///
+/// US customary units are exact, too (NIST SP 811, appendix B): the inch is 25.4 mm and the international avoirdupois
+/// pound 0.45359237 kg by the agreement of 1959, an ounce 1/16 pound; the pound-force, the kilogram-force and the
+/// ounce-force are the weights of their masses at the standard acceleration of free fall, 9.80665 m/s^2 (3rd CGPM, 1901);
+/// the mechanical horsepower is 550 ft lbf/s, whose 17 digits are the only ones here that are rounded.
 pub(super) const UNITS: &[Unit] = &[
     unit("m", 1.0, 1.0, Dimension::LENGTH),
     unit("dm", 1.0, 10.0, Dimension::LENGTH),
@@ -38,6 +43,8 @@ pub(super) const UNITS: &[Unit] = &[
     unit("g", 1.0, 1e3, Dimension::MASS),
     unit("mg", 1.0, 1e6, Dimension::MASS),
     unit("Mg", 1e3, 1.0, Dimension::MASS),
+    unit("lb", 45_359_237.0, 1e8, Dimension::MASS),
+    unit("oz", 45_359_237.0, 16e8, Dimension::MASS),
     unit("s", 1.0, 1.0, Dimension::TIME),
     unit("ms", 1.0, 1e3, Dimension::TIME),
     unit("min", 60.0, 1.0, Dimension::TIME),
@@ -45,16 +52,21 @@ pub(super) const UNITS: &[Unit] = &[
     unit("mN", 1.0, 1e3, Dimension::FORCE),
     unit("kN", 1e3, 1.0, Dimension::FORCE),
     unit("MN", 1e6, 1.0, Dimension::FORCE),
+    unit("lbf", 44_482_216_152_605.0, 1e13, Dimension::FORCE),
+    unit("ozf", 44_482_216_152_605.0, 16e13, Dimension::FORCE),
+    unit("kgf", 980_665.0, 1e5, Dimension::FORCE),
     unit("Nm", 1.0, 1.0, Dimension::TORQUE),
     unit("kNm", 1e3, 1.0, Dimension::TORQUE),
     unit("J", 1.0, 1.0, Dimension::TORQUE),
     unit("kJ", 1e3, 1.0, Dimension::TORQUE),
     unit("W", 1.0, 1.0, Dimension::POWER),
     unit("kW", 1e3, 1.0, Dimension::POWER),
+    unit("hp", 745.699_871_582_270_2, 1.0, Dimension::POWER),
     unit("Pa", 1.0, 1.0, Dimension::PRESSURE),
     unit("kPa", 1e3, 1.0, Dimension::PRESSURE),
     unit("MPa", 1e6, 1.0, Dimension::PRESSURE),
     unit("GPa", 1e9, 1.0, Dimension::PRESSURE),
+    unit("psi", 44_482_216_152_605.0, 6_451_600_000.0, Dimension::PRESSURE),
     unit("rad", 1.0, 1.0, Dimension::ANGLE),
     unit("mrad", 1.0, 1e3, Dimension::ANGLE),
     unit("deg", PI / 180.0, 1.0, Dimension::ANGLE),
@@ -65,7 +77,7 @@ pub(super) const UNITS: &[Unit] = &[
 ];
 
 impl Unit {
-    /// Where the numerator lies: it is a whole number, or a fraction of pi that is rounded twice.
+    /// Where the numerator lies: it is a whole number, a fraction of pi that is rounded twice, or rounded once.
     fn enclosed_numerator(&self) -> Interval {
         let value = self.numerator;
         if value.fract() == 0.0 {

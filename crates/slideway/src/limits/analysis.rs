@@ -1,15 +1,16 @@
 //! What is varied, over which range, and what is found there.
 
-use super::answer::{self, Naming};
+use super::answer::{self, Along, Naming};
 use super::find::find;
 use super::found::ModesFound;
 use super::options::LimitsOptions;
-use super::report::{LimitsReport, SpeedLimits};
+use super::report::{LimitsReport, Tipping};
 use super::speeds::speeds;
 use super::varied::Varied;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::modes::existence::CountInterval;
 use crate::progress::Work;
 use crate::solve::Stages;
 
@@ -24,8 +25,10 @@ pub(super) struct Analysis {
     pub(super) range: [f64; 2],
     pub(super) found: ModesFound,
     pub(super) reversed: Option<(Varied, ModesFound)>,
-    /// What becomes of speeds along each mode, in both directions.
-    speeds: [Vec<Vec<SpeedLimits>>; 2],
+    /// What is asked along the modes.
+    along: Along,
+    /// The same in the opposite direction.
+    opposite: Option<Along>,
 }
 
 impl Analysis {
@@ -58,17 +61,34 @@ impl Analysis {
         } else {
             None
         };
-        let opposite =
-            reversed.as_ref().map(|(varied, found)| speeds(varied, found, along.part(1, directions)));
-        let speeds = [speeds(&varied, &found, along.part(0, directions)), opposite.unwrap_or_default()];
-        Ok(Self { varied, range, found, reversed, speeds })
+        let asked = |varied: &Varied, found: &ModesFound, part: usize| {
+            let work = along.part(part, directions);
+            Along { speeds: speeds(varied, found, work), tipping: tipping(varied, found, work) }
+        };
+        let along = asked(&varied, &found, 0);
+        let opposite = reversed.as_ref().map(|(varied, found)| asked(varied, found, 1));
+        Ok(Self { varied, range, found, reversed, along, opposite })
     }
 
     pub(super) fn report(&self, naming: &Naming) -> LimitsReport {
-        let [speeds, opposite] = &self.speeds;
-        let reversed = self.reversed.as_ref().map(|(_, found)| (found, opposite.as_slice()));
-        answer::report(naming, &self.varied, self.range, (&self.found, speeds), reversed)
+        let reversed = self.reversed.as_ref().map(|(_, found)| found).zip(self.opposite.as_ref());
+        answer::report(naming, &self.varied, self.range, (&self.found, &self.along), reversed)
     }
+}
+
+/// Of each range without a solution what tips at three values within it.
+fn tipping(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Option<Tipping>> {
+    let at = |value: f64| -> Vec<String> {
+        let rejected = varied.solved(value, work).map_or_else(|_| Vec::new(), |report| report.rejected);
+        rejected.into_iter().map(|rejection| rejection.joint).collect()
+    };
+    let within = |count: &CountInterval| {
+        let is_asked = count.solutions + count.gap_states == 0 && varied.model().has_guided_sliders();
+        let shares: &[f64] = if is_asked { &[0.125, 0.5, 0.875] } else { &[] };
+        let places = shares.iter().map(|share| count.from + share * (count.to - count.from));
+        Tipping::of(places.filter(|_| !work.is_over()).map(at))
+    };
+    found.counts.iter().map(within).collect()
 }
 
 /// The range of a coefficient of friction, or of their factor; whatever else is varied needs one.

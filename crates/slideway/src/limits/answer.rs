@@ -5,7 +5,7 @@ use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::guarantee::guarantee;
 use super::report::{
     CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    RangeWithoutProblem, SCHEMA, SpeedLimits, VariedQuantity,
+    RangeWithoutProblem, SCHEMA, SpeedLimits, Tipping, VariedQuantity,
 };
 use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{CoordinateState, JointMode, ModeEndCause, locked, no_drive_prescribes};
+use crate::report::{CoordinateState, JointMode, ModeEndCause, no_drive_prescribes};
 use crate::solve::{joint_mode_in_words, pattern, signs};
 
 impl VariedQuantity {
@@ -96,13 +96,6 @@ impl Naming {
         contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
     }
 
-    /// The guided sliders with these bounds, which are numbered in the order of the joints.
-    fn guided(&self, bounds: &[usize]) -> Vec<String> {
-        let guided = self.sliders().filter(|(_, _, slider)| slider.kind == crate::model::SliderKind::Guided);
-        let names: Vec<&str> = guided.map(|(_, name, _)| name).collect();
-        bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
-    }
-
     fn mode(
         &self,
         (mode, branch): (&ModeInterval, Option<&Branch>),
@@ -158,7 +151,7 @@ impl Naming {
             EndCause::SideChange(contacts)
             | EndCause::GapCloses(contacts)
             | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
-            EndCause::OutputBound(bounds) => self.guided(bounds),
+            EndCause::OutputBound(bounds) => self.mechanism.guided_sliders(bounds),
             EndCause::HingeUnloaded(hinges) => {
                 hinges.iter().map(|&hinge| self.hinge(circles[hinge]).to_owned()).collect()
             }
@@ -187,21 +180,23 @@ impl Naming {
         circles.iter().enumerate().map(force).collect()
     }
 
-    fn direction(&self, (found, speeds): Found<'_>) -> Direction {
-        let count = |(interval, known): (&CountInterval, &Knowledge)| CountLimits {
-            from: found.same_ends.told(interval.from),
-            to: found.same_ends.told(interval.to),
-            solutions: interval.solutions,
-            preload_gap_states: interval.gap_states,
-            known: match known.elsewhere {
-                Elsewhere::Nothing => Known::Proven,
-                Elsewhere::ClosedForm => Known::ClosedForm,
-                Elsewhere::Sampled(_) => Known::Sampled,
-                Elsewhere::Contradicted => Known::Undecided,
-            },
-            proven: known.proven.clone(),
-            spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
-        };
+    fn direction(&self, (found, Along { speeds, tipping }): Found<'_>) -> Direction {
+        let count =
+            |((interval, known), tipping): ((&CountInterval, &Knowledge), &Option<Tipping>)| CountLimits {
+                from: found.same_ends.told(interval.from),
+                to: found.same_ends.told(interval.to),
+                solutions: interval.solutions,
+                preload_gap_states: interval.gap_states,
+                known: match known.elsewhere {
+                    Elsewhere::Nothing => Known::Proven,
+                    Elsewhere::ClosedForm => Known::ClosedForm,
+                    Elsewhere::Sampled(_) => Known::Sampled,
+                    Elsewhere::Contradicted => Known::Undecided,
+                },
+                tipping: tipping.clone(),
+                proven: known.proven.clone(),
+                spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
+            };
         Direction {
             modes: found
                 .existence
@@ -211,15 +206,23 @@ impl Naming {
                 .zip(speeds)
                 .map(|((index, mode), speeds)| self.mode((mode, found.branches.get(index)), speeds, found))
                 .collect(),
-            counts: found.counts.iter().zip(&found.known).map(count).collect(),
+            counts: found.counts.iter().zip(&found.known).zip(tipping).map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),
             between_faces_at: found.between_faces.values().to_vec(),
         }
     }
 }
 
-/// The modes of a direction, and for each what becomes of the speeds.
-type Found<'f> = (&'f ModesFound, &'f [Vec<SpeedLimits>]);
+/// What is asked along the modes of a direction.
+pub(super) struct Along {
+    /// For each mode what becomes of the speeds.
+    pub(super) speeds: Vec<Vec<SpeedLimits>>,
+    /// For each number of solutions what tips where there is none.
+    pub(super) tipping: Vec<Option<Tipping>>,
+}
+
+/// The modes of a direction, and what is asked along them.
+type Found<'f> = (&'f ModesFound, &'f Along);
 
 /// The report on both directions, of which the opposite one may be absent.
 pub(super) fn report(
@@ -232,8 +235,7 @@ pub(super) fn report(
     let (found, _) = forwards;
     let forwards = naming.direction(forwards);
     let reversed = reversed.map(|found| naming.direction(found));
-    let locked = locked(varied.model().has_guided_sliders());
-    let mut conclusion = conclusion((varied, found.method), locked, &forwards, reversed.as_ref());
+    let mut conclusion = conclusion((varied, found.method), &forwards, reversed.as_ref());
     let speeds = forwards.modes.iter().flat_map(|mode| &mode.speeds);
     if speeds.filter(|speed| speed.friction_exceeds_loads).count() > 0 {
         conclusion.push(no_drive_prescribes());

@@ -4,17 +4,15 @@ use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
 
-/// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7); `locked` says
-/// what no solution means.
+/// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7).
 pub(super) fn conclusion(
     (varied, method): (&Varied, Method),
-    locked: &str,
     forwards: &Direction,
     reversed: Option<&Direction>,
 ) -> Vec<String> {
     let pieces = match reversed {
-        None => one_direction(forwards, locked),
-        Some(reversed) => both_directions(&forwards.counts, &reversed.counts, locked),
+        None => one_direction(forwards),
+        Some(reversed) => both_directions(&forwards.counts, &reversed.counts),
     };
     let mut joined: Vec<Piece> = Vec::new();
     for piece in pieces {
@@ -65,9 +63,9 @@ impl Piece {
     }
 }
 
-fn one_direction(direction: &Direction, locked: &str) -> Vec<Piece> {
+fn one_direction(direction: &Direction) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
-        let without = format!("no solution: {locked}");
+        let without = format!("no solution: {}", count.without_solution());
         let verdict = match (count.solutions, count.preload_gap_states) {
             (0, 0) => &without,
             (0, _) => "no solution, but a state in a preload gap",
@@ -108,7 +106,7 @@ fn by_speed(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
     begins.iter().zip(ends).zip(speeds).map(piece).collect()
 }
 
-fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &str) -> Vec<Piece> {
+fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Piece> {
     let mut ends: Vec<f64> =
         forwards.iter().chain(reversed).flat_map(|count| [count.from, count.to]).collect();
     ends.sort_by(f64::total_cmp);
@@ -117,18 +115,20 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &
         let middle = f64::midpoint(pair[0], pair[1]);
         let at = |counts: &[CountLimits]| {
             let count = counts.iter().find(|count| count.from < middle && middle < count.to)?;
-            Some((count.solutions + count.preload_gap_states > 0, count.known))
+            let without = (count.solutions + count.preload_gap_states == 0).then(|| count.without_solution());
+            Some((without, count.known))
         };
         let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
         let verdict = match (one, other) {
-            (true, true) => "it can move in both directions".to_owned(),
-            (true, false) => format!("it can only move as in the model; in the opposite direction {locked}"),
-            (false, true) => {
-                format!(
-                    "it can only move against the direction of the model; in the opposite direction {locked}"
-                )
+            (None, None) => "it can move in both directions".to_owned(),
+            (None, Some(without)) => {
+                format!("it can only move as in the model; in the opposite direction {without}")
             }
-            (false, false) => format!("{locked} in both directions"),
+            (Some(without), None) => {
+                format!("it can only move against the direction of the model; as in the model {without}")
+            }
+            (Some(one), Some(other)) if one == other => format!("{one} in both directions"),
+            (Some(one), Some(other)) => format!("{one}; in the opposite direction {other}"),
         };
         Some(Piece { from: pair[0], to: pair[1], verdict, known: known.max(known_of_other) })
     };

@@ -56,7 +56,8 @@ pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{
     CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    REST_SCHEMA, RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, VariedQuantity,
+    REST_SCHEMA, RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, Tipping,
+    VariedQuantity,
 };
 pub use rest::{rest_limits, rest_limits_with};
 pub(crate) use scan::bisect;

@@ -1,7 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::found::left_out;
-use crate::report::{CoordinateState, JointMode, ModeEndCause, SpeedChange};
+use crate::report::{CoordinateState, JointMode, LOCKED, ModeEndCause, SpeedChange, tips};
 use crate::standstill::CoordinateValue;
 use crate::units::{Unit, Units};
 use serde::Serialize;
@@ -201,12 +201,39 @@ pub struct CountLimits {
     pub preload_gap_states: usize,
     /// How these numbers are known.
     pub known: Known,
+    /// What tips where there is no solution; absent where nothing does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tipping: Option<Tipping>,
     /// The stretches for all values of which they are proven, both ends included. If `known` is `proven`
     /// nothing of the interval lies between them but what is next to ends of modes:
     /// [`CountLimits::left_out`].
     pub proven: Vec<[f64; 2]>,
     /// Where they were sampled: the greatest distance between neighbouring values; else null.
     pub spacing: Option<f64>,
+}
+
+/// What tips in an interval without a solution.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct Tipping {
+    /// The guided sliders that would tip in a solution of the equations: as block sliders they show whether it moves.
+    pub joints: Vec<String>,
+    /// Whether there is such a solution wherever that was asked: then friction does not lock it.
+    pub throughout: bool,
+}
+
+impl Tipping {
+    /// From what tips at some values; none if nothing does.
+    pub(super) fn of(values: impl Iterator<Item = Vec<String>>) -> Option<Self> {
+        let mut tipping = Self { joints: Vec::new(), throughout: true };
+        for joints in values {
+            tipping.throughout &= !joints.is_empty();
+            tipping.joints.extend(joints);
+        }
+        tipping.joints.sort();
+        tipping.joints.dedup();
+        (!tipping.joints.is_empty()).then_some(tipping)
+    }
 }
 
 /// How the numbers of solutions in an interval are known.
@@ -225,6 +252,17 @@ pub enum Known {
 }
 
 impl CountLimits {
+    /// What it means that there is no solution.
+    pub(super) fn without_solution(&self) -> String {
+        let told =
+            self.tipping.as_ref().and_then(|tipping| Some((tips(&tipping.joints)?, tipping.throughout)));
+        match told {
+            None => LOCKED.to_owned(),
+            Some((tips, true)) => tips,
+            Some((tips, false)) => format!("{LOCKED}, or {tips}"),
+        }
+    }
+
     /// The widest part of the interval that is not proven; all of it if nothing is.
     pub fn left_out(&self) -> f64 {
         left_out([self.from, self.to], &self.proven)

@@ -1,5 +1,6 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
+use super::vary::Vary;
 use crate::configuration::Follower;
 use crate::enclosure::{TurningHinge, UncertainParameters, enclosed_block_problem, enclosure};
 use crate::expression::Degree;
@@ -7,7 +8,7 @@ use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
 use crate::kinetics::coordinate_rows;
 use crate::mechanism::{Coordinate, Mechanism};
-use crate::model::{Dependence, Model, Setting, SettingKind, Settings, Value};
+use crate::model::{Dependence, Model, Setting, SettingKind, Value};
 use crate::modes::blocks::{self, BlockProblem, BlockResult};
 use crate::modes::branches::{Branch, BranchForces, Instance, NoInstance};
 use crate::modes::existence::ModeProblemLine;
@@ -19,7 +20,7 @@ use crate::solve::{
     turning_hinges, unknowns_of,
 };
 use crate::units::Unit;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The name under which all coefficients of friction are scaled together.
 pub const FRICTION: &str = "friction";
@@ -39,6 +40,8 @@ enum Kind {
 pub(crate) struct Varied {
     model: Model,
     pub(crate) name: String,
+    /// The argument that says that it is varied: faults of its values lie there.
+    argument: Arc<str>,
     kind: Kind,
     /// The unit in which its values are shown.
     pub(crate) shown_in: Unit,
@@ -77,8 +80,21 @@ impl Varied {
             Kind::Parameter => model.units.parameter(name, &model.parameter_unit(name)),
             Kind::Coordinate => model.units.of(coordinate_unit(model, name)),
         };
-        let (model, name, follower) = (model.clone(), name.to_owned(), Mutex::default());
-        Ok(Self { model, name, kind, shown_in, stages: None, follower })
+        let (argument, follower) = (Arc::from(name), Mutex::default());
+        Ok(Self {
+            model: model.clone(),
+            name: name.to_owned(),
+            argument,
+            kind,
+            shown_in,
+            stages: None,
+            follower,
+        })
+    }
+
+    /// The same, whose faults lie in this argument.
+    pub(super) fn given_by(self, argument: &Vary) -> Self {
+        Self { argument: Arc::from(argument.to_string()), ..self }
     }
 
     /// The same, shown in the unit of both ends of a range as they were typed, if they have one.
@@ -386,13 +402,15 @@ impl Varied {
         }
     }
 
-    /// These settings and this value; a factor of friction is no setting.
-    pub(crate) fn set(&self, settings: Settings, value: f64) -> Settings {
-        match self.kind {
-            Kind::Friction => settings,
-            Kind::Parameter => settings.parameter(&self.name, value),
-            Kind::Coordinate => settings.position(&self.name, value),
-        }
+    /// The setting that gives it this value, and the argument in which its faults lie; none for a factor of
+    /// friction, which is no setting.
+    pub(crate) fn setting(&self, value: f64) -> Option<(Setting, Arc<str>)> {
+        let kind = match self.kind {
+            Kind::Friction => return None,
+            Kind::Parameter => SettingKind::Parameter,
+            Kind::Coordinate => SettingKind::Position,
+        };
+        Some((Setting::new(kind, &self.name, value), self.argument.clone()))
     }
 
     /// The model at a value, and the factor of its coefficients of friction there.
@@ -400,10 +418,10 @@ impl Varied {
     /// # Errors
     /// A value that the model does not allow.
     pub(crate) fn model_at(&self, value: f64) -> Result<(Model, f64), Faults> {
-        if self.is_friction_factor() {
-            return Ok((self.model.clone(), value));
+        match self.setting(value) {
+            None => Ok((self.model.clone(), value)),
+            Some(setting) => Ok((self.model.varied_with(&[setting])?, 1.0)),
         }
-        Ok((self.model.varied_with(&self.set(Settings::default(), value))?, 1.0))
     }
 
     /// The mode problem at a value.

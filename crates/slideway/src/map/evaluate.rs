@@ -7,7 +7,7 @@ use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
 use crate::limits::mechanism_with;
-use crate::model::{Model, Settings};
+use crate::model::Model;
 use crate::progress::{Progress, Work, undisturbed};
 use crate::solve::{LastSolution, Parts, SolveOptions, Stages, Trail, states_between_faces};
 use crate::standstill::{HoldOptions, can_rest};
@@ -218,15 +218,10 @@ fn along(axis: &Axis, share: f64) -> f64 {
 /// # Errors
 /// Values that the model does not allow.
 fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<(Model, f64), Faults> {
-    let mut settings = Settings::default();
-    let mut friction = 1.0;
-    for (axis, value) in axes.iter().zip(values) {
-        if axis.varied.is_friction_factor() {
-            friction = value;
-        } else {
-            settings = axis.varied.set(settings, value);
-        }
-    }
+    let axes = axes.iter().zip(values);
+    let factors = axes.clone().filter(|(axis, _)| axis.varied.is_friction_factor());
+    let friction = factors.map(|(_, value)| value).product();
+    let settings: Vec<_> = axes.filter_map(|(axis, value)| axis.varied.setting(value)).collect();
     Ok((model.varied_with(&settings)?, friction))
 }
 

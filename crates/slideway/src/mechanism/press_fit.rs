@@ -1,6 +1,6 @@
 //! The faces of press fits, each a contact of its own: both together are one place of the guide.
 
-use super::{Contact, Mechanism, Slider};
+use super::{Contact, JointKind, Mechanism, Slider};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::interval::{Interval, Real};
@@ -35,6 +35,16 @@ impl<T> Slider<T> {
 }
 
 impl<T> Mechanism<T> {
+    /// The names of the guided sliders with these numbers, which follow the order of the joints.
+    pub(crate) fn guided_sliders(&self, numbers: &[usize]) -> Vec<String> {
+        let guided = self.joints.iter().filter(|joint| match &joint.kind {
+            JointKind::Slider(slider) => slider.is_guided(),
+            JointKind::Hinge(_) => false,
+        });
+        let names: Vec<&str> = guided.map(|joint| &*joint.name).collect();
+        numbers.iter().filter_map(|&number| names.get(number)).map(|name| (*name).to_owned()).collect()
+    }
+
     /// One contact for each place: of a press fit the positive face.
     pub fn places(&self) -> impl Iterator<Item = ContactId> + '_ {
         (0..self.contacts.len()).filter(|&k| !self.contacts[k].is_second_face()).map(ContactId)

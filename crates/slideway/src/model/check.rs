@@ -206,7 +206,9 @@ impl Model {
         let used = parameters.filter(|(index, _)| formulas.iter().any(|&id| self.uses(id, *index)));
         let ids = used.map(|(_, parameter)| parameter.value).chain(formulas.iter().copied());
         let places = ids.map(|id| self.formula(id).origin.place());
-        places.filter(|place| place.source != Source::Model).max_by_key(|place| place.source)
+        places
+            .filter(|place| place.source != Source::Model)
+            .max_by(|one, other| one.source.cmp(&other.source))
     }
 
     fn used_parameters(&self, formula: FormulaId) -> impl Iterator<Item = usize> + '_ {
@@ -371,7 +373,7 @@ impl Model {
     fn blame_setting(&self, formula: FormulaId, fault: Fault) -> Fault {
         let mut used =
             self.used_parameters(formula).map(|index| &self.formula(self.parameters[index].value).origin);
-        match used.find(|origin| matches!(origin.source, Source::Setting(_))) {
+        match used.find(|origin| origin.source != Source::Model) {
             Some(origin) => Fault::new(fault.kind, origin.place()),
             None => fault,
         }

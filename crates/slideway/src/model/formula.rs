@@ -20,13 +20,13 @@ pub struct Origin {
 impl Origin {
     /// Place of the whole formula.
     pub fn place(&self) -> Place {
-        Place { source: self.source, span: self.span.clone() }
+        Place { source: self.source.clone(), span: self.span.clone() }
     }
 
     /// Place of a part of the expression.
     fn part(&self, span: &Span) -> Place {
         match self.expression_start {
-            Some(start) => Place { source: self.source, span: start + span.start..start + span.end },
+            Some(start) => Place { source: self.source.clone(), span: start + span.start..start + span.end },
             None => self.place(),
         }
     }

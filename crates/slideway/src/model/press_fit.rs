@@ -1,7 +1,7 @@
 //! Press fits: where the play is negative both faces of a guide are pressed, and each is a contact of its own.
 
-use super::{Contact, JointKind, Model, Settings, Slider};
-use crate::fault::Faults;
+use super::{Contact, JointKind, Model, Setting, Slider};
+use crate::fault::{Faults, Source};
 use crate::ids::FormulaId;
 use std::sync::Arc;
 
@@ -31,13 +31,15 @@ impl Model {
         }
     }
 
-    /// [`Self::with`] as one value of a quantity that is varied, for all of which the contacts are those of this
-    /// model. [`Mechanism::new`](crate::mechanism::Mechanism::new) refuses play of another sign.
+    /// [`Self::with`] as values of quantities that are varied, each with the argument that says so; for all of
+    /// them the contacts are those of this model. [`Mechanism::new`](crate::mechanism::Mechanism::new) refuses
+    /// play of another sign.
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn varied_with(&self, settings: &Settings) -> Result<Self, Faults> {
-        let mut model = self.with(settings)?;
+    pub(crate) fn varied_with(&self, values: &[(Setting, Arc<str>)]) -> Result<Self, Faults> {
+        let changes = values.iter().map(|(setting, text)| (setting, Source::Argument(text.clone())));
+        let mut model = self.changed(changes)?;
         let fits = |model: &Self| -> Vec<String> {
             let faces = model.contacts().filter(|contact| contact.face.is_some());
             faces.map(|contact| contact.place().to_owned()).collect()

@@ -103,11 +103,21 @@ impl Model {
     /// Every unknown name, expression that cannot be read, dimension that has changed, and circle of
     /// parameters, each with its place in the text of the setting.
     pub fn with(&self, settings: &Settings) -> Result<Self, Faults> {
+        let numbered = settings.entries().iter().enumerate();
+        let mut model = self.changed(numbered.map(|(index, setting)| (setting, Source::Setting(index))))?;
+        model.doubts.extend(self.bare_settings(settings));
+        Ok(model)
+    }
+
+    /// It with these changes, each with the text in which its faults have their places.
+    pub(super) fn changed<'a>(
+        &self,
+        changes: impl Iterator<Item = (&'a Setting, Source)>,
+    ) -> Result<Self, Faults> {
         let mut model = self.clone();
         let mut faults = Faults::default();
-        model.doubts.extend(self.bare_settings(settings));
-        for (index, setting) in settings.entries().iter().enumerate() {
-            if let Err(fault) = model.change(setting, Source::Setting(index)) {
+        for (setting, source) in changes {
+            if let Err(fault) = model.change(setting, &source) {
                 faults.append(fault);
             }
         }
@@ -157,7 +167,7 @@ impl Model {
         Some(Fault::new(FaultKind::Doubt(doubt), place))
     }
 
-    fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {
+    fn change(&mut self, setting: &Setting, source: &Source) -> Result<(), Faults> {
         let name = setting.name.as_str();
         match setting.kind {
             SettingKind::Parameter => {
@@ -224,7 +234,7 @@ impl Model {
             let coordinate = coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
             coordinate.map(|found| dimension_of(found, setting.kind == SettingKind::Position))
         };
-        let formula = self.setting_formula(setting, Source::Setting(0), wanted)?;
+        let formula = self.setting_formula(setting, &Source::Setting(0), wanted)?;
         let mut faults = Faults::default();
         faults.extend(self.check_formula(&formula));
         faults.or(())?;
@@ -234,12 +244,17 @@ impl Model {
     fn setting_formula(
         &self,
         setting: &Setting,
-        source: Source,
+        source: &Source,
         wanted: Option<Dimension>,
     ) -> Result<Formula, Faults> {
         let start = setting.name.len() + 1;
         let expression_start = matches!(setting.value, Value::Text(_)).then_some(start);
-        let origin = Origin { source, span: start..setting.text().len(), expression_start };
+        let span = match source {
+            Source::Argument(text) if text.len() <= start => 0..text.len(),
+            Source::Argument(text) => start..text.len(),
+            _ => start..setting.text().len(),
+        };
+        let origin = Origin { source: source.clone(), span, expression_start };
         let what: Arc<str> = Arc::from(format!("the value of {}", setting.name));
         let (expression, range) = self.parsed(setting, &origin, &what)?;
         Ok(Formula {
@@ -302,7 +317,7 @@ pub(super) fn dimension_of(coordinate: &Coordinate, position: bool) -> Dimension
 fn unknown<'a>(
     what: &'static str,
     setting: &Setting,
-    source: Source,
+    source: &Source,
     known: impl Iterator<Item = &'a str> + Clone,
 ) -> Faults {
     let kind = FaultKind::UnknownName {
@@ -311,5 +326,5 @@ fn unknown<'a>(
         nearest: nearest(&setting.name, known.clone()),
         known: known.map(str::to_owned).collect(),
     };
-    Fault::new(kind, Place { source, span: 0..setting.name.len() }).into()
+    Fault::new(kind, Place { source: source.clone(), span: 0..setting.name.len() }).into()
 }

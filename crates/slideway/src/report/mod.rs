@@ -23,8 +23,8 @@ pub(crate) use json::indented;
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::no_drive_prescribes;
 pub use speed::{FromRest, SpeedChange, Stopping};
+pub(crate) use text::{LOCKED, count, locked, spaced, tips};
 pub use text::{Style, followed};
-pub(crate) use text::{count, locked, spaced};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
 use crate::units::{Unit, Units};
@@ -393,6 +393,10 @@ pub struct Margins {
     /// Just beyond this factor there is no solution, so that nothing moves; absent if there always is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
+    /// The guided sliders that tip there, so that friction need not lock it: as block sliders they show whether it
+    /// moves on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tips: Vec<String>,
     /// From this greater factor on there are solutions again; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,

@@ -291,6 +291,9 @@ impl Text<'_> {
         let mut parts = Vec::new();
         // Solutions may come back where friction is greater still.
         let beyond = |factor: f64| match margins.solutions_again {
+            None if !margins.tips.is_empty() => {
+                format!("beyond a factor of {}, where {} tips", number(factor), margins.tips.join(" and "))
+            }
             None => format!("beyond a factor of {}", number(factor)),
             Some(again) => {
                 format!(
@@ -322,10 +325,12 @@ impl Text<'_> {
         }
         if let Some(below) = margins.moves_below {
             let mu = below.mu.map_or_else(String::new, |mu| format!(" (mu below {})", number(mu)));
-            self.line(&format!(
-                "It jams: it would move with less than {} times the friction{mu}.",
-                number(below.factor)
-            ));
+            let than = format!("with less than {} times the friction{mu}", number(below.factor));
+            self.line(&if self.report.rejected.is_empty() {
+                format!("It jams: it would move {than}.")
+            } else {
+                format!("It would move without tipping {than}.")
+            });
         }
         let guides = self.report.sharing.is_some();
         if let Some(factor) = margins.uniqueness {
@@ -646,10 +651,23 @@ pub fn followed(steps: usize) -> String {
     format!("followed from the drawing in {steps}, proven to stay on its assembly branch")
 }
 
+/// What it means that there is no solution of the equations.
+pub(crate) const LOCKED: &str = "friction locks it";
+
 /// What it means that there is no solution: of a mechanism with guided sliders these have no state in which
 /// they are tipped.
 pub(crate) fn locked(has_guided_sliders: bool) -> &'static str {
-    if has_guided_sliders { "friction locks it or a guided slider tips" } else { "friction locks it" }
+    if has_guided_sliders { "friction locks it or a guided slider tips" } else { LOCKED }
+}
+
+/// That guided sliders tip, and what to model instead; none if none does.
+pub(crate) fn tips(joints: &[String]) -> Option<String> {
+    let names = joints.join(" and ");
+    match joints.len() {
+        0 => None,
+        1 => Some(format!("{names} tips, which a guided slider cannot show (model it as a block slider)")),
+        _ => Some(format!("{names} tip, which guided sliders cannot show (model them as block sliders)")),
+    }
 }
 
 pub(crate) fn count(number: usize, one: &str, several: &str) -> String {

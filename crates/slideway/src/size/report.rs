@@ -245,8 +245,8 @@ pub(super) fn report(
         guarantee: words::guarantee(*range, *steps, against, &question.varied.shown_in),
         conclusion: Vec::new(),
     };
-    report.conclusion =
-        Words { report: &report, places: &found.places, driven: !model.drives.is_empty() }.conclusion();
+    let (driven, guided) = (!model.drives.is_empty(), model.has_guided_sliders());
+    report.conclusion = Words { report: &report, places: &found.places, driven, guided }.conclusion();
     report
 }
 

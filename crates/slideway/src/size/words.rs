@@ -17,6 +17,8 @@ pub(super) struct Words<'r> {
     pub(super) places: &'r [Tried],
     /// Whether a drive prescribes the motion.
     pub(super) driven: bool,
+    /// Whether there are guided sliders: that one tips ends the margin, too, without locking.
+    pub(super) guided: bool,
 }
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
@@ -141,12 +143,17 @@ impl Words<'_> {
                 let factor = number(margin);
                 match (report.against, margin >= 1.0) {
                     (MarginKind::Locking, true) => {
-                        format!("{model}: friction may grow {factor} times before nothing moves; {met}.")
+                        let end = if self.guided {
+                            "nothing moves or a guided slider tips"
+                        } else {
+                            "nothing moves"
+                        };
+                        format!("{model}: friction may grow {factor} times before {end}; {met}.")
                     }
                     (MarginKind::Locking, false) => {
-                        format!(
-                            "{model}: it is locked; friction would have to fall to {factor} of its value."
-                        )
+                        let now =
+                            if self.guided { "a guided slider tips or it is locked" } else { "it is locked" };
+                        format!("{model}: {now}; friction would have to fall to {factor} of its value.")
                     }
                     (MarginKind::SelfLocking, true) => format!(
                         "{model}: static friction may grow {factor} times before {load} is held however great it is; {met}."

@@ -64,6 +64,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
     report.margins = Some(Margins {
         another_count: all.another_count(),
         no_solution: all.no_solution(),
+        tips: all.tips(mechanism),
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
         moves_below: all.counts.first().filter(|count| is_jammed(count)).and_then(|_| moves_below(data)),
@@ -177,6 +178,18 @@ impl Growth {
     /// The factor just beyond which there is neither a solution nor a gap state.
     fn no_solution(&self) -> Option<f64> {
         self.counts.iter().find(|count| is_jammed(count)).map(|count| count.from)
+    }
+
+    /// The guided sliders that tip at that factor.
+    fn tips(&self, mechanism: &Mechanism) -> Vec<String> {
+        let Some(at) = self.no_solution() else { return Vec::new() };
+        let ends = self.existence.modes.iter().map(|mode| &mode.to);
+        let there = ends.filter(|end| is_same_end(end.at.max(at), end.at.min(at)));
+        let bounds = there.filter_map(|end| match &end.cause {
+            EndCause::OutputBound(bounds) => Some(bounds.as_slice()),
+            _ => None,
+        });
+        mechanism.guided_sliders(&bounds.collect::<Vec<_>>().concat())
     }
 
     /// The factor beyond that from which on there are solutions or gap states again.

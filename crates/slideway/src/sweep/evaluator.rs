@@ -3,7 +3,7 @@
 use super::CHUNKS;
 use super::columns::Columns;
 use super::friction::{Friction, FrictionFormulas};
-use super::quantity::Kind;
+use super::quantity::{Kind, TIME};
 use super::rows::{Breakpoint, PointStatus, Refusal, Rows};
 use super::stages::Stages;
 use super::together::{PointsFound, Together};
@@ -14,7 +14,7 @@ use crate::fault::{FaultKind, Faults};
 use crate::influence::HingeState;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{FrictionCircle, Mechanism};
-use crate::model::{Model, Settings};
+use crate::model::{Model, Setting, SettingKind};
 use crate::modes::ContactState;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::progress::{Callback, Progress};
@@ -24,6 +24,7 @@ use crate::solve::{
 };
 use std::borrow::Cow;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 /// What a sweep varies, and what has to be computed anew at every point.
 #[derive(Debug, Clone)]
@@ -71,22 +72,27 @@ impl Plan {
     }
 
     /// What makes of the model that of a point, and the factor of its friction.
-    fn settings(&self, values: &[f64]) -> (Settings, f64) {
-        let mut settings = Settings::default();
+    ///
+    /// # Errors
+    /// Values that the model does not allow.
+    fn model_at(&self, values: &[f64]) -> Result<(Model, f64), Faults> {
+        let (parameters, coordinates) = (&self.model.parameters, &self.model.coordinates);
+        let mut settings = Vec::with_capacity(values.len());
         let mut friction = 1.0;
         for (kind, value) in self.varied.iter().zip(values) {
-            settings = match *kind {
+            let (kind, name) = match *kind {
                 Kind::Friction => {
                     friction = *value;
-                    settings
+                    continue;
                 }
-                Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, *value),
-                Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, *value),
-                Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, *value),
-                Kind::Time => settings.time(*value),
+                Kind::Parameter(index) => (SettingKind::Parameter, &*parameters[index].name),
+                Kind::Coordinate(index) => (SettingKind::Position, &*coordinates[index].name),
+                Kind::Rate(index) => (SettingKind::Rate, &*coordinates[index].name),
+                Kind::Time => (SettingKind::Time, TIME),
             };
+            settings.push((Setting::new(kind, name, *value), Arc::from(name)));
         }
-        (settings, friction)
+        Ok((self.model.varied_with(&settings)?, friction))
     }
 }
 
@@ -329,8 +335,7 @@ impl<'p> Evaluator<'p> {
                 return Ok(());
             }
         }
-        let (settings, friction) = self.plan.settings(point.values);
-        let model = self.plan.model.varied_with(&settings)?;
+        let (model, friction) = self.plan.model_at(point.values)?;
         let options = SolveOptions { margins: false, ..SolveOptions::default() };
         let report = if self.plan.varied.contains(&Kind::Friction) {
             let stages = solve::Stages::of_model(&model)?;

@@ -25,7 +25,7 @@ const UNITS: [&str; 14] = [
     "N m s/rad",
 ];
 /// The name of the time of the state.
-const TIME: &str = "time";
+pub(super) const TIME: &str = "time";
 
 /// What a varied quantity is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

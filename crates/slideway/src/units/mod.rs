@@ -44,6 +44,9 @@ pub enum UnitSystem {
     /// Millimetres, degrees, newtons, and what follows from them.
     #[serde(rename = "mm")]
     Millimetres,
+    /// Inches, degrees, pounds-force, pounds, and what follows from them.
+    #[serde(rename = "in")]
+    Inches,
 }
 
 impl Choice for UnitSystem {
@@ -55,6 +58,7 @@ impl Choice for UnitSystem {
         ),
         (Self::Si, "SI", "Those of the SI"),
         (Self::Millimetres, "mm", "Millimetres, degrees, newtons, and what follows from them"),
+        (Self::Inches, "in", "Inches, degrees, pounds-force, pounds, and what follows from them"),
     ];
 }
 
@@ -174,6 +178,7 @@ impl Units {
             }
             UnitSystem::Si => Unit::si_unit(si),
             UnitSystem::Millimetres => millimetres(si),
+            UnitSystem::Inches => inches(si),
         }
     }
 
@@ -224,6 +229,29 @@ fn millimetres(si: &str) -> Unit {
         _ => return Unit::si_unit(si),
     };
     Unit::new(name, si, [numerator, denominator])
+}
+
+/// The units of drawings in inches: in, lbf, lb and s, but angles in degrees, pressures in psi, powers in hp.
+fn inches(si: &str) -> Unit {
+    let name = match si {
+        "m" => "in",
+        "rad" => "deg",
+        "kg" => "lb",
+        "kg m^2" => "lb in^2",
+        "N" => "lbf",
+        "N m" | "J" => "lbf in",
+        "m/s" => "in/s",
+        "m/s^2" => "in/s^2",
+        "N/m" => "lbf/in",
+        "N s/m" => "lbf s/in",
+        "N m/rad" => "lbf in/rad",
+        "N m s/rad" => "lbf in s/rad",
+        "Pa" => "psi",
+        "W" => "hp",
+        _ => return Unit::si_unit(si),
+    };
+    // Of a torque and an energy the unit is the same.
+    Unit::of_text(name).map_or_else(|| Unit::si_unit(si), |unit| Unit::new(name, si, unit.in_si()))
 }
 
 impl From<&WrittenUnit> for Unit {
@@ -306,6 +334,7 @@ mod tests {
     fn systems_take_the_place_of_what_was_typed() {
         let typed = units(&["cm", "deg", "kN"]);
         let shown = |system| ["m", "rad", "N"].map(|si| typed.in_system(system).of(si).name().to_owned());
+        assert_eq!(shown(UnitSystem::Inches), ["in", "deg", "lbf"]);
         assert_eq!(shown(UnitSystem::AsTyped), ["cm", "deg", "kN"]);
         assert_eq!(shown(UnitSystem::Si), ["m", "rad", "N"]);
         assert_eq!(shown(UnitSystem::Millimetres), ["mm", "deg", "N"]);

@@ -60,6 +60,11 @@ impl Unit {
         &self.si
     }
 
+    /// This unit in SI units, as a quotient.
+    pub(super) fn in_si(&self) -> [f64; 2] {
+        [self.numerator, self.denominator]
+    }
+
     /// This unit in SI units.
     pub fn scale(&self) -> f64 {
         self.numerator / self.denominator

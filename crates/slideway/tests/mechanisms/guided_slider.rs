@@ -2,8 +2,8 @@
 
 use crate::answers::{acceleration, assert_close, only, report_on};
 use proptest::prelude::*;
-use slideway::Report;
-use slideway::report::{SolveReport, Status};
+use slideway::report::{SolveReport, Status, Style};
+use slideway::{DriveOptions, LimitsOptions, Model, Report, Settings, Vary, drive, limits, solve};
 
 /// One body on one slider, with a force and a torque.
 #[derive(Debug, Clone)]
@@ -238,4 +238,66 @@ fn the_line_of_the_preload_shows_in_the_couple() {
         assert_close(solution.contacts[0].couple.unwrap(), couple, 1.0, 1e-12);
         assert_close(acceleration(solution, "sledge")[0], -3.0, 0.0, 1e-12);
     }
+}
+
+/// A press and a wedge from an independent review: where their guided sliders tip, block sliders move.
+const PRESS: &str = include_str!("../findings/tipping_press.toml");
+const WEDGE: &str = include_str!("../findings/tipping_wedge.toml");
+
+fn with_mu(text: &str, mu: f64) -> Model {
+    let model = Model::parse(text).expect("sound");
+    model.with(&Settings::default().parameter("mu", mu)).expect("a coefficient of friction")
+}
+
+fn is_no_lock(text: &str) {
+    assert!(
+        !text.contains("jams") && !text.contains("friction locks") && !text.contains("no effort"),
+        "{text}"
+    );
+}
+
+/// The bed is 0.1 m long, and friction acts 0.04 m from its middle: `0.04 m mu N <= 0.05 m N` up to mu = 1.25.
+#[test]
+fn a_slider_that_tips_is_not_told_as_locked() {
+    let model = with_mu(PRESS, 1.3);
+    let solved = solve(&model).expect("an answer").text(Style::Plain);
+    let below = "It would move without tipping with less than 0.96154 times the friction (mu below 1.25).";
+    assert!(solved.contains(below), "{solved}");
+    is_no_lock(&solved);
+    let driven = drive(&model, &DriveOptions::default()).expect("an answer");
+    assert!(driven.directions.iter().all(|direction| direction.tips == ["bed"]));
+    let tips =
+        "Moving as in the model: bed tips, which a guided slider cannot show (model it as a block slider).";
+    assert_eq!(driven.conclusion[0], tips);
+    is_no_lock(&driven.text(Style::Plain));
+    let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 2.0))).expect("an answer");
+    let [moves, tips] = limits.counts.as_slice() else { panic!("{:?}", limits.counts) };
+    assert_eq!((moves.solutions, tips.solutions), (1, 0));
+    assert!((tips.from - 1.25).abs() < 1e-9, "{}", tips.from);
+    let tipping = tips.tipping.as_ref().expect("it tips");
+    assert_eq!((tipping.joints.as_slice(), tipping.throughout), (["bed".to_owned()].as_slice(), true));
+    is_no_lock(&limits.conclusion.join(" "));
+    assert_eq!(
+        solve(&with_mu(&PRESS.replace("guided", "block"), 1.3)).expect("an answer").status,
+        Status::One
+    );
+}
+
+/// As an independent review found, the floor tips beyond 11.39 times the friction of 0.3; block sliders move at 3.5.
+#[test]
+fn a_margin_that_tipping_ends_says_so() {
+    let model = Model::parse(WEDGE).expect("sound");
+    let margins = solve(&model).expect("an answer").margins.expect("few modes");
+    assert_eq!(margins.tips, ["floor"]);
+    assert!((margins.no_solution.expect("it tips") - 11.39).abs() < 0.005);
+    let driven = drive(&model, &DriveOptions::default()).expect("an answer");
+    assert_eq!(driven.directions[0].tips, ["floor"]);
+    let beyond = "Moving as in the model: beyond 11.39178 times the friction floor tips, which a guided slider cannot \
+                  show (model it as a block slider).";
+    assert!(driven.conclusion.iter().any(|sentence| sentence == beyond), "{:?}", driven.conclusion);
+    is_no_lock(&driven.conclusion.join(" "));
+    assert_eq!(
+        solve(&with_mu(&WEDGE.replace("guided", "block"), 3.5)).expect("an answer").status,
+        Status::One
+    );
 }

@@ -5,7 +5,7 @@ use crate::random_mechanisms::mechanisms;
 use proptest::prelude::*;
 use serde::Deserialize;
 use slideway::drive::{DriveOptions, drive};
-use slideway::fault::{AxisProblem, FaultKind, Faults};
+use slideway::fault::{AxisProblem, FaultKind, Faults, Place, Source};
 use slideway::gallery;
 use slideway::limits::{LimitsMethod, LimitsOptions, LimitsReport, ModeLimits, Vary, limits, rest_limits};
 use slideway::model::{Model, Settings};
@@ -256,8 +256,9 @@ fn names_and_ranges_that_make_no_sense_are_told() {
     let told = |vary: &str, words: &str, part: &str| {
         let faults = faults(vary);
         let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
-        let span = fault.place.clone().expect("a place").span;
-        let argument = fault.argument.as_deref().expect("an argument");
+        let Some(Place { source: Source::Argument(argument), span }) = fault.place.clone() else {
+            panic!("{fault:?} lies in no argument")
+        };
         assert_eq!((fault.kind.to_string().as_str(), &argument[span]), (words, part));
     };
     told("l=1 m..2 kg", "a mass where a length is expected", "2 kg");

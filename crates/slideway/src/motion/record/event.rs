@@ -2,7 +2,7 @@
 
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, Frame, JointId};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Slider};
 use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
 use crate::motion::moving::cause::Cause;
@@ -235,9 +235,20 @@ impl Words<'_> {
         format!("{} {verb} {sense} against {}", name(first.frame), name(second.frame))
     }
 
+    /// Whether a joint without friction stands still: the direction of its phase means nothing then.
+    fn stands_freely(&self, slider: &Slider) -> bool {
+        slider.contacts.iter().all(|&contact| {
+            self.mechanism.contacts[contact.index()].is_frictionless()
+                && self.configuration.contact(self.mechanism, contact).sliding_velocity == 0.0
+        })
+    }
+
     /// What a sliding joint does: "is now on the upper side of the slot, sliding to the right".
     fn state(&self, verb: &str, index: usize, joint: JointId, phase: &Phase) -> String {
         match (phase.joints[index], self.mechanism.slider(joint)) {
+            (JointPhase::Sliding(_), Some(slider)) if self.stands_freely(slider) => {
+                self.mode(verb, joint, phase)
+            }
             (JointPhase::Sliding(sign), Some(slider)) => {
                 let tangent = self.configuration.slide(self.mechanism, slider).tangent;
                 format!("{}, sliding {}", self.mode(verb, joint, phase), direction_in_words(tangent * sign))

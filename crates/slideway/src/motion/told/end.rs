@@ -45,7 +45,7 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, Strin
         End::Tips(id) => (
             EndKind::Tips,
             format!(
-                "It ends at {time}: {} tips in its guide, which a guided slider cannot represent.",
+                "It ends at {time}: {} tips in its guide, which a guided slider cannot show: model it as a block slider.",
                 joint(id)
             ),
         ),
