@@ -29,12 +29,13 @@ impl State<'_> {
     pub(in crate::standstill) fn sticking_region(&self, static_friction: &StaticFriction) -> Region {
         let sticks = |slider: &usize| self.pattern.joints[*slider] == JointPhase::Sticking;
         let (sticking, sliding): (Vec<usize>, Vec<usize>) = (0..self.setup.sliders.len()).partition(sticks);
-        let bounds = |sliders: Vec<usize>| {
-            sliders.into_iter().flat_map(|slider| self.bounds_of(slider, static_friction))
+        let bounds = |sliders: &[usize]| -> Vec<Affine> {
+            let all = sliders.iter().flat_map(|slider| self.bounds_of(*slider, static_friction));
+            all.map(|slack| self.function(&slack)).collect()
         };
-        let sticking = bounds(sticking).chain(self.pushes().into_iter().flatten());
-        let open = bounds(sliding).map(|slack| self.function(&slack)).filter(Affine::varies);
-        let slacks = sticking.map(|slack| self.function(&slack)).chain(open).collect();
+        let mut slacks = bounds(&sticking);
+        slacks.extend(self.pushes().iter().flatten().map(|slack| self.function(slack)));
+        slacks.extend(bounds(&sliding).into_iter().filter(Affine::varies));
         self.within(slacks, static_friction)
     }
 

@@ -255,7 +255,7 @@ impl Collision<'_> {
         let leaves = |hit: &Hit| -self.velocities[hit.joint].signum() * course.velocities[hit.joint];
         let wanted = |hit: &Hit| hit.restitution * self.velocities[hit.joint].abs();
         let bounces = self.pushing().map(|(_, hit)| hit).filter(|hit| wanted(hit) > 0.0);
-        let reached = bounces.map(|hit| leaves(hit) / wanted(hit)).fold(1.0, f64::min).max(0.0);
+        let reached = bounces.map(|hit| leaves(hit) / wanted(hit)).fold(1.0_f64, f64::min).max(0.0);
         let is_left = |hit: &Hit| leaves(hit) >= reached * wanted(hit) - self.rounding();
         Ok(self.hits.iter().all(is_left).then_some(course))
     }
@@ -275,16 +275,16 @@ impl Collision<'_> {
         targets: &[(usize, f64)],
         unsolved: &mut usize,
     ) -> Result<bool, Faults> {
-        for _ in 0..=4 * course.velocities.len() {
+        for _ in 0..4 * course.velocities.len() + 2 {
             if targets.iter().all(|(joint, target)| course.velocities[*joint] == *target) {
                 return Ok(true);
             }
             course.velocities.iter_mut().for_each(|velocity| *velocity = self.without_rounding(*velocity));
-            let Some((change, most)) = self.change(pushed, course, targets, unsolved)? else {
+            let Some((change, reaches)) = self.change(pushed, course, targets, unsolved)? else {
                 return Ok(false);
             };
-            let (part, stops) =
-                until_one_stops(pushed, &course.velocities, (&change.velocities, most), targets);
+            let ends: (f64, &[(usize, f64)]) = if reaches { (1.0, targets) } else { (f64::INFINITY, &[]) };
+            let (part, stops) = until_one_stops(pushed, &course.velocities, &change.velocities, ends);
             let returned = self.returned(course, (&change, part));
             let part = returned.unwrap_or(part);
             if !part.is_finite() {
@@ -300,18 +300,17 @@ impl Collision<'_> {
         Ok(false)
     }
 
-    /// How everything changes next, and the part of the change that would reach the targets. Where pushing makes joints
-    /// faster towards their stops it goes on until something stops; where no stop can push, friction wedges what moves
-    /// towards them.
+    /// How everything changes next, and whether that leads to the targets. Where pushing makes joints faster towards their
+    /// stops it goes on until something stops; where no stop can push, friction wedges what moves towards them.
     fn change(
         &self,
         pushed: &dyn Pushed,
         course: &AfterImpact,
         targets: &[(usize, f64)],
         unsolved: &mut usize,
-    ) -> Result<Option<(Change, f64)>, Faults> {
+    ) -> Result<Option<(Change, bool)>, Faults> {
         if let Some(change) = pushed.change(&course.velocities, targets, unsolved)? {
-            return Ok(Some((change, 1.0)));
+            return Ok(Some((change, true)));
         }
         if !self.wedges {
             return Ok(None);
@@ -319,7 +318,7 @@ impl Collision<'_> {
         let away = |&(joint, target): &(usize, f64)| (joint, 2.0 * course.velocities[joint] - target);
         let away: Vec<(usize, f64)> = targets.iter().map(away).collect();
         if let Some(change) = pushed.change(&course.velocities, &away, unsolved)? {
-            return Ok(Some((change, f64::INFINITY)));
+            return Ok(Some((change, false)));
         }
         let nears = |(_, hit): (usize, &Hit)| {
             course.velocities[hit.joint] * self.velocities[hit.joint].signum() > 0.0
@@ -327,7 +326,7 @@ impl Collision<'_> {
         if !self.pushing().any(nears) {
             return Ok(None);
         }
-        Ok(pushed.wedged(course)?.map(|change| (change, f64::INFINITY)))
+        Ok(pushed.wedged(course)?.map(|change| (change, false)))
     }
 
     /// A part of a change.
@@ -370,12 +369,12 @@ impl Collision<'_> {
     }
 }
 
-/// The fraction of the change until another joint or hinge stops, and which; the greatest if none does.
+/// The fraction of a change until a joint or hinge stops, and which, other than those whose target that is; `most` if none does.
 fn until_one_stops(
     pushed: &dyn Pushed,
     velocities: &[f64],
-    (changes, most): (&[f64], f64),
-    targets: &[(usize, f64)],
+    changes: &[f64],
+    (most, targets): (f64, &[(usize, f64)]),
 ) -> (f64, Option<usize>) {
     let mut first = (most, None);
     for (joint, (velocity, change)) in velocities.iter().zip(changes).enumerate() {
