@@ -56,7 +56,7 @@ fn differences(text: &str, duration: f64) -> Vec<String> {
         all.push(format!("{:?} {:?}", alone.end, beside.end));
     }
     let last =
-        |history: &History| history.reader().at(history.last.time).map(|sample| sample.configuration.clone());
+        |history: &History| history.reader().at(history.stop()).map(|sample| sample.configuration.clone());
     if let (true, Some(one), Some(other)) = (alone.end == End::Finished, last(alone), last(beside)) {
         let states = one.coordinates.iter().chain(&one.rates);
         let others = other.coordinates[..one.coordinates.len()].iter().chain(&other.rates);

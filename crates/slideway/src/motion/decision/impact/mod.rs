@@ -340,7 +340,7 @@ impl Collision<'_> {
         }
     }
 
-    /// `sum_i -d_i P_i (v_i + c_i/2)` of the stops that push, with the sense d_i in which their joints reach them: what they
+    /// `sum_i -d_i P_i (v_i + c_i/2)` of the stops that push, with the sense `d_i` in which their joints reach them: what they
     /// have done before, and the linear and the quadratic term of a part of a change.
     fn works(&self, course: &AfterImpact, change: &Change) -> [f64; 3] {
         let terms = self.pushing().zip(&change.impulses).map(|((_, hit), impulse)| {

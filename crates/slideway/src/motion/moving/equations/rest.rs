@@ -69,7 +69,7 @@ pub(in crate::motion) fn independent(mechanism: &Mechanism) -> Vec<usize> {
     let loads = mechanism.loads.iter().map(|load| bodies_of_load(mechanism, &load.kind).concat());
     let drives = mechanism.drives.iter().map(|drive| {
         let further = bodies_of_quantity(mechanism, drive.acceleration);
-        bodies_of_drive(mechanism, drive).chain(further).collect()
+        bodies_of_drive(mechanism, drive).chain(further).collect::<Vec<BodyId>>()
     });
     for together in loads.chain(drives) {
         together.windows(2).for_each(|pair| join(&mut parts, pair[0].index(), pair[1].index()));
