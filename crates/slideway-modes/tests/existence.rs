@@ -361,7 +361,8 @@ fn too_many_patterns_are_refused() -> Result<(), Box<dyn Error>> {
 /// their ends are rounded; those that begin or end elsewhere do.
 #[test]
 fn whether_anything_is_left_is_read_from_the_counts() {
-    let interval = |from, to, solutions| CountInterval { from, to, solutions, gap_states: 0 };
+    let interval =
+        |from, to, solutions| CountInterval { from, to, solutions, gap_states: 0, continuum: false };
     let counts = [interval(0.0, 1.0, 1), interval(1.0, 2.0, 0), interval(2.0, 3.0, 2)];
     for (end, begins, expected) in [
         (1.0, false, true),

@@ -69,6 +69,7 @@ fn one_direction(direction: &Direction, locked: &str) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
         let without = format!("no solution: {locked}");
         let verdict = match (count.solutions, count.preload_gap_states) {
+            _ if count.continuum => "infinitely many solutions",
             (0, 0) => &without,
             (0, _) => "no solution, but a state in a preload gap",
             (1, _) => "one solution",
@@ -78,7 +79,7 @@ fn one_direction(direction: &Direction, locked: &str) -> Vec<Piece> {
         };
         let whole = Piece { from: count.from, to: count.to, verdict: verdict.to_owned(), known: count.known };
         match count.solutions {
-            1 => by_speed(whole, &direction.modes),
+            1 if !count.continuum => by_speed(whole, &direction.modes),
             _ => vec![whole],
         }
     };
@@ -117,7 +118,7 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &
         let middle = f64::midpoint(pair[0], pair[1]);
         let at = |counts: &[CountLimits]| {
             let count = counts.iter().find(|count| count.from < middle && middle < count.to)?;
-            Some((count.solutions + count.preload_gap_states > 0, count.known))
+            Some((!count.is_empty(), count.known))
         };
         let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
         let verdict = match (one, other) {

@@ -199,6 +199,8 @@ pub struct CountLimits {
     pub solutions: usize,
     /// Number of preload-gap states, which are counted apart.
     pub preload_gap_states: usize,
+    /// Whether there are infinitely many solutions, besides these.
+    pub continuum: bool,
     /// How these numbers are known.
     pub known: Known,
     /// The stretches for all values of which they are proven, both ends included. If `known` is `proven`
@@ -225,6 +227,11 @@ pub enum Known {
 }
 
 impl CountLimits {
+    /// Whether there is neither a solution nor a preload-gap state.
+    pub fn is_empty(&self) -> bool {
+        self.solutions + self.preload_gap_states == 0 && !self.continuum
+    }
+
     /// The widest part of the interval that is not proven; all of it if nothing is.
     pub fn left_out(&self) -> f64 {
         left_out([self.from, self.to], &self.proven)

@@ -68,7 +68,10 @@ impl SolveReport {
             Status::Continuum if self.continua.iter().any(|continuum| continuum.couple.is_some()) => {
                 "Infinitely many solutions: a hinge that never turns has no kinetic friction, and its couple is free within limits.".to_owned()
             }
-            Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            Status::Continuum => match &self.undetermined {
+                Some(undetermined) => format!("Infinitely many solutions: {}.", undetermined.cause()),
+                None => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            },
             Status::PreloadGap if self.partial || !self.undecided_modes.is_empty() => {
                 "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
             }
@@ -207,6 +210,10 @@ impl Text<'_> {
         }
         if let Some(remark) = report.remark() {
             self.line(&remark);
+        }
+        if let Some(undetermined) = &report.undetermined {
+            undetermined.in_words(&report.model.units).iter().for_each(|line| self.line(line));
+            undetermined.advice().iter().for_each(|line| self.line(line));
         }
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
