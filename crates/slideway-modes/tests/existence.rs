@@ -382,3 +382,22 @@ fn whether_anything_is_left_is_read_from_the_counts() {
     let gap = [interval(0.0, 1.0, 1), CountInterval { gap_states: 1, ..interval(1.0, 2.0, 0) }];
     assert!(!nothing_is_left(&gap, 1.0, false, is_same_end));
 }
+
+/// A force that vanishes for every parameter has no zeros to cut at: with N_2 = 0 throughout, both of its sides have the
+/// solution N_1 = 1 / (1 - t/10) in the whole range, which counts once.
+#[test]
+fn a_force_that_vanishes_throughout_ends_no_mode() -> Result<(), Box<dyn Error>> {
+    let at = |t: f64| {
+        let columns = |side: f64| dmatrix![side - 0.1 * t, 0.2 * t; 0.0, side + 0.3 * t];
+        let none = || DMatrix::zeros(2, 2);
+        ModeProblem::new(columns(1.0), columns(-1.0), none(), none(), dvector![1.0, 0.0])
+    };
+    let line = ModeProblemLine::between(&at(0.0)?, &at(1.0)?);
+    let existence = line.existence(&options(0.0, 2.0))?;
+    assert!(existence.not_computed.is_empty(), "{:?}", existence.not_computed);
+    let found: Vec<_> = existence.modes.iter().map(|mode| (signs(mode), mode.from.at, mode.to.at)).collect();
+    assert_eq!(found, [("++".to_owned(), 0.0, 2.0), ("+-".to_owned(), 0.0, 2.0)]);
+    let counts = counts(&line, &existence, [0.0, 2.0]);
+    assert_eq!(counts.iter().map(|count| count.solutions).collect::<Vec<_>>(), [1]);
+    Ok(())
+}

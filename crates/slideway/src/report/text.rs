@@ -123,6 +123,13 @@ impl SolveReport {
         self.solutions.iter().any(slows_though_pushed).then(friction_takes_more)
     }
 
+    /// Between which values infinitely many solutions lie, and what leaves one: a sentence for each kind of quantity.
+    pub fn undetermined_in_words(&self) -> Vec<String> {
+        let Some(undetermined) = &self.undetermined else { return Vec::new() };
+        let advice = undetermined.advice().map(str::to_owned);
+        undetermined.in_words(&self.model.units).into_iter().chain(advice).collect()
+    }
+
     /// What becomes of the speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down,
     /// and would stop after 0.1 s and 0.2 m if nothing changed."
     pub fn speeds_in_words(&self, solution: &Solution) -> Vec<String> {
@@ -211,10 +218,7 @@ impl Text<'_> {
         if let Some(remark) = report.remark() {
             self.line(&remark);
         }
-        if let Some(undetermined) = &report.undetermined {
-            undetermined.in_words(&report.model.units).iter().for_each(|line| self.line(line));
-            undetermined.advice().iter().for_each(|line| self.line(line));
-        }
+        report.undetermined_in_words().iter().for_each(|line| self.line(line));
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
             self.line(&format!("{listed} of them are listed."));
