@@ -122,7 +122,6 @@ pub struct DriveSolution {
 #[non_exhaustive]
 pub struct EffortRange {
     /// The least and the greatest effort of each drive, and what leaves them open.
-    #[serde(flatten)]
     pub undetermined: Undetermined,
     /// The least and the greatest power of all drives together (W); null where it is unbounded.
     pub power: [Option<f64>; 2],

@@ -34,11 +34,6 @@ impl OpenRange {
             (None, None) => "of any value".to_owned(),
         }
     }
-
-    /// The greatest absolute value; none if it is unbounded.
-    pub(crate) fn greatest(&self) -> Option<f64> {
-        Some(self.from?.abs().max(self.to?.abs()))
-    }
 }
 
 /// What infinitely many solutions leave open, and between which values.
@@ -59,7 +54,7 @@ impl Undetermined {
     /// What is undetermined, in a few words: "how left, right share the load is undetermined".
     pub(crate) fn cause(&self) -> String {
         match self.sharing.as_slice() {
-            [] => "forces are undetermined".to_owned(),
+            [] => "a mode with vanishing determinant leaves forces undetermined".to_owned(),
             joints => format!("how {} share the load is undetermined", joints.join(", ")),
         }
     }
