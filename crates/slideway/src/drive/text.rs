@@ -42,8 +42,6 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
                 without_bound(report, blow_up)
             )
         }));
-        let open = direction.range.as_ref().and_then(|range| range.undetermined.advice());
-        sentences.extend(open.map(str::to_owned).filter(|advice| !sentences.contains(advice)));
         // A jam that no growing effort announces.
         let is_announced =
             |factor: f64| direction.blow_ups.iter().flatten().any(|blow_up| near(blow_up.at, factor));
@@ -56,6 +54,8 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
             )
         }));
     }
+    let ranges = report.directions.iter().filter_map(|direction| direction.range.as_ref());
+    sentences.extend(ranges.filter_map(|range| range.undetermined.advice()).map(str::to_owned).next());
     sentences
 }
 
