@@ -361,7 +361,8 @@ fn too_many_patterns_are_refused() -> Result<(), Box<dyn Error>> {
 /// their ends are rounded; those that begin or end elsewhere do.
 #[test]
 fn whether_anything_is_left_is_read_from_the_counts() {
-    let interval = |from, to, solutions| CountInterval { from, to, solutions, gap_states: 0 };
+    let interval =
+        |from, to, solutions| CountInterval { from, to, solutions, gap_states: 0, continuum: false };
     let counts = [interval(0.0, 1.0, 1), interval(1.0, 2.0, 0), interval(2.0, 3.0, 2)];
     for (end, begins, expected) in [
         (1.0, false, true),
@@ -380,4 +381,23 @@ fn whether_anything_is_left_is_read_from_the_counts() {
     // A state in a preload gap is something to move in.
     let gap = [interval(0.0, 1.0, 1), CountInterval { gap_states: 1, ..interval(1.0, 2.0, 0) }];
     assert!(!nothing_is_left(&gap, 1.0, false, is_same_end));
+}
+
+/// A force that vanishes for every parameter has no zeros to cut at: with N_2 = 0 throughout, both of its sides have the
+/// solution N_1 = 1 / (1 - t/10) in the whole range, which counts once.
+#[test]
+fn a_force_that_vanishes_throughout_ends_no_mode() -> Result<(), Box<dyn Error>> {
+    let at = |t: f64| {
+        let columns = |side: f64| dmatrix![side - 0.1 * t, 0.2 * t; 0.0, side + 0.3 * t];
+        let none = || DMatrix::zeros(2, 2);
+        ModeProblem::new(columns(1.0), columns(-1.0), none(), none(), dvector![1.0, 0.0])
+    };
+    let line = ModeProblemLine::between(&at(0.0)?, &at(1.0)?);
+    let existence = line.existence(&options(0.0, 2.0))?;
+    assert!(existence.not_computed.is_empty(), "{:?}", existence.not_computed);
+    let found: Vec<_> = existence.modes.iter().map(|mode| (signs(mode), mode.from.at, mode.to.at)).collect();
+    assert_eq!(found, [("++".to_owned(), 0.0, 2.0), ("+-".to_owned(), 0.0, 2.0)]);
+    let counts = counts(&line, &existence, [0.0, 2.0]);
+    assert_eq!(counts.iter().map(|count| count.solutions).collect::<Vec<_>>(), [1]);
+    Ok(())
 }

@@ -41,6 +41,5 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
         picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;
     }
     output.tell(&report, arguments.format)?;
-    let moves = report.directions.first().is_some_and(|direction| !direction.solutions.is_empty());
-    Ok(if moves { Outcome::Done } else { Outcome::NoSolution })
+    Ok(report.directions.first().map_or(Outcome::Done, |direction| Outcome::from(direction.status)))
 }

@@ -19,6 +19,21 @@ pub struct CountInterval {
     pub solutions: usize,
     /// Number of preload-gap states, which do not count as solutions.
     pub gap_states: usize,
+    /// Whether there are infinitely many solutions, besides these.
+    pub continuum: bool,
+}
+
+impl CountInterval {
+    /// Whether another interval has the same numbers.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let numbers = |one: &Self| (one.solutions, one.gap_states, one.continuum);
+        numbers(self) == numbers(other)
+    }
+
+    /// Whether there is neither a solution nor a gap state.
+    pub fn is_empty(&self) -> bool {
+        self.solutions + self.gap_states == 0 && !self.continuum
+    }
 }
 
 /// The number of solutions in each interval of a range; neighbours with equal numbers are joined.
@@ -51,13 +66,10 @@ pub fn counts_in(
         let (solutions, gaps): (Vec<_>, Vec<_>) =
             present.into_iter().partition(|mode| existence.open.is_solution(&mode.pattern));
         let [solutions, gap_states] = [solutions, gaps].map(|modes| distinct(&modes, inside));
+        let next = CountInterval { from: cell[0], to: cell[1], solutions, gap_states, continuum: false };
         match intervals.last_mut() {
-            Some(last)
-                if last.to == cell[0] && (last.solutions, last.gap_states) == (solutions, gap_states) =>
-            {
-                last.to = cell[1];
-            }
-            _ => intervals.push(CountInterval { from: cell[0], to: cell[1], solutions, gap_states }),
+            Some(last) if last.to == cell[0] && last.is_like(&next) => last.to = cell[1],
+            _ => intervals.push(next),
         }
     }
     intervals
@@ -88,7 +100,7 @@ pub fn nothing_is_left(
     } else {
         Some(upper)
     };
-    beyond.is_some_and(|interval| interval.solutions + interval.gap_states == 0)
+    beyond.is_some_and(CountInterval::is_empty)
 }
 
 /// A place inside a cell.

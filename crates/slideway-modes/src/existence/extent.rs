@@ -95,7 +95,7 @@ fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
     }
     for condition in reduced.order(range) {
         let cause = Cause::Conditions(vec![condition]);
-        if signs.numerators[condition].is_none() {
+        if signs.numerators[condition].is_none() && !reduced.vanishes_throughout(condition, range) {
             cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
         }
         parts.retain(|part| reduced.value(condition, part.middle()).is_some_and(Value::is_met));

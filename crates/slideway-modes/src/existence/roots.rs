@@ -121,6 +121,14 @@ impl Reduced {
         value.is_finite().then_some(Value { value, magnitude })
     }
 
+    /// Whether a condition is an equality for all parameters, within rounding: the numerator of its value has at most
+    /// one degree more than there are varying columns, and vanishes throughout if it does at one place more.
+    pub(super) fn vanishes_throughout(&self, condition: usize, [from, to]: [f64; 2]) -> bool {
+        let places = self.k.nrows() + 2;
+        let place = |index: usize| from + (to - from) * (index as f64 + 0.5) / places as f64;
+        (0..places).all(|index| self.value(condition, place(index)).is_some_and(Value::vanishes))
+    }
+
     /// Where `det A(t)` may vanish: `tau = -1 / (eigenvalue of K)`. `None` if the eigenvalues could not be
     /// computed.
     pub(super) fn poles(&self) -> Option<Vec<Root>> {

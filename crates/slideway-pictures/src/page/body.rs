@@ -96,7 +96,10 @@ fn answer_at(parameters: &[String], report: &SolveReport) -> String {
         count(model.contacts, "contact", "contacts"),
         coordinates.join("; "),
         text(&at_middle(parameters, &crate::drawing::answer(report))),
-        all(report.for_all_values().iter().chain(&report.open), |line| format!("<p>{}</p>\n", text(line))),
+        all(
+            report.undetermined_in_words().iter().chain(&report.for_all_values()).chain(&report.open),
+            |line| format!("<p>{}</p>\n", text(line))
+        ),
         all(report.remark(), |line| format!("<p>{}</p>\n", text(&line))),
         all(
             report.sharing.iter().flat_map(|sharing: &LoadSharing| sharing.in_words(&report.model.units)),

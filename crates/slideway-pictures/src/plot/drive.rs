@@ -194,7 +194,8 @@ impl Builder<'_> {
             hatching,
             meaning: meaning.to_owned(),
         };
-        let is_locked = |row: &CourseRow| row.pattern.is_none() && row.frictionless.is_some();
+        let is_locked =
+            |row: &CourseRow| row.pattern.is_none() && row.range.is_none() && row.frictionless.is_some();
         let runs = direction.rows.chunk_by(|one, other| is_locked(one) == is_locked(other));
         let mut before: Option<&CourseRow> = None;
         let mut zones = Vec::new();
@@ -209,6 +210,13 @@ impl Builder<'_> {
             }
             before = run.last();
         }
+        let is_open = |row: &CourseRow| row.range.is_some();
+        let runs = direction.rows.chunk_by(|one, other| is_open(one) == is_open(other));
+        let meaning = "infinitely many solutions: efforts undetermined";
+        zones.extend(
+            runs.filter(|run| is_open(&run[0]))
+                .map(|run| zone(run[0].at, run[run.len() - 1].at, Hatching::Dotted, meaning)),
+        );
         zones.extend(direction.without_mode_problem.iter().map(|range| {
             zone(range.from, range.to, Hatching::Falling, "excluded: cannot be assembled or solved")
         }));

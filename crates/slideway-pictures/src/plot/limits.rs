@@ -317,9 +317,7 @@ fn zones(
     [first, last]: [f64; 2],
     scale: f64,
 ) -> Vec<Zone> {
-    let locked = counts
-        .iter()
-        .filter(|count| count.solutions + count.preload_gap_states == 0 && count.known != Known::Undecided);
+    let locked = counts.iter().filter(|count| count.is_empty() && count.known != Known::Undecided);
     let zone = |[from, to]: [f64; 2], hatching: Hatching, meaning: &str| Zone {
         from: from / scale,
         to: to / scale,

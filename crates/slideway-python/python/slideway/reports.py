@@ -72,8 +72,10 @@ __all__ = [
     "DriveReport",
     "DriveSolution",
     "DriveSummary",
+    "DrivenMotion",
     "Efficiency",
     "EfficiencyKind",
+    "EffortRange",
     "EigenvalueUnit",
     "Elasticity",
     "End",
@@ -127,6 +129,7 @@ __all__ = [
     "ModeMargin",
     "ModelSummary",
     "Named",
+    "OpenRange",
     "Panel",
     "PatternSummary",
     "Persistence",
@@ -175,6 +178,7 @@ __all__ = [
     "UncertainParameter",
     "Uncertainty",
     "UndecidedMode",
+    "Undetermined",
     "Unlocking",
     "VariedQuantity",
     "Verdict",
@@ -420,13 +424,21 @@ MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force"
 - `"pressure"`: Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
 - `"efficiency"`: Not a factor but the least efficiency."""
 
-MarginsMissing = Literal["too_many_modes", "between_faces", "nothing_presses", "floats", "friction_in_hinges"]
+MarginsMissing = Literal[
+    "too_many_modes",
+    "between_faces",
+    "nothing_presses",
+    "floats",
+    "undetermined",
+    "friction_in_hinges",
+]
 """Why margins of friction were not computed.
 
 - `"too_many_modes"`: There are too many modes.
 - `"between_faces"`: A guided slider is between its faces, which is no mode that could be followed.
 - `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face.
 - `"floats"`: The block floats within the play of redundant guides.
+- `"undetermined"`: There are infinitely many solutions.
 - `"friction_in_hinges"`: Solutions with friction in hinges are not followed all together."""
 
 MetEnd = Literal["range", "margin", "jump", "no_position"]
@@ -540,13 +552,15 @@ RawUnknown = Literal["z", "w", "u", "x", "normal_forces", "y", "payoff_1", "payo
 - `"payoff_2"`: The second player's payoff.
 - `"lambda"`: The share lambda of an unknown in its gap."""
 
-SampleKind = Literal["finite", "infinite", "no_solution", "no_position"]
+SampleKind = Literal["finite", "infinite", "no_solution", "without_bound", "no_position"]
 """What a sample says.
 
 - `"finite"`: The margin is a number.
 - `"infinite"`: No friction reaches the limit.
 - `"no_solution"`: There is no solution, of which an effort, normal force, bearing pressure or efficiency
 could be told, or none has any efficiency: friction takes all that the load would give.
+- `"without_bound"`: There are infinitely many solutions, in which an effort, normal force or bearing pressure
+is without bound, or an efficiency as small as can be.
 - `"no_position"`: The mechanism cannot be assembled or solved there, or a guided slider is between its faces."""
 
 Sense = Literal["model", "reversed"]
@@ -974,6 +988,11 @@ class Continuum(Record):
     directions."""
     directions: tuple[NDArray[np.float64], ...]
     """Directions in which the normal forces may grow without bound."""
+    motion: tuple[DrivenMotion, ...] = ()
+    """Efforts and accelerations at each vertex; none where a preload may rub at either face, and if a couple is
+    free."""
+    motion_along: tuple[DrivenMotion, ...] = ()
+    """What a unit of each direction adds to them."""
     tipping: tuple[str, ...]
     """The guided sliders that would tip in a part of it."""
     couple: CoupleRange | None = None
@@ -1089,6 +1108,8 @@ class CountLimits(Record):
     """Number of solutions."""
     preload_gap_states: int
     """Number of preload-gap states, which are counted apart."""
+    continuum: bool
+    """Whether there are infinitely many solutions, besides these."""
     known: Known
     """How these numbers are known."""
     tipping: Tipping | None = None
@@ -1171,6 +1192,8 @@ class CourseRow(Record):
     """Of all drives together (W)."""
     efficiency: Efficiency | None
     """Against the same motion without friction."""
+    range: EffortRange | None = None
+    """Where there are infinitely many solutions: between which values their efforts lie; absent elsewhere."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1343,6 +1366,9 @@ class DriveDirection(Record):
     """Without friction."""
     solutions: tuple[DriveSolution, ...]
     """Every solution, preload-gap states after the others."""
+    range: EffortRange | None = None
+    """Where there are infinitely many solutions: between which values their efforts lie; absent if there are
+    not, and if it is not known."""
     no_solution: float | None = None
     """From this factor of friction on there is no solution; absent if there always is one, or it was not
     computed."""
@@ -1429,6 +1455,16 @@ class DriveSummary(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class DrivenMotion(Record):
+    """The efforts of the drives, and the accelerations of the coordinates."""
+
+    efforts: NDArray[np.float64]
+    """Of each drive (N or N m)."""
+    accelerations: NDArray[np.float64]
+    """Of each coordinate (m/s^2 or rad/s^2)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Efficiency(Record):
     """The share of power that is not lost to friction."""
 
@@ -1436,6 +1472,18 @@ class Efficiency(Record):
     """Which way power flows."""
     value: float | None
     """The share; null where it has no meaning."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EffortRange(Record):
+    """The efforts of infinitely many solutions."""
+
+    undetermined: Undetermined
+    """The least and the greatest effort of each drive, and what leaves them open."""
+    power: tuple[float | None, float | None]
+    """The least and the greatest power of all drives together (W); null where it is unbounded."""
+    efficiency: tuple[float, float] | None = None
+    """The least and the greatest efficiency; absent where not all of them have one of the same kind."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2086,6 +2134,21 @@ class Named(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class OpenRange(Record):
+    """The least and the greatest value of a quantity over infinitely many solutions, each of which some solution
+    has."""
+
+    name: str
+    """The contact, drive or coordinate."""
+    unit: str
+    """The unit of both values."""
+    from_: float | None
+    """The least value; null if it is unbounded."""
+    to: float | None
+    """The greatest value; null if it is unbounded."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Panel(Record):
     """A pair of axes and all that is drawn in them."""
 
@@ -2576,7 +2639,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"steps_from_drawing": None, "patterns": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
+    _absent = {"steps_from_drawing": None, "patterns": None, "undetermined": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2615,6 +2678,9 @@ class SolveReport(_mixins.SolveReport, Report):
     """States with a contact between its faces, in which the preload friction acts (theory, section 3)."""
     continua: tuple[Continuum, ...]
     """Modes with a vanishing determinant that admit infinitely many solutions."""
+    undetermined: Undetermined | None
+    """Between which values the forces and the motion of these lie; absent if there are none, and where it is not
+    known."""
     undecided_modes: tuple[UndecidedMode, ...]
     """Modes on the boundary within rounding: whether they have a solution cannot be told."""
     locked_modes: tuple[LockedMode, ...]
@@ -2858,6 +2924,20 @@ class UndecidedMode(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Undetermined(Record):
+    """What infinitely many solutions leave open, and between which values."""
+
+    sharing: tuple[str, ...]
+    """The joints whose share of a load is open."""
+    efforts: tuple[OpenRange, ...]
+    """The efforts of the drives."""
+    accelerations: tuple[OpenRange, ...]
+    """The accelerations of the coordinates."""
+    normal_forces: tuple[OpenRange, ...]
+    """The normal forces of the contacts."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Unlocking(Record):
     """The friction below which a mechanism that is locked would move."""
 
@@ -2972,6 +3052,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "Direction": {"between_faces_at": "array"},
     "DrawnLine": {"points": "pairs", "markers": "pairs"},
     "DriveSolution": {"efforts": "array"},
+    "DrivenMotion": {"efforts": "array", "accelerations": "array"},
     "Frictionless": {"efforts": "array"},
     "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array", "eta_positive": "arrays", "eta_negative": "arrays"},
     "LimitsReport": {"between_faces_at": "array"},

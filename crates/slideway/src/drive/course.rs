@@ -1,13 +1,13 @@
 //! The efforts over a parameter, a coordinate or friction.
 
 use super::efforts::{Efforts, GROWTH};
-use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, Sense};
-use super::state::growing_ends;
+use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense};
+use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
 use crate::limits::{ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
-use crate::report::Verdict;
+use crate::report::{Status, Verdict};
 use crate::solve::{Stages, pattern};
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
@@ -156,6 +156,17 @@ impl Tabulated<'_> {
             let within = mode.from.at < value && value < mode.to.at;
             within || is_end && (is_same(mode.from.at, value) || is_same(mode.to.at, value))
         });
+        let present: Vec<&ModeInterval> = present.collect();
+        // Rounded numbers do not tell whether modes on their boundaries are one solution, or infinitely many.
+        if present.iter().any(|mode| efforts.is_on_boundary(&mode.pattern))
+            && let Ok(report) = self.varied.solved(value, self.work)
+            && report.status != Status::Unknown
+        {
+            return rows_of(
+                value,
+                state::efforts(&report, efforts.frictionless.clone(), &efforts.velocities),
+            );
+        }
         let row = |pattern: String, verdict: Verdict, of: Vec<f64>| {
             let (power, efficiency) = efforts.power(&of);
             CourseRow {
@@ -167,6 +178,7 @@ impl Tabulated<'_> {
                 frictionless: Some(efforts.frictionless.clone()),
                 power: Some(power),
                 efficiency: Some(efficiency),
+                range: None,
             }
         };
         let state = StateAt::new(self.varied, value).ok();
@@ -174,7 +186,7 @@ impl Tabulated<'_> {
             let verdict = state.as_ref().map_or(Verdict::NotComputed, |state| state.verdict(&mode.pattern));
             Some(row(pattern(&mode.pattern), verdict, efforts.of(&mode.pattern)?))
         };
-        let pressed = present.filter_map(of_mode);
+        let pressed = present.into_iter().filter_map(of_mode);
         let between_faces = self.varied.states_between_faces(value, 1.0, None, self.work);
         let between_faces = between_faces.into_iter().map(|state| {
             let of_drives = state.drives.iter().map(|drive| drive.effort + 0.0).collect();
@@ -218,6 +230,29 @@ pub(super) fn with_blow_ups(mut rows: Vec<CourseRow>, blow_ups: &[BlowUp]) -> Ve
     rows
 }
 
+/// The rows of a value with all that is known there: of infinitely many solutions one, then each other one.
+pub(super) fn rows_of(value: f64, all: AllEfforts) -> Vec<CourseRow> {
+    let AllEfforts { solutions, range, are_unknown, frictionless } = all;
+    let frictionless = Some(frictionless.efforts).filter(|_| !are_unknown);
+    let row = |solution: DriveSolution| CourseRow {
+        at: value,
+        pattern: Some(solution.pattern),
+        attainability: Some(solution.attainability),
+        grows: vec![0; solution.efforts.len()],
+        efforts: Some(solution.efforts),
+        frictionless: frictionless.clone(),
+        power: Some(solution.power),
+        efficiency: Some(solution.efficiency),
+        range: None,
+    };
+    let range = (range.is_some() || solutions.is_empty()).then(|| CourseRow {
+        frictionless: frictionless.clone(),
+        range,
+        ..nothing(value)
+    });
+    range.into_iter().chain(solutions.into_iter().map(row)).collect()
+}
+
 /// A row of a value at which nothing is known.
 pub(super) fn nothing(value: f64) -> CourseRow {
     CourseRow {
@@ -229,5 +264,6 @@ pub(super) fn nothing(value: f64) -> CourseRow {
         frictionless: None,
         power: None,
         efficiency: None,
+        range: None,
     }
 }

@@ -8,7 +8,7 @@ use crate::kinetics::effort_forces;
 use crate::limits::Varied;
 use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
-use crate::modes::existence::{ExistenceOptions, ModeProblemLine, TooManyModes};
+use crate::modes::existence::{EndCause, ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::solve::Stages;
 
 /// Powers below this share of what the single drives do are rounding.
@@ -18,6 +18,10 @@ const NEAR: [f64; 2] = [1e-5, 1e-7];
 /// Growth between these two places beyond which an unknown grows without bound; towards a change of sign it
 /// then leads through infinity.
 pub(super) const GROWTH: f64 = 30.0;
+
+/// For a mode problem alone.
+const OPTIONS: ExistenceOptions =
+    ExistenceOptions { range: [0.0, 1.0], greatest_normal_force: None, patterns: PATTERNS };
 
 /// Everything that is known at one value.
 pub(crate) struct Efforts {
@@ -36,15 +40,11 @@ impl Efforts {
     /// A fault if a number is beyond the range of floating point.
     pub(super) fn new(stages: &Stages, friction: f64) -> Result<Self, Faults> {
         let parts = stages.parts_with_efforts(friction)?;
-        let drives = stages.mechanism.drives.len();
-        let effort = |drive: usize| stages.influence.layout().effort(DriveId(drive));
         Ok(Self {
             line: parts.line_to(&parts),
-            drives,
+            drives: stages.mechanism.drives.len(),
             mechanism: stages.mechanism.clone(),
-            frictionless: (0..drives)
-                .map(|drive| stages.influence.frictionless[effort(drive)] + 0.0)
-                .collect(),
+            frictionless: frictionless(stages),
             velocities: velocities(stages),
         })
     }
@@ -67,8 +67,12 @@ impl Efforts {
     /// # Errors
     /// More patterns than are tried.
     pub(crate) fn present(&self, goes_on: &dyn Fn() -> bool) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
-        let options = ExistenceOptions { range: [0.0, 1.0], greatest_normal_force: None, patterns: PATTERNS };
-        self.line.present(0.0, &options, goes_on)
+        self.line.present(0.0, &OPTIONS, goes_on)
+    }
+
+    /// Whether the solution of a pattern is on its boundary within rounding.
+    pub(crate) fn is_on_boundary(&self, pattern: &[ContactState]) -> bool {
+        self.line.cause_at(pattern, 0.0, &OPTIONS) != EndCause::Range
     }
 
     /// The normal forces in the solution of a pattern; none where its determinant vanishes.
@@ -81,6 +85,14 @@ impl Efforts {
     pub(crate) fn power(&self, efforts: &[f64]) -> (f64, Efficiency) {
         (power(efforts, &self.velocities), efficiency(efforts, &self.frictionless, &self.velocities))
     }
+}
+
+/// The efforts without friction.
+pub(super) fn frictionless(stages: &Stages) -> Vec<f64> {
+    let effort = |drive: usize| stages.influence.layout().effort(DriveId(drive));
+    // Adding zero turns -0 into 0.
+    let of_drive = |drive| stages.influence.frictionless[effort(drive)] + 0.0;
+    (0..stages.mechanism.drives.len()).map(of_drive).collect()
 }
 
 /// The velocity at which a unit effort of each drive works: force times velocity of its point, against its

@@ -1,12 +1,10 @@
 //! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and where the
 //! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
 
-use super::course::{evenly, modes, nothing, with_blow_ups};
-use super::efforts::grows;
-use super::report::{
-    Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, Frictionless, LockedRange, Sense,
-};
-use super::state;
+use super::course::{evenly, modes, nothing, rows_of, with_blow_ups};
+use super::efforts::{frictionless, grows, velocities};
+use super::report::{Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, LockedRange, Sense};
+use super::state::{self, AllEfforts};
 use crate::fault::Faults;
 use crate::limits::{Naming, Varied};
 use crate::mechanism::Mechanism;
@@ -80,12 +78,12 @@ impl Sampled<'_> {
     ///
     /// # Errors
     /// Whatever `solve` refuses there.
-    fn at(&self, value: f64) -> Result<(Vec<DriveSolution>, Frictionless), Faults> {
+    fn at(&self, value: f64) -> Result<AllEfforts, Faults> {
         let (model, factor) = self.varied.model_at(value)?;
         let stages = Stages::of_model(&model)?;
         never_turning(&stages.mechanism, &stages.configuration)?;
         let report = self.solved(&model, stages.rougher(factor))?;
-        Ok(state::efforts(&report, &stages))
+        Ok(state::efforts(&report, frictionless(&stages), &velocities(&stages)))
     }
 
     fn solved(&self, model: &Model, stages: RougherStages<'_>) -> Result<SolveReport, Faults> {
@@ -95,22 +93,8 @@ impl Sampled<'_> {
 
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
         let found = if self.work.is_over() { None } else { self.at(value).ok() };
-        let Some((solutions, frictionless)) = found else { return vec![nothing(value)] };
-        let frictionless = Some(frictionless.efforts);
-        if solutions.is_empty() {
-            return vec![CourseRow { frictionless, ..nothing(value) }];
-        }
-        let row = |solution: DriveSolution| CourseRow {
-            at: value,
-            pattern: Some(solution.pattern),
-            attainability: Some(solution.attainability),
-            grows: vec![0; solution.efforts.len()],
-            efforts: Some(solution.efforts),
-            frictionless: frictionless.clone(),
-            power: Some(solution.power),
-            efficiency: Some(solution.efficiency),
-        };
-        solutions.into_iter().map(row).collect()
+        let Some(all) = found else { return vec![nothing(value)] };
+        rows_of(value, all)
     }
 
     /// How many solutions there are at a value; none where there is no answer.
@@ -188,7 +172,7 @@ impl Sampled<'_> {
             return None;
         }
         let [far, close] = NEAR.map(|share| self.at(at + sense * share * (to - from)).ok());
-        let (far, close) = (far?.0, close?.0);
+        let (far, close) = (far?.solutions, close?.solutions);
         let growing = |solution: &DriveSolution| {
             // Of several solutions of a mode only one has grown beyond all that they were.
             let before = far.iter().filter(|other| other.pattern == solution.pattern);

@@ -32,6 +32,7 @@
 //! and its growth without bound, comes from the modes that `limits` finds. With friction in hinges each row is solved
 //! by itself (`hinges.rs`).
 
+mod continuum;
 mod course;
 mod efforts;
 mod hinges;
@@ -42,7 +43,7 @@ mod text;
 pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
-    DriveSolution, Efficiency, EfficiencyKind, Frictionless, LockedRange, SCHEMA, Sense,
+    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, LockedRange, SCHEMA, Sense,
 };
 
 use crate::fault::{Fault, FaultKind, Faults};

@@ -1,7 +1,7 @@
 //! What is told of driven motion: plain data, which are the JSON output.
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
-use crate::report::{CoordinateState, JointMode, Status, Verdict};
+use crate::report::{CoordinateState, JointMode, Status, Undetermined, Verdict};
 use crate::units::Units;
 use serde::Serialize;
 
@@ -42,7 +42,9 @@ impl DriveReport {
         let of_direction = |direction: &DriveDirection| {
             let free = values(&direction.frictionless.efforts, direction.frictionless.power);
             let solutions = direction.solutions.iter().flat_map(|one| values(&one.efforts, one.power));
-            free.into_iter().chain(solutions).collect::<Vec<_>>()
+            let ranges = direction.range.iter().flat_map(|range| &range.undetermined.efforts);
+            let ends = ranges.flat_map(|one| one.from.iter().chain(&one.to).map(|end| (one.unit, *end)));
+            free.into_iter().chain(solutions).chain(ends).collect::<Vec<_>>()
         };
         let values: Vec<_> = self.directions.iter().flat_map(of_direction).collect();
         self.units = std::mem::take(&mut self.units).suited_to(values);
@@ -71,6 +73,10 @@ pub struct DriveDirection {
     pub frictionless: Frictionless,
     /// Every solution, preload-gap states after the others.
     pub solutions: Vec<DriveSolution>,
+    /// Where there are infinitely many solutions: between which values their efforts lie; absent if there are not, and
+    /// if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<EffortRange>,
     /// From this factor of friction on there is no solution; absent if there always is one, or it was not
     /// computed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -113,6 +119,19 @@ pub struct DriveSolution {
     pub power: f64,
     /// Against the same motion without friction.
     pub efficiency: Efficiency,
+}
+
+/// The efforts of infinitely many solutions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct EffortRange {
+    /// The least and the greatest effort of each drive, and what leaves them open.
+    pub undetermined: Undetermined,
+    /// The least and the greatest power of all drives together (W); null where it is unbounded.
+    pub power: [Option<f64>; 2],
+    /// The least and the greatest efficiency; absent where not all of them have one of the same kind.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub efficiency: Option<[f64; 2]>,
 }
 
 /// The share of power that is not lost to friction.
@@ -245,6 +264,9 @@ pub struct CourseRow {
     pub power: Option<f64>,
     /// Against the same motion without friction.
     pub efficiency: Option<Efficiency>,
+    /// Where there are infinitely many solutions: between which values their efforts lie; absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<EffortRange>,
 }
 
 /// A direction of motion.

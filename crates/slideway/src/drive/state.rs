@@ -1,15 +1,15 @@
 //! The efforts in the state of the model.
 
-use super::efforts::{Efforts, efficiency, growing, power, velocities};
-use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, Frictionless, Sense};
+use super::continuum::effort_range;
+use super::efforts::{Efforts, efficiency, frictionless, growing, power, velocities};
+use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, EffortRange, Frictionless, Sense};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::DriveId;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::Work;
-use crate::report::{CoordinateState, Solution, SolveReport};
+use crate::report::{CoordinateState, Solution, SolveReport, Status};
 use crate::solve::{SolveOptions, Stages, never_turning, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
@@ -34,7 +34,8 @@ pub(super) fn direction(
     let options = SolveOptions::default();
     let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
-    let (solutions, frictionless) = efforts(&report, &stages);
+    let AllEfforts { solutions, range, frictionless, .. } =
+        efforts(&report, frictionless(&stages), &velocities(&stages));
     // What tips now, or just beyond the factor.
     let tips = match &report.margins {
         _ if !report.rejected.is_empty() => {
@@ -48,6 +49,7 @@ pub(super) fn direction(
         direction,
         status: report.status,
         solutions,
+        range,
         no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
         blow_ups: blow_ups(&stages, work.part(1, 2))?,
         frictionless,
@@ -55,13 +57,18 @@ pub(super) fn direction(
     Ok((report.state, found))
 }
 
+/// The efforts of all solutions.
+pub(super) struct AllEfforts {
+    pub(super) solutions: Vec<DriveSolution>,
+    /// Those of infinitely many solutions, if they are known.
+    pub(super) range: Option<EffortRange>,
+    /// Whether there are infinitely many solutions whose efforts are not known.
+    pub(super) are_unknown: bool,
+    pub(super) frictionless: Frictionless,
+}
+
 /// The efforts of all solutions, and those without friction.
-pub(super) fn efforts(report: &SolveReport, stages: &Stages) -> (Vec<DriveSolution>, Frictionless) {
-    let velocities = velocities(stages);
-    let layout = stages.influence.layout();
-    let frictionless: Vec<f64> = (0..velocities.len())
-        .map(|drive| stages.influence.frictionless[layout.effort(DriveId(drive))] + 0.0)
-        .collect();
+pub(super) fn efforts(report: &SolveReport, frictionless: Vec<f64>, velocities: &[f64]) -> AllEfforts {
     let solution = |solution: &Solution, preload_gap: bool| {
         let efforts: Vec<f64> = solution.drives.iter().map(|drive| drive.effort + 0.0).collect();
         DriveSolution {
@@ -69,15 +76,20 @@ pub(super) fn efforts(report: &SolveReport, stages: &Stages) -> (Vec<DriveSoluti
             preload_gap,
             joints: solution.joints.clone(),
             attainability: solution.attainability.verdict,
-            power: power(&efforts, &velocities),
-            efficiency: efficiency(&efforts, &frictionless, &velocities),
+            power: power(&efforts, velocities),
+            efficiency: efficiency(&efforts, &frictionless, velocities),
             efforts,
         }
     };
     let pressed = report.solutions.iter().map(|one| solution(one, false));
     let gaps = report.preload_gap_states.iter().map(|one| solution(one, true));
-    let solutions = pressed.chain(gaps).collect();
-    (solutions, Frictionless { power: power(&frictionless, &velocities), efforts: frictionless })
+    let range = effort_range(report, &frictionless, velocities);
+    AllEfforts {
+        solutions: pressed.chain(gaps).collect(),
+        are_unknown: report.status == Status::Continuum && range.is_none(),
+        range,
+        frictionless: Frictionless { power: power(&frictionless, velocities), efforts: frictionless },
+    }
 }
 
 /// The factors of friction at which efforts grow without bound; none if there are too many modes, or friction in

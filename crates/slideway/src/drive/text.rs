@@ -2,14 +2,14 @@
 
 use super::report::{
     Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, Efficiency,
-    EfficiencyKind, LockedRange, Sense,
+    EfficiencyKind, EffortRange, LockedRange, Sense,
 };
 use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{LOCKED, Report, Status, Style, Verdict, spaced, tips};
+use crate::report::{LOCKED, OpenRange, Report, Status, Style, Verdict, count, spaced, tips};
 use crate::units::Unit;
 
 impl Report for DriveReport {
@@ -52,6 +52,8 @@ pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
             format!("{}: beyond {} times the friction {what}.", moving(direction.direction), precise(factor))
         }));
     }
+    let ranges = report.directions.iter().filter_map(|direction| direction.range.as_ref());
+    sentences.extend(ranges.filter_map(|range| range.undetermined.advice()).map(str::to_owned).next());
     sentences
 }
 
@@ -69,7 +71,13 @@ fn moving(direction: Sense) -> &'static str {
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
 fn outcome(report: &DriveReport, direction: &DriveDirection) -> String {
+    if let Some(range) = &direction.range {
+        return undetermined(report, direction, range);
+    }
     match (direction.solutions.as_slice(), direction.status) {
+        (_, Status::Continuum) => {
+            "infinitely many states are possible, whose efforts are not known".to_owned()
+        }
         ([], Status::Unknown) => "it is not known which effort moves it".to_owned(),
         ([], _) => tips(&direction.tips).unwrap_or_else(|| format!("no effort moves it, {LOCKED}")),
         ([only], _) => {
@@ -89,6 +97,32 @@ fn outcome(report: &DriveReport, direction: &DriveDirection) -> String {
         }
         (several, _) => format!("{} states are possible, each with its own efforts", several.len()),
     }
+}
+
+/// "belt needs 25 to 50 N instead of 20 N without friction; how left, right share the load is undetermined"
+fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &EffortRange) -> String {
+    let one = |(effort, without): (&OpenRange, &f64)| {
+        let without = report.units.of(effort.unit).show(*without);
+        format!(
+            "{} needs {} instead of {without} without friction",
+            effort.name,
+            effort.in_words(&report.units)
+        )
+    };
+    let efforts = range.undetermined.efforts.iter().zip(&direction.frictionless.efforts);
+    let mut parts: Vec<String> = efforts.map(one).collect();
+    parts.extend(range.efficiency.map(|ends| format!("efficiency {}", percents(ends))));
+    parts.push(range.undetermined.cause());
+    if !direction.solutions.is_empty() {
+        let further = count(direction.solutions.len(), "further state has", "further states have");
+        parts.push(format!("{further} their own efforts"));
+    }
+    parts.join("; ")
+}
+
+/// "40 to 80 %"
+fn percents([from, to]: [f64; 2]) -> String {
+    if from == to { percent(from) } else { format!("{} to {}", number(100.0 * from), percent(to)) }
 }
 
 fn efficiency_in_words(efficiency: Efficiency) -> String {
@@ -162,6 +196,16 @@ impl Page<'_, DriveReport> {
             one.extend([share(solution.efficiency), words.collect::<Vec<_>>().join("; ")]);
             rows.push(one);
         }
+        if let Some(range) = &direction.range {
+            let mut one = vec!["undetermined".to_owned(), String::new()];
+            one.extend(self.range_cells(range));
+            one.push(ends_in_words(
+                range.power.map(|end| end.map(|power| self.report.units.of("W").number(power))),
+            ));
+            one.push(range.efficiency.map_or(String::new(), percents));
+            one.push(String::new());
+            rows.push(one);
+        }
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         self.lines(&table(&header, &rows, 2));
     }
@@ -181,6 +225,11 @@ impl Page<'_, DriveReport> {
         row.extend(efforts.iter().zip(self.effort_units()).map(|(effort, unit)| unit.number(*effort)));
         row.push(self.report.units.of("W").number(power));
         row
+    }
+
+    /// The efforts of infinitely many solutions, a cell for each drive.
+    fn range_cells(&self, range: &EffortRange) -> Vec<String> {
+        range_cells(range, &self.effort_units())
     }
 
     fn course(&mut self, course: &Course) {
@@ -219,9 +268,29 @@ impl Page<'_, DriveReport> {
     }
 }
 
+/// The efforts of infinitely many solutions in these units, a cell for each drive: "25 to 50".
+fn range_cells(range: &EffortRange, units: &[Unit]) -> Vec<String> {
+    let one = |(effort, unit): (&OpenRange, &Unit)| {
+        ends_in_words([effort.from, effort.to].map(|end| end.map(|effort| unit.number(effort))))
+    };
+    range.undetermined.efforts.iter().zip(units).map(one).collect()
+}
+
+/// "25 to 50", "from 25", "up to 50", "any".
+fn ends_in_words(ends: [Option<String>; 2]) -> String {
+    match ends {
+        [Some(from), Some(to)] if from == to => from,
+        [Some(from), Some(to)] => format!("{from} to {to}"),
+        [Some(from), None] => format!("from {from}"),
+        [None, Some(to)] => format!("up to {to}"),
+        [None, None] => "any".to_owned(),
+    }
+}
+
 fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
     let mut cells = vec![shown_in.precise_number(row.at)];
     cells.push(match (&row.pattern, &row.frictionless) {
+        _ if row.range.is_some() => "undetermined".to_owned(),
         (Some(pattern), _) => {
             let verdict = row.attainability.filter(|verdict| *verdict != Verdict::Attainable);
             let words = verdict.map_or_else(String::new, |one| format!("({})", verdict_in_words(one)));
@@ -231,18 +300,24 @@ fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
         (None, None) => "no answer".to_owned(),
     });
     let drives = || units.iter().enumerate();
-    cells.extend(drives().map(|(drive, unit)| match (&row.efforts, row.grows.get(drive)) {
-        (Some(efforts), _) => unit.number(efforts[drive]),
-        (None, Some(1)) => "without bound".to_owned(),
-        (None, Some(-1)) => "-without bound".to_owned(),
-        _ => String::new(),
+    let ranges = row.range.as_ref().map(|range| range_cells(range, units));
+    cells.extend(ranges.unwrap_or_else(|| {
+        drives()
+            .map(|(drive, unit)| match (&row.efforts, row.grows.get(drive)) {
+                (Some(efforts), _) => unit.number(efforts[drive]),
+                (None, Some(1)) => "without bound".to_owned(),
+                (None, Some(-1)) => "-without bound".to_owned(),
+                _ => String::new(),
+            })
+            .collect()
     }));
     cells.extend(
         drives().map(|(drive, unit)| {
             row.frictionless.as_ref().map_or(String::new(), |all| unit.number(all[drive]))
         }),
     );
-    cells.push(row.efficiency.map_or(String::new(), share));
+    let range = row.range.as_ref().and_then(|range| range.efficiency).map(percents);
+    cells.push(range.or_else(|| row.efficiency.map(share)).unwrap_or_default());
     cells
 }
 

@@ -187,6 +187,7 @@ impl Naming {
                 to: found.same_ends.told(interval.to),
                 solutions: interval.solutions,
                 preload_gap_states: interval.gap_states,
+                continuum: interval.continuum,
                 known: match known.elsewhere {
                     Elsewhere::Nothing => Known::Proven,
                     Elsewhere::ClosedForm => Known::ClosedForm,

@@ -140,9 +140,7 @@ pub(super) fn value_at([from, to]: [f64; 2], t: f64) -> f64 {
 fn append(all: &mut Vec<CountInterval>, more: Vec<CountInterval>) {
     for next in more {
         match all.last_mut() {
-            Some(last) if (last.solutions, last.gap_states) == (next.solutions, next.gap_states) => {
-                last.to = next.to;
-            }
+            Some(last) if last.is_like(&next) => last.to = next.to,
             _ => all.push(next),
         }
     }

@@ -67,6 +67,7 @@ fn one_direction(direction: &Direction) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
         let without = format!("no solution: {}", count.without_solution());
         let verdict = match (count.solutions, count.preload_gap_states) {
+            _ if count.continuum => "infinitely many solutions",
             (0, 0) => &without,
             (0, _) => "no solution, but a state in a preload gap",
             (1, _) => "one solution",
@@ -76,7 +77,7 @@ fn one_direction(direction: &Direction) -> Vec<Piece> {
         };
         let whole = Piece { from: count.from, to: count.to, verdict: verdict.to_owned(), known: count.known };
         match count.solutions {
-            1 => by_speed(whole, &direction.modes),
+            1 if !count.continuum => by_speed(whole, &direction.modes),
             _ => vec![whole],
         }
     };
@@ -115,7 +116,7 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Pi
         let middle = f64::midpoint(pair[0], pair[1]);
         let at = |counts: &[CountLimits]| {
             let count = counts.iter().find(|count| count.from < middle && middle < count.to)?;
-            let without = (count.solutions + count.preload_gap_states == 0).then(|| count.without_solution());
+            let without = count.is_empty().then(|| count.without_solution());
             Some((without, count.known))
         };
         let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);

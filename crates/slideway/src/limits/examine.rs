@@ -81,7 +81,8 @@ impl<'v> Examiner<'v> {
             let told = |at: f64| same_ends.told(at);
             let proven = stretches(own(), told);
             let is_whole = proven == [[told(interval.from), told(interval.to)]];
-            let elsewhere = if own().any(|cell| cell.contradicted.is_some()) {
+            let was_open = found.known[index].elsewhere == Elsewhere::Contradicted;
+            let elsewhere = if was_open || own().any(|cell| cell.contradicted.is_some()) {
                 Elsewhere::Contradicted
             } else if is_whole || own().all(|cell| cell.open.is_empty()) {
                 Elsewhere::Nothing

@@ -3,6 +3,7 @@
 use super::between_faces;
 use super::branches;
 use super::closed_form::closed_form;
+use super::degenerate;
 use super::examine::Examiner;
 use super::found::{Method, ModesFound, PATTERNS};
 use super::scan::Scanner;
@@ -60,6 +61,9 @@ fn found(
     };
     let mut places = Vec::new();
     for round in 0..=ROUNDS {
+        if circles.is_empty() {
+            degenerate::recount(varied, options.greatest_normal_force, &mut found, work.part(1, 2));
+        }
         let contradicted =
             Examiner::new((varied, &circles), options, effort, work.part(1, 2)).examine(&mut found);
         if contradicted.is_empty() || round == ROUNDS {

@@ -26,6 +26,12 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
         ),
     }];
     sentences.extend(knowledge(found, shown_in));
+    if found.counts.iter().any(|count| count.continuum) {
+        sentences.push(
+            "The certified search finds infinitely many solutions at one value between ends of modes."
+                .to_owned(),
+        );
+    }
     let single = "States of a guided slider between its faces at single values alone, where its normal force passes through zero, are";
     match found.between_faces {
         SingleValues::Impossible => {}

@@ -22,7 +22,8 @@
 //! couples of guided sliders. `model/dependence.rs` decides from the formulas whether that is affine in it;
 //! `closed_form.rs` has `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs`
 //! asks the certified search for the numbers of solutions over whole intervals, and `find.rs` scans anew
-//! where these contradict; `branches.rs` does so with friction in hinges; `between_faces.rs` counts the states of guided sliders between their faces, which
+//! where these contradict; `branches.rs` does so with friction in hinges; `degenerate.rs` counts solutions
+//! where modes are on their boundaries throughout; `between_faces.rs` counts the states of guided sliders between their faces, which
 //! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `speeds.rs` tells
 //! where motion along a mode speeds up and slows down; `guarantee.rs` and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
 //! quantities along the modes that were found, for plots. `rest.rs` asks `standstill` over a range.
@@ -34,6 +35,7 @@ mod branches;
 mod closed_form;
 mod conclusion;
 mod curves;
+mod degenerate;
 mod examine;
 mod find;
 mod found;

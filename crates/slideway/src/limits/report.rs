@@ -199,6 +199,8 @@ pub struct CountLimits {
     pub solutions: usize,
     /// Number of preload-gap states, which are counted apart.
     pub preload_gap_states: usize,
+    /// Whether there are infinitely many solutions, besides these.
+    pub continuum: bool,
     /// How these numbers are known.
     pub known: Known,
     /// What tips where there is no solution; absent where nothing does.
@@ -261,6 +263,11 @@ impl CountLimits {
             Some((tips, true)) => tips,
             Some((tips, false)) => format!("{LOCKED}, or {tips}"),
         }
+    }
+
+    /// Whether there is neither a solution nor a preload-gap state.
+    pub fn is_empty(&self) -> bool {
+        self.solutions + self.preload_gap_states == 0 && !self.continuum
     }
 
     /// The widest part of the interval that is not proven; all of it if nothing is.

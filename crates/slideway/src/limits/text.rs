@@ -196,7 +196,9 @@ fn count_row(count: &CountLimits, unit: &Unit) -> Vec<String> {
     let gaps =
         if count.preload_gap_states == 0 { String::new() } else { count.preload_gap_states.to_string() };
     let [from, to] = [count.from, count.to].map(|end| unit.precise_number(end));
-    vec![from, to, number(count.solutions as f64), gaps, known(count, unit)]
+    let solutions =
+        if count.continuum { "infinitely many".to_owned() } else { number(count.solutions as f64) };
+    vec![from, to, solutions, gaps, known(count, unit)]
 }
 
 /// How numbers of solutions are known, in words.

@@ -210,10 +210,22 @@ fn states(point: &Point) -> Option<States> {
         faces.retain(|sides| !parts.tips(sides, force, shares));
         faces.into_iter().map(|sides| pattern(&sides))
     };
+    let mut told: Vec<(Vec<ContactState>, DVector<f64>)> = Vec::new();
+    // The same solution of several patterns counts once.
+    let mut is_new = |sides: &[ContactState], force: &DVector<f64>| {
+        let is_known = told.iter().any(|(known, other)| parts.is_same((known, other), (sides, force)));
+        if !is_known {
+            told.push((sides.to_vec(), force.clone()));
+        }
+        !is_known
+    };
     let none = vec![None; problem.contacts()];
     let mut states = States { gaps: point.between_faces.clone(), ..States::default() };
     for solution in &found.solutions {
         let sides: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
+        if !is_new(&sides, &solution.normal_force) {
+            continue;
+        }
         let zero = &solution.on_boundary;
         let stand: Vec<String> = standing(&sides, zero, &solution.normal_force, &none).collect();
         // Preloads at one face or the other change no acceleration.
@@ -221,6 +233,9 @@ fn states(point: &Point) -> Option<States> {
         states.solutions.extend(stand);
     }
     for gap in &found.gaps {
+        if parts.is_solution(&gap.pattern) && !is_new(&gap.pattern, &gap.normal_force) {
+            continue;
+        }
         let mut shares = none.clone();
         gap.shares.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
         let stand = standing(&gap.pattern, &gap.on_boundary, &gap.normal_force, &shares);

@@ -423,6 +423,16 @@ pub enum Effort<T = f64> {
     },
 }
 
+impl<T> Effort<T> {
+    /// The unit of its magnitude.
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Force { .. } => "N",
+            Self::Torque { .. } => "N m",
+        }
+    }
+}
+
 /// Something that happens in a motion when a quantity passes through zero.
 #[derive(Debug, Clone)]
 pub struct EventDefinition<T = f64> {

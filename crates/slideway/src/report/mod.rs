@@ -13,6 +13,7 @@ mod sharing;
 mod speed;
 pub(crate) mod table;
 mod text;
+mod undetermined;
 
 pub(crate) use crate::units::number;
 pub use crate::units::precise;
@@ -25,6 +26,7 @@ pub(crate) use speed::no_drive_prescribes;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub(crate) use text::{LOCKED, count, locked, spaced, tips};
 pub use text::{Style, followed};
+pub use undetermined::{OpenRange, Undetermined};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
 use crate::units::{Unit, Units};
@@ -116,6 +118,9 @@ pub struct SolveReport {
     pub preload_gap_states: Vec<Solution>,
     /// Modes with a vanishing determinant that admit infinitely many solutions.
     pub continua: Vec<Continuum>,
+    /// Between which values the forces and the motion of these lie; absent if there are none, and where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undetermined: Option<Undetermined>,
     /// Modes on the boundary within rounding: whether they have a solution cannot be told.
     pub undecided_modes: Vec<UndecidedMode>,
     /// Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern
@@ -227,7 +232,9 @@ impl SolveReport {
     /// Has its forces, moments, powers and pressures shown in units in which they read well.
     pub(crate) fn suit_units(&mut self) {
         let states = self.solutions.iter().chain(&self.preload_gap_states);
-        let values: Vec<(&'static str, f64)> = states.flat_map(Solution::efforts).collect();
+        let open = self.undetermined.iter().flat_map(|undetermined| &undetermined.efforts);
+        let ends = open.flat_map(|range| range.from.iter().chain(&range.to).map(|end| (range.unit, *end)));
+        let values: Vec<(&'static str, f64)> = states.flat_map(Solution::efforts).chain(ends).collect();
         self.model.units = std::mem::take(&mut self.model.units).suited_to(values);
     }
 }
@@ -363,6 +370,8 @@ pub enum MarginsMissing {
     NothingPresses,
     /// The block floats within the play of redundant guides.
     Floats,
+    /// There are infinitely many solutions.
+    Undetermined,
     /// Solutions with friction in hinges are not followed all together.
     FrictionInHinges,
 }
@@ -373,6 +382,7 @@ impl MarginsMissing {
         match self {
             Self::TooManyModes => "there are too many modes",
             Self::BetweenFaces => "a guided slider is between its faces",
+            Self::Undetermined => "there are infinitely many solutions",
             Self::Floats => "the block floats within its play",
             Self::NothingPresses => "nothing presses a contact whose preload differs by side",
             Self::FrictionInHinges => {
@@ -642,11 +652,27 @@ pub struct Continuum {
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.
     pub directions: Vec<Vec<f64>>,
+    /// Efforts and accelerations at each vertex; none where a preload may rub at either face, and if a couple is free.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<DrivenMotion>,
+    /// What a unit of each direction adds to them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motion_along: Vec<DrivenMotion>,
     /// The guided sliders that would tip in a part of it.
     pub tipping: Vec<String>,
     /// The friction couple of a hinge that never turns, if it is what is free; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub couple: Option<CoupleRange>,
+}
+
+/// The efforts of the drives, and the accelerations of the coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct DrivenMotion {
+    /// Of each drive (N or N m).
+    pub efforts: Vec<f64>,
+    /// Of each coordinate (m/s^2 or rad/s^2).
+    pub accelerations: Vec<f64>,
 }
 
 /// The friction couple of a hinge that never turns, over a range.

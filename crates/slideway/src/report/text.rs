@@ -68,7 +68,10 @@ impl SolveReport {
             Status::Continuum if self.continua.iter().any(|continuum| continuum.couple.is_some()) => {
                 "Infinitely many solutions: a hinge that never turns has no kinetic friction, and its couple is free within limits.".to_owned()
             }
-            Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            Status::Continuum => match &self.undetermined {
+                Some(undetermined) => format!("Infinitely many solutions: {}.", undetermined.cause()),
+                None => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            },
             Status::PreloadGap if self.partial || !self.undecided_modes.is_empty() => {
                 "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
             }
@@ -118,6 +121,13 @@ impl SolveReport {
     /// down although the loads push it.
     pub fn remark(&self) -> Option<String> {
         self.solutions.iter().any(slows_though_pushed).then(friction_takes_more)
+    }
+
+    /// Between which values infinitely many solutions lie, and what leaves one: a sentence for each kind of quantity.
+    pub fn undetermined_in_words(&self) -> Vec<String> {
+        let Some(undetermined) = &self.undetermined else { return Vec::new() };
+        let advice = undetermined.advice().map(str::to_owned);
+        undetermined.in_words(&self.model.units).into_iter().chain(advice).collect()
     }
 
     /// What becomes of the speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down,
@@ -208,6 +218,7 @@ impl Text<'_> {
         if let Some(remark) = report.remark() {
             self.line(&remark);
         }
+        report.undetermined_in_words().iter().for_each(|line| self.line(line));
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
             self.line(&format!("{listed} of them are listed."));

@@ -8,7 +8,7 @@ use crate::limits::Varied;
 use crate::mechanism::Contact;
 use crate::modes::existence::TooManyModes;
 use crate::progress::Work;
-use crate::report::Solution;
+use crate::report::{Continuum, DrivenMotion, Solution, SolveReport};
 
 /// What counts of a solution: efforts of the drives, normal forces of the contacts.
 struct Forces {
@@ -17,7 +17,7 @@ struct Forces {
 }
 
 /// The greatest of an effort, normal force or bearing pressure, or the least efficiency, over all solutions
-/// at a value; none without a solution.
+/// at a value; none without a solution, infinite where infinitely many leave it without bound.
 ///
 /// # Errors
 /// Whatever keeps the mechanism from being assembled or solved there; too many modes; a drive or contact that
@@ -29,10 +29,6 @@ pub(super) fn level(
     work: Work<'_>,
 ) -> Result<Option<f64>, Faults> {
     let efforts = Efforts::at(varied, value)?;
-    let between = |state: &Solution| Forces {
-        efforts: state.drives.iter().map(|drive| drive.effort).collect(),
-        normal_forces: state.contacts.iter().map(|contact| contact.normal_force).collect(),
-    };
     let picked = picked(varied, against, &efforts)?;
     let worst = |states: &mut dyn Iterator<Item = Forces>| -> Result<Option<f64>, Faults> {
         let levels: Vec<f64> =
@@ -40,22 +36,82 @@ pub(super) fn level(
         let worst = if matches!(against, Against::Efficiency) { f64::min } else { f64::max };
         Ok(levels.into_iter().reduce(worst))
     };
-    if !varied.rough_circles([value, value]).is_empty() {
+    let certified = || -> Result<Option<f64>, Faults> {
         let found = varied.solved(value, work)?;
-        if !found.continua.is_empty() {
-            return Err(Fault::general(FaultKind::LimitsNotComputed { modes: found.continua.len() }).into());
+        let continua = of_continua(&found)?;
+        if continua.iter().any(|continuum| grows(against, picked, &efforts, continuum)) {
+            return Ok(Some(f64::INFINITY));
         }
-        return worst(&mut found.solutions.iter().chain(&found.preload_gap_states).map(between));
+        let corners = continua.into_iter().flat_map(|continuum| continuum.corners);
+        worst(&mut found.solutions.iter().chain(&found.preload_gap_states).map(forces_of).chain(corners))
+    };
+    if !varied.rough_circles([value, value]).is_empty() {
+        return certified();
     }
     let goes_on = || !work.is_over();
     let patterns = efforts.present(&goes_on).map_err(|TooManyModes { contacts, limit, .. }| {
         Faults::from(Fault::general(FaultKind::TooManyModes { contacts, limit }))
     })?;
+    // Rounded numbers do not tell whether modes on their boundaries are one solution, or infinitely many.
+    if patterns.iter().any(|pattern| efforts.is_on_boundary(pattern)) {
+        return certified();
+    }
     let of_pattern = |pattern: &Vec<_>| {
         Some(Forces { efforts: efforts.of(pattern)?, normal_forces: efforts.normal_forces(pattern)? })
     };
     let between_faces = varied.states_between_faces(value, 1.0, None, work);
-    worst(&mut patterns.iter().filter_map(of_pattern).chain(between_faces.iter().map(between)))
+    worst(&mut patterns.iter().filter_map(of_pattern).chain(between_faces.iter().map(forces_of)))
+}
+
+fn forces_of(state: &Solution) -> Forces {
+    Forces {
+        efforts: state.drives.iter().map(|drive| drive.effort).collect(),
+        normal_forces: state.contacts.iter().map(|contact| contact.normal_force).collect(),
+    }
+}
+
+/// Infinitely many solutions: all mixtures of the corners, and any amount of the growths beside them. A greatest or least
+/// level is that of a corner.
+struct Mixtures {
+    corners: Vec<Forces>,
+    growths: Vec<Forces>,
+}
+
+/// # Errors
+/// Continua whose efforts are not known.
+fn of_continua(found: &SolveReport) -> Result<Vec<Mixtures>, Faults> {
+    if !found.continua.is_empty() && found.undetermined.is_none() {
+        return Err(Fault::general(FaultKind::LimitsNotComputed { modes: found.continua.len() }).into());
+    }
+    let forces = |(normal_forces, motion): (&Vec<f64>, &DrivenMotion)| Forces {
+        efforts: motion.efforts.clone(),
+        normal_forces: normal_forces.clone(),
+    };
+    let mixtures = |continuum: &Continuum| Mixtures {
+        corners: continuum.vertices.iter().zip(&continuum.motion).map(forces).collect(),
+        growths: continuum.directions.iter().zip(&continuum.motion_along).map(forces).collect(),
+    };
+    Ok(found.continua.iter().map(mixtures).collect())
+}
+
+/// Whether a level grows without bound in infinitely many solutions; efficiencies fall to nothing then.
+fn grows(against: &Against, picked: Option<usize>, at: &Efforts, continuum: &Mixtures) -> bool {
+    let is_picked = |values: &[f64]| {
+        let counts =
+            |(index, value): (usize, &f64)| *value != 0.0 && picked.is_none_or(|picked| picked == index);
+        values.iter().enumerate().any(counts)
+    };
+    continuum.growths.iter().any(|growth| match against {
+        Against::NormalForce { .. } => is_picked(&growth.normal_forces),
+        Against::Pressure { .. } => {
+            let contacts = at.mechanism.contacts.iter().zip(&growth.normal_forces);
+            is_picked(
+                &contacts.map(|(one, force)| one.pressure(*force).unwrap_or_default()).collect::<Vec<_>>(),
+            )
+        }
+        Against::Efficiency => at.power(&growth.efforts).0 != 0.0,
+        _ => is_picked(&growth.efforts),
+    })
 }
 
 /// The place of the drive or contact that is named among all; none if all of them count.

@@ -24,6 +24,8 @@ pub(super) enum Margin {
     Finite(f64),
     /// No friction reaches the limit.
     Infinite,
+    /// What has to keep the limit is without bound in infinitely many solutions.
+    Unbounded,
 }
 
 impl Margin {
@@ -32,6 +34,7 @@ impl Margin {
     pub(super) fn demand(self, wanted: f64) -> f64 {
         match self {
             Self::Infinite => 0.0,
+            Self::Unbounded => f64::INFINITY,
             Self::Finite(factor) if factor <= 0.0 => f64::INFINITY,
             Self::Finite(factor) => wanted / factor,
         }
@@ -40,6 +43,7 @@ impl Margin {
     pub(super) fn meets(self, wanted: f64) -> bool {
         match self {
             Self::Infinite => true,
+            Self::Unbounded => false,
             Self::Finite(factor) => factor >= wanted,
         }
     }
@@ -47,15 +51,16 @@ impl Margin {
     fn least(self, other: Self) -> Self {
         match (self, other) {
             (Self::Finite(one), Self::Finite(other)) => Self::Finite(one.min(other)),
+            (Self::Unbounded, _) | (_, Self::Unbounded) => Self::Unbounded,
             (Self::Infinite, finite) | (finite, Self::Infinite) => finite,
         }
     }
 
-    /// The factor; nothing where it is infinite.
+    /// The factor; nothing where it is infinite or unbounded.
     pub(super) fn factor(self) -> Option<f64> {
         match self {
             Self::Finite(factor) => Some(factor),
-            Self::Infinite => None,
+            Self::Infinite | Self::Unbounded => None,
         }
     }
 }
@@ -108,6 +113,7 @@ impl MarginQuestion<'_> {
     fn kept(&self, level: Option<f64>) -> Margin {
         match (level, self.against) {
             (None, _) => Margin::Finite(0.0),
+            (Some(level), _) if level.is_infinite() => Margin::Unbounded,
             (Some(level), Against::Efficiency) => Margin::Finite(level / self.limit),
             (Some(0.0), _) => Margin::Infinite,
             (Some(level), _) => Margin::Finite(self.limit / level),

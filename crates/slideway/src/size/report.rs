@@ -64,6 +64,7 @@ impl MarginKind {
             (Self::Efficiency, Margin::Finite(kept)) => (SampleKind::Finite, Some(limit * kept)),
             (_, Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
             (_, Margin::Infinite) => (SampleKind::Infinite, None),
+            (_, Margin::Unbounded) => (SampleKind::WithoutBound, None),
         }
     }
 }
@@ -161,6 +162,9 @@ pub enum SampleKind {
     /// There is no solution, of which an effort, normal force, bearing pressure or efficiency could be told, or none has
     /// any efficiency: friction takes all that the load would give.
     NoSolution,
+    /// There are infinitely many solutions, in which an effort, normal force or bearing pressure is without bound, or an
+    /// efficiency as small as can be.
+    WithoutBound,
     /// The mechanism cannot be assembled or solved there, or a guided slider is between its faces.
     NoPosition,
 }

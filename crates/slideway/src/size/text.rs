@@ -63,6 +63,7 @@ impl Page<'_, SizeReport> {
         let name = unit.title(&report.vary.name);
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
+            (SampleKind::WithoutBound, _) => "without bound".to_owned(),
             (_, Some(margin)) => report.limit_shown_in.precise_number(margin),
             (SampleKind::NoSolution, _) => report.against.nothing().to_owned(),
             _ => "no answer".to_owned(),

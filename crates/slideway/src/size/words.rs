@@ -123,6 +123,11 @@ impl Words<'_> {
             (SampleKind::NoSolution, _) => {
                 format!("{model}: there is {}, so the limit is not kept.", report.against.nothing())
             }
+            (SampleKind::WithoutBound, _) => {
+                format!(
+                    "{model}: infinitely many solutions leave the {what} without bound; the limit is not kept."
+                )
+            }
             (_, Some(level)) if report.against.is_limit() => {
                 let is_kept = if report.against.is_greatest() {
                     level <= report.margin

@@ -15,7 +15,7 @@ use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Reaction};
-use crate::mechanism::{COUPLE_TOLERANCE, Effort, JointKind, Mechanism, Slider};
+use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
 use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SharedLoad, SingularMode,
@@ -80,6 +80,7 @@ impl<'a> Answer<'a> {
         self.examine(&mut solutions)?;
         let gaps = distinct(gaps, &solutions);
         let continua: Vec<_> = singular.iter().filter_map(|mode| self.continuum(mode)).collect();
+        let undetermined = self.undetermined(&continua);
         for (mode, _) in lists.singular.iter().zip(&singular).filter(|(mode, cut)| tips_everywhere(mode, cut))
         {
             tipping.count += mode.pattern_count;
@@ -102,6 +103,7 @@ impl<'a> Answer<'a> {
             solutions,
             preload_gap_states: gaps,
             continua,
+            undetermined,
             undecided_modes: lists.undecided.iter().map(|mode| self.undecided_mode(mode)).collect(),
             locked_modes: outcomes.map_or_else(Vec::new, |outcomes| self.locked_modes(&outcomes.locked)),
             rejected: tipping.rejected,
@@ -134,6 +136,7 @@ impl<'a> Answer<'a> {
             solutions: Vec::new(),
             preload_gap_states: Vec::new(),
             continua: Vec::new(),
+            undetermined: None,
             undecided_modes: Vec::new(),
             locked_modes: Vec::new(),
             rejected: Vec::new(),
@@ -518,10 +521,10 @@ impl<'a> Answer<'a> {
         self.mechanism.drives.is_empty() && bounds.is_some_and(exceeds)
     }
 
-    fn drives(&self, unknowns: &DVector<f64>) -> Vec<report::Drive> {
+    pub(super) fn drives(&self, unknowns: &DVector<f64>) -> Vec<report::Drive> {
         let one = |(index, drive): (usize, &crate::mechanism::Drive)| report::Drive {
             name: drive.name.to_string(),
-            unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
+            unit: drive.effort.unit(),
             effort: unknowns[self.influence.layout().effort(DriveId(index))],
         };
         self.mechanism.drives.iter().enumerate().map(one).collect()
@@ -538,20 +541,6 @@ impl<'a> Answer<'a> {
                 joints: self.joint_modes(&signs(&mode.pattern)),
             })
             .collect()
-    }
-
-    fn continuum(&self, mode: &SingularMode) -> Option<report::Continuum> {
-        let forces = |vector: &DVector<f64>| {
-            self.mechanism.forces_at_faces(&mode.pattern, vector.iter().copied().collect())
-        };
-        let list = |vectors: Vec<&DVector<f64>>| vectors.into_iter().map(forces).collect();
-        mode.set.is_continuum().then(|| report::Continuum {
-            pattern: pattern(&mode.pattern),
-            vertices: list(mode.set.vertices()),
-            directions: list(mode.set.directions()),
-            tipping: self.tipping_in(mode),
-            couple: None,
-        })
     }
 
     fn closest_mode(&self, mode: &ClosestMode) -> report::ClosestMode {

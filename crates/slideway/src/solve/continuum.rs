@@ -1,16 +1,123 @@
-//! The part of a continuum of solutions in which no guided slider tips.
+//! Continua of solutions: the part in which no guided slider tips, and between which values forces and motion lie.
 
 use super::answer::Answer;
-use super::state::{State, signs};
+use super::distinct::SAME_STATE;
+use super::state::{State, pattern, signs};
+use crate::ids::ContactId;
 use crate::kinetics::Reaction;
-use crate::mechanism::COUPLE_TOLERANCE;
-use crate::modes::{SingularMode, SolutionSet};
+use crate::mechanism::{COUPLE_TOLERANCE, Coordinate};
+use crate::modes::{ContactState, SingularMode, SolutionSet};
+use crate::report::{Continuum, DrivenMotion, OpenRange, Undetermined};
 use nalgebra::DVector;
 
 /// A part of a continuum that is shorter than this multiple of it is a point within the tolerance.
 const POINT: f64 = 1e-6;
 
 impl Answer<'_> {
+    /// A singular mode as it is told; none if it has no continuum.
+    pub(super) fn continuum(&self, mode: &SingularMode) -> Option<Continuum> {
+        let forces = |vector: &DVector<f64>| {
+            self.mechanism.forces_at_faces(&mode.pattern, vector.iter().copied().collect())
+        };
+        let list = |vectors: Vec<&DVector<f64>>| vectors.into_iter().map(forces).collect();
+        let (vertices, directions) = (mode.set.vertices(), mode.set.directions());
+        // The shares of a preload between its faces are not those of the normal forces alone.
+        let is_told = |(k, state): (usize, &ContactState)| {
+            *state != ContactState::Gap || !self.mechanism.preload_jumps(ContactId(k))
+        };
+        let told = mode.pattern.iter().enumerate().all(is_told);
+        let start = vertices.first().filter(|_| told).copied();
+        let motion = start.map_or_else(Vec::new, |_| {
+            vertices.iter().map(|vertex| self.driven_motion(&self.unknowns_at(mode, vertex))).collect()
+        });
+        let along = |start: &DVector<f64>, direction: &DVector<f64>| {
+            let size = start.amax().max(1.0);
+            let end = start + direction * size;
+            let change = (self.unknowns_at(mode, &end) - self.unknowns_at(mode, start)) / size;
+            let rounding = SAME_STATE * change.amax();
+            self.driven_motion(&change.map(|part| if part.abs() <= rounding { 0.0 } else { part }))
+        };
+        mode.set.is_continuum().then(|| Continuum {
+            pattern: pattern(&mode.pattern),
+            motion,
+            motion_along: start.map_or_else(Vec::new, |start| {
+                directions.iter().map(|direction| along(start, direction)).collect()
+            }),
+            vertices: list(vertices),
+            directions: list(directions),
+            tipping: self.tipping_in(mode),
+            couple: None,
+        })
+    }
+
+    /// All unknowns at a point of a continuum.
+    fn unknowns_at(&self, mode: &SingularMode, normal_force: &DVector<f64>) -> DVector<f64> {
+        self.influence.unknowns(&self.friction(&vertex(mode, normal_force)), normal_force)
+    }
+
+    fn driven_motion(&self, unknowns: &DVector<f64>) -> DrivenMotion {
+        DrivenMotion {
+            efforts: self.drives(unknowns).into_iter().map(|drive| drive.effort + 0.0).collect(),
+            accelerations: self.equations.coordinate_accelerations(unknowns),
+        }
+    }
+
+    /// Between which values the forces and the motion of continua lie; none if that is not known of one of them.
+    pub(super) fn undetermined(&self, continua: &[Continuum]) -> Option<Undetermined> {
+        let is_known = |continuum: &Continuum| !continuum.motion.is_empty();
+        if continua.is_empty() || !continua.iter().all(is_known) {
+            return None;
+        }
+        let ranges = |names: Vec<(String, &'static str)>, at: &Values<'_>, along: &Values<'_>| {
+            let each = |(index, (name, unit))| {
+                let values = |of: &Values<'_>| continua.iter().flat_map(|one| of(one, index)).collect();
+                range((name, unit), values(at), values(along))
+            };
+            names.into_iter().enumerate().map(each).collect::<Vec<OpenRange>>()
+        };
+        let motion = |all: &[DrivenMotion], of: fn(&DrivenMotion) -> &[f64], index: usize| -> Vec<f64> {
+            all.iter().map(|one| of(one)[index]).collect()
+        };
+        let list = |all: &[Vec<f64>], index: usize| all.iter().map(|one| one[index]).collect();
+        let efforts: fn(&DrivenMotion) -> &[f64] = |motion| &motion.efforts;
+        let accelerations: fn(&DrivenMotion) -> &[f64] = |motion| &motion.accelerations;
+        let contacts = self.mechanism.contacts.iter().map(|contact| (contact.name.to_string(), "N"));
+        let normal_forces =
+            ranges(contacts.collect(), &|one, index| list(&one.vertices, index), &|one, index| {
+                list(&one.directions, index)
+            });
+        let mut sharing: Vec<String> = Vec::new();
+        for (k, contact) in self.mechanism.contacts.iter().enumerate() {
+            let joint = &self.mechanism.joints[contact.joint.index()].name;
+            let is_open = self.mechanism.excess.shares(ContactId(k)) && !normal_forces[k].is_one_value();
+            if is_open && !sharing.iter().any(|name| *name == **joint) {
+                sharing.push(joint.to_string());
+            }
+        }
+        let acceleration = |coordinate: &Coordinate| {
+            let unit = if coordinate.kind.is_angle() { "rad/s^2" } else { "m/s^2" };
+            (coordinate.name.to_string(), unit)
+        };
+        Some(Undetermined {
+            sharing,
+            efforts: ranges(
+                self.mechanism
+                    .drives
+                    .iter()
+                    .map(|drive| (drive.name.to_string(), drive.effort.unit()))
+                    .collect(),
+                &|one, index| motion(&one.motion, efforts, index),
+                &|one, index| motion(&one.motion_along, efforts, index),
+            ),
+            accelerations: ranges(
+                self.mechanism.coordinates.iter().map(acceleration).collect(),
+                &|one, index| motion(&one.motion, accelerations, index),
+                &|one, index| motion(&one.motion_along, accelerations, index),
+            ),
+            normal_forces,
+        })
+    }
+
     /// A singular mode with its continuum cut to where |C| <= |N| L / 2 holds for every guided slider.
     ///
     /// In one mode the sign of N is fixed and everything is affine, so that both bounds on C cut a segment or
@@ -73,7 +180,7 @@ impl Answer<'_> {
     /// What is left of the couple of each guided slider in both directions, |N| L / 2 - C and |N| L / 2 + C.
     fn slack(&self, mode: &SingularMode, normal_force: &DVector<f64>) -> Vec<f64> {
         let state = vertex(mode, normal_force);
-        let unknowns = self.influence.unknowns(&self.friction(&state), normal_force);
+        let unknowns = self.unknowns_at(mode, normal_force);
         let both = |(joint, slider): (_, &crate::mechanism::Slider)| {
             let contact = slider.contacts[0].index();
             let limit = state.pattern[contact].sign() * normal_force[contact] * slider.length / 2.0;
@@ -102,10 +209,24 @@ impl Answer<'_> {
         mode: &SingularMode,
         normal_force: &DVector<f64>,
     ) -> Option<crate::report::Rejection> {
-        let state = vertex(mode, normal_force);
-        let unknowns = self.influence.unknowns(&self.friction(&state), normal_force);
-        self.tipping(&state, &unknowns)
+        self.tipping(&vertex(mode, normal_force), &self.unknowns_at(mode, normal_force))
     }
+}
+
+/// A quantity of a continuum at its vertices or along its directions.
+type Values<'a> = dyn Fn(&Continuum, usize) -> Vec<f64> + 'a;
+
+/// From the least to the greatest of the values at vertices, without bound where it grows along a direction.
+fn range((name, unit): (String, &'static str), at: Vec<f64>, along: Vec<f64>) -> OpenRange {
+    let [least, greatest] =
+        at.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], value| {
+            [least.min(value), greatest.max(value)]
+        });
+    // Values that differ by rounding alone are one.
+    let one = greatest - least <= SAME_STATE * least.abs().max(greatest.abs());
+    let [least, greatest] = if one { [f64::midpoint(least, greatest) + 0.0; 2] } else { [least, greatest] };
+    let is_bounded = |sense: f64| along.iter().all(|growth| sense * growth <= 0.0);
+    OpenRange { name, unit, from: is_bounded(-1.0).then_some(least), to: is_bounded(1.0).then_some(greatest) }
 }
 
 /// A point of a continuum as a state.

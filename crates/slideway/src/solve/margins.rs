@@ -15,7 +15,7 @@ use crate::modes::existence::{
     nothing_is_left,
 };
 use crate::modes::{BySide, ContactState, SharedLoad};
-use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Unlocking};
+use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, Unlocking};
 use nalgebra::DMatrix;
 
 /// The most patterns for which margins are computed.
@@ -30,6 +30,10 @@ pub(crate) const AT_ONCE: f64 = 1e-9;
 /// Adds the margins to a report, if there are few enough modes, and each can be followed. The one of every
 /// load needs bounds of the exact numbers.
 pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Option<&EnclosedModeProblem>) {
+    if report.status == Status::Continuum {
+        report.margins_missing = Some(MarginsMissing::Undetermined);
+        return;
+    }
     let Some(all) = Growth::along(data, &|_| true) else {
         report.margins_missing = Some(MarginsMissing::TooManyModes);
         return;
@@ -67,7 +71,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         tips: all.tips(mechanism),
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
-        moves_below: all.counts.first().filter(|count| is_jammed(count)).and_then(|_| moves_below(data)),
+        moves_below: all.counts.first().filter(|count| count.is_empty()).and_then(|_| moves_below(data)),
         critical_contact: critical_contact(data),
     });
 }
@@ -127,7 +131,7 @@ struct Growth {
 /// one comes at once.
 fn moves_below(data: ProblemData<'_>) -> Option<Unlocking> {
     let falling = Growth::over(FALLING, data, &|_| true)?;
-    let last = falling.counts.iter().rfind(|count| !is_jammed(count))?;
+    let last = falling.counts.iter().rfind(|count| !count.is_empty())?;
     let factor = last.to;
     let mut coefficients =
         data.mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
@@ -177,7 +181,7 @@ impl Growth {
 
     /// The factor just beyond which there is neither a solution nor a gap state.
     fn no_solution(&self) -> Option<f64> {
-        self.counts.iter().find(|count| is_jammed(count)).map(|count| count.from)
+        self.counts.iter().find(|count| count.is_empty()).map(|count| count.from)
     }
 
     /// The guided sliders that tip at that factor.
@@ -194,8 +198,8 @@ impl Growth {
 
     /// The factor beyond that from which on there are solutions or gap states again.
     fn solutions_again(&self) -> Option<f64> {
-        let beyond = self.counts.iter().skip_while(|count| !is_jammed(count));
-        beyond.skip_while(|count| is_jammed(count)).map(|count| count.from).next()
+        let beyond = self.counts.iter().skip_while(|count| !count.is_empty());
+        beyond.skip_while(|count| count.is_empty()).map(|count| count.from).next()
     }
 
     /// The interval of a mode that exists now.
@@ -214,10 +218,6 @@ fn rougher(influence: &IntervalInfluence, factor: f64) -> Option<IntervalInfluen
     };
     let mu = BySide { positive: times(&influence.mu.positive)?, negative: times(&influence.mu.negative)? };
     Some(IntervalInfluence { mu, ..influence.clone() })
-}
-
-fn is_jammed(count: &CountInterval) -> bool {
-    count.solutions + count.gap_states == 0
 }
 
 fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval, nothing_is_left: bool) -> report::ModeMargin {

@@ -1,9 +1,10 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
+use super::distinct::agree;
 use super::faces::{FreeFace, with_either_side};
 use super::mode_problem::self_stresses;
 use super::stages::ProblemData;
-use crate::ids::JointId;
+use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
@@ -28,6 +29,8 @@ pub(crate) struct Parts {
     bounds: Vec<OutputBound>,
     has_jump: Vec<bool>,
     free_faces: Vec<Option<FreeFace>>,
+    /// Whether the preload of a contact rubs at one face or the other.
+    preload_jumps: Vec<bool>,
     /// Which contacts may be open, and together.
     open: OpenContacts,
 }
@@ -106,6 +109,7 @@ impl Parts {
             bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
             free_faces: (0..contacts).map(|contact| data.free_face(&has_jump, contact)).collect(),
             has_jump,
+            preload_jumps: (0..contacts).map(|k| mechanism.preload_jumps(ContactId(k))).collect(),
             open: mechanism.excess.open.clone(),
         }
     }
@@ -168,6 +172,7 @@ impl Parts {
         let all = || weighted.iter().map(|(_, parts)| *parts);
         for k in 0..sum.has_jump.len() {
             sum.has_jump[k] = all().any(|parts| parts.has_jump[k]);
+            sum.preload_jumps[k] = all().any(|parts| parts.preload_jumps[k]);
             sum.free_faces[k] = free_face(all(), k);
         }
         sum.right_hand_side *= *weight;
@@ -180,6 +185,18 @@ impl Parts {
     /// The same contacts without friction that grows with their pressure.
     pub(crate) fn without_pressure_friction(&self) -> Self {
         Self { columns: self.frictionless.clone(), ..self.clone() }
+    }
+
+    /// Whether the states of two patterns with these normal forces are the same solution: equal forces and motion. Where
+    /// a contact is between its faces in its play is neither; at which face its preload rubs is a force.
+    pub(crate) fn is_same(
+        &self,
+        one: (&[ContactState], &DVector<f64>),
+        other: (&[ContactState], &DVector<f64>),
+    ) -> bool {
+        let tells = |k: usize| self.preload_jumps[k] || self.free_faces[k] == Some(FreeFace::Nothing);
+        agree(one.1.as_slice(), other.1.as_slice())
+            && (0..one.0.len()).all(|k| one.0[k] == other.0[k] || !tells(k))
     }
 
     /// Whether the states of a pattern are solutions: each contact is pressed, or open.

@@ -3,7 +3,7 @@
 use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
 use super::writer::{head, number_in_modes, verdict};
-use crate::report::{CertificateKind, Hinge, Solution, SolveReport, Status};
+use crate::report::{CertificateKind, Continuum, DrivenMotion, Hinge, Solution, SolveReport, Status};
 
 /// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.
 pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &mut Rows) {
@@ -27,10 +27,10 @@ pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &
         telling.state(state, RowKind::PreloadGap);
     }
     for continuum in &report.continua {
-        telling.corners(&continuum.pattern, &continuum.vertices);
+        telling.corners(continuum);
     }
     for mode in &report.undecided_modes {
-        telling.corners_of(RowKind::Undecided, &mode.pattern, &[]);
+        telling.corner(RowKind::Undecided, &mode.pattern, &[], None);
     }
     if rows.len() == first {
         rows.push_empty(head(point, status), point.values);
@@ -93,19 +93,29 @@ impl Telling<'_> {
         );
     }
 
-    fn corners(&mut self, pattern: &str, corners: &[Vec<f64>]) {
-        self.corners_of(RowKind::Continuum, pattern, corners);
+    /// One row for each corner; one without numbers if they are not known.
+    fn corners(&mut self, continuum: &Continuum) {
+        if continuum.vertices.is_empty() {
+            self.corner(RowKind::Continuum, &continuum.pattern, &[], None);
+        }
+        for (index, corner) in continuum.vertices.iter().enumerate() {
+            self.corner(RowKind::Continuum, &continuum.pattern, corner, continuum.motion.get(index));
+        }
     }
 
-    /// One row for each corner, with its normal forces alone; one without numbers if there are none.
-    fn corners_of(&mut self, kind: RowKind, pattern: &str, corners: &[Vec<f64>]) {
-        let nothing = [Vec::new()];
-        let corners = if corners.is_empty() { &nothing } else { corners };
-        for corner in corners {
-            self.rows.numbers.extend_from_slice(self.point.values);
-            self.rows.numbers.extend_from_slice(corner);
-            self.finish(pattern, RowHead { kind, ..head(self.point, self.status) });
+    /// A row with normal forces, and with accelerations and efforts, as far as they are known.
+    fn corner(&mut self, kind: RowKind, pattern: &str, normal_forces: &[f64], motion: Option<&DrivenMotion>) {
+        let columns = &self.plan.columns;
+        let before = columns.varied + 2 * columns.contacts + columns.shares.len() + columns.couples.len();
+        let rows = &mut *self.rows;
+        let start = rows.numbers.len();
+        rows.numbers.extend_from_slice(self.point.values);
+        rows.numbers.extend_from_slice(normal_forces);
+        if let Some(motion) = motion {
+            rows.numbers.resize(start + before, f64::NAN);
+            rows.numbers.extend(motion.accelerations.iter().chain(&motion.efforts));
         }
+        self.finish(pattern, RowHead { kind, ..head(self.point, self.status) });
     }
 
     fn finish(&mut self, pattern: &str, head: RowHead) {

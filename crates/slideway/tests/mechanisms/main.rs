@@ -11,6 +11,7 @@ mod stiff_guides;
 mod attainability;
 mod between_faces;
 mod configuration;
+mod continua;
 mod design;
 mod enclosure;
 mod exact_chains;

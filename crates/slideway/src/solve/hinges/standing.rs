@@ -140,6 +140,8 @@ impl Modes<'_> {
             pattern: pattern(&states(sides)),
             vertices,
             directions: directions.collect(),
+            motion: Vec::new(),
+            motion_along: Vec::new(),
             tipping,
             couple: Some(CoupleRange {
                 hinge: self.answer.mechanism.joints[self.hinge.joint.index()].name.to_string(),

@@ -1,0 +1,81 @@
+//! What infinitely many solutions leave open.
+
+use crate::units::Units;
+use serde::Serialize;
+
+/// The least and the greatest value of a quantity over infinitely many solutions, each of which some solution has.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct OpenRange {
+    /// The contact, drive or coordinate.
+    pub name: String,
+    /// The unit of both values.
+    pub unit: &'static str,
+    /// The least value; null if it is unbounded.
+    pub from: Option<f64>,
+    /// The greatest value; null if it is unbounded.
+    pub to: Option<f64>,
+}
+
+impl OpenRange {
+    /// Whether all solutions have the same value.
+    pub fn is_one_value(&self) -> bool {
+        self.from.is_some() && self.from == self.to
+    }
+
+    /// "25 to 50 N", "25 N and more, without bound".
+    pub(crate) fn in_words(&self, units: &Units) -> String {
+        let unit = units.of(self.unit);
+        match (self.from, self.to) {
+            (Some(from), Some(to)) if from == to => unit.show(from),
+            (Some(from), Some(to)) => format!("{} to {}", unit.number(from), unit.show(to)),
+            (Some(from), None) => format!("{} and more, without bound", unit.show(from)),
+            (None, Some(to)) => format!("{} and less, without bound", unit.show(to)),
+            (None, None) => "of any value".to_owned(),
+        }
+    }
+}
+
+/// What infinitely many solutions leave open, and between which values.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Undetermined {
+    /// The joints whose share of a load is open.
+    pub sharing: Vec<String>,
+    /// The efforts of the drives.
+    pub efforts: Vec<OpenRange>,
+    /// The accelerations of the coordinates.
+    pub accelerations: Vec<OpenRange>,
+    /// The normal forces of the contacts.
+    pub normal_forces: Vec<OpenRange>,
+}
+
+impl Undetermined {
+    /// What is undetermined, in a few words: "how left, right share the load is undetermined".
+    pub(crate) fn cause(&self) -> String {
+        match self.sharing.as_slice() {
+            [] => "a mode with vanishing determinant leaves forces undetermined".to_owned(),
+            joints => format!("how {} share the load is undetermined", joints.join(", ")),
+        }
+    }
+
+    /// What to do for one value; none if it is not known.
+    pub(crate) fn advice(&self) -> Option<&'static str> {
+        (!self.sharing.is_empty()).then_some("Give `stiffness` for one value.")
+    }
+
+    /// The ranges of what is open, a line for each kind of quantity.
+    pub(crate) fn in_words(&self, units: &Units) -> Vec<String> {
+        let line = |(what, ranges): (&str, &Vec<OpenRange>)| {
+            let one = |range: &OpenRange| format!("{} {}", range.name, range.in_words(units));
+            let open: Vec<String> = ranges.iter().filter(|range| !range.is_one_value()).map(one).collect();
+            (!open.is_empty()).then(|| format!("{what}: {}.", open.join(", ")))
+        };
+        let kinds = [
+            ("Efforts", &self.efforts),
+            ("Accelerations", &self.accelerations),
+            ("Normal forces", &self.normal_forces),
+        ];
+        kinds.into_iter().filter_map(line).collect()
+    }
+}
