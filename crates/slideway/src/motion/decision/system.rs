@@ -228,7 +228,7 @@ impl<'s> System<'s> {
             {
                 let acceleration = self.output(self.instant.sliding_output(joint));
                 add(Subject::Slip(joint), acceleration.times(sign));
-                if sign == self.instant.joints[joint].stop {
+                if sign == self.instant.joints[joint].stop && !self.question.pushed.contains(&joint) {
                     // Nothing slides into its stop.
                     add(Subject::Slip(joint), AffineExpression::constant(-1.0));
                 }

@@ -5,6 +5,7 @@ mod agreement;
 mod closed_forms;
 mod continuations;
 mod end_stops;
+mod energy_of_impacts;
 mod fast_loads;
 mod friction_laws;
 mod gaps;

@@ -1,18 +1,20 @@
 //! The impulses of an impact with friction in hinges: the block mode problem of impulses, in which the jumps of the joints that
 //! are pushed have rows of their own, whose multipliers are the impulses of their stops.
 
-use super::{Blow, Change, Collision, Impact, Pushed, hits, outcome};
+use super::{AfterImpact, Blow, Change, Collision, Impact, Pushed, hits, outcome};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::BOUNDARY;
+use crate::motion::decision::halting::halting_impulse;
 use crate::motion::decision::hinged::{SAME, near, relative_velocities, setup};
 use crate::motion::decision::impulse::{AT_REST, jumped};
+use crate::motion::decision::rules::EventInstant;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::phase::sliding_joints;
 use crate::pattern::{JointPhase, direction};
-use crate::standstill::{KnownMotion, MotionState, Setup, motion_states, sticking_slack};
+use crate::standstill::{KnownMotion, MotionState, Setup, motion_states, whole_slack};
 use nalgebra::DVector;
 
 /// The impact of joints; all joints and hinges count as acting on one another.
@@ -31,12 +33,19 @@ pub(super) fn impact(
         return Ok(found);
     }
     let signs: Vec<Option<f64>> =
-        velocities.iter().map(|velocity| (*velocity != 0.0).then(|| velocity.signum())).collect();
+        velocities.iter().map(|velocity| Some(sign_of(*velocity)).filter(|sign| *sign != 0.0)).collect();
     let setup = setup(mechanism, configuration, (&signs, 0.0))?;
     let size = 3 * mechanism.bodies.len();
-    let collision = Collision { mechanism, hits: &hits, pushes: Vec::new(), velocities: &velocities, size };
+    let collision = Collision {
+        mechanism,
+        hits: &hits,
+        pushes: Vec::new(),
+        wedges: false,
+        velocities: &velocities,
+        size,
+    };
     let course = outcome(collision, |collision, unsolved| {
-        collision.outcome(&Hinged { setup: touching(&setup, collision), collision }, unsolved)
+        collision.outcome(&Hinged { setup: touching(&setup, collision), configuration, collision }, unsolved)
     })?;
     found.after = jumped(configuration, course.jumps.as_slice(), 1.0);
     found.after.measure(mechanism);
@@ -58,6 +67,11 @@ fn velocities_in_sizes(mechanism: &Mechanism, configuration: &Configuration) -> 
     velocities.into_iter().map(without_rounding).collect()
 }
 
+/// 1, -1, or 0 where there is none.
+fn sign_of(velocity: f64) -> f64 {
+    if velocity == 0.0 { 0.0 } else { velocity.signum() }
+}
+
 /// The instant at which those of the joints whose stops push touch them.
 fn touching(setup: &Setup, collision: &Collision<'_>) -> Setup {
     let mut touching = setup.clone();
@@ -69,6 +83,8 @@ fn touching(setup: &Setup, collision: &Collision<'_>) -> Setup {
 
 struct Hinged<'c> {
     setup: Setup,
+    /// The mechanism before the impact.
+    configuration: &'c Configuration,
     collision: &'c Collision<'c>,
 }
 
@@ -103,6 +119,26 @@ impl Pushed for Hinged<'_> {
         }
         Ok(changes.into_iter().next().map(|(_, change)| change))
     }
+
+    fn wedged(&self, course: &AfterImpact) -> Result<Option<Change>, Faults> {
+        let mechanism = self.collision.mechanism;
+        let before = jumped(self.configuration, course.jumps.as_slice(), 1.0);
+        let signs: Vec<f64> = course.velocities.iter().map(|velocity| sign_of(*velocity)).collect();
+        let (signs, spins) = signs.split_at(self.setup.sliders.len());
+        let event = EventInstant { spins, ..EventInstant::new((mechanism, &before), signs, None) };
+        let Some(impulse) = halting_impulse(&event)? else { return Ok(None) };
+        let components = |configuration: &Configuration| -> Vec<f64> {
+            configuration.velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]).collect()
+        };
+        let after = Configuration { velocities: impulse.velocities, ..before.clone() };
+        let jumps = DVector::from_vec(components(&after)) - DVector::from_vec(components(&before));
+        let velocities = velocities_in_sizes(mechanism, &after).into_iter().zip(&course.velocities);
+        Ok(Some(Change {
+            velocities: velocities.map(|(after, before)| after - before).collect(),
+            jumps,
+            impulses: vec![0.0; self.collision.pushing().count()],
+        }))
+    }
 }
 
 impl Hinged<'_> {
@@ -111,7 +147,7 @@ impl Hinged<'_> {
         let sign = (velocity != 0.0).then(|| velocity.signum());
         match targets.iter().find(|(pushed, _)| *pushed == joint) {
             Some((_, target)) => KnownMotion {
-                sign: Some(sign.unwrap_or_else(|| -self.setup.stops[joint])),
+                sign: Some(sign.unwrap_or_else(|| target.signum())),
                 acceleration: velocity - target,
                 pushed: true,
             },
@@ -154,6 +190,6 @@ impl Change {
 /// begins to move does so against its friction.
 fn is_admissible(impulses: &Setup, state: &MotionState) -> bool {
     let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
-    let slack = sticking_slack(impulses, &state.pattern, &directions);
+    let slack = whole_slack(impulses, &state.pattern, &directions);
     slack.is_some_and(|slack| slack >= -BOUNDARY)
 }

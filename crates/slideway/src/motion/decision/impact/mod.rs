@@ -8,6 +8,7 @@ mod sliders;
 
 use super::MOST_STATES;
 use super::impulse::AT_REST;
+use super::separate::{self, separate};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
@@ -34,7 +35,8 @@ pub struct Blow {
 }
 
 /// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution
-/// `e`: its sliding velocity changes from `v` to `-e v`.
+/// `e`: its sliding velocity changes from `v` to `-e v`, or less: the impact is over at latest when the stops have
+/// returned the work that they have taken, so that kinetic energy never grows.
 ///
 /// A stop pushes along the centre line of the guide, between block and guide, with an impulse `P` that grows
 /// during the impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary Part, chapter IV). Loads
@@ -51,9 +53,14 @@ pub struct Blow {
 /// the impact. If there are several possible answers, the one with the greatest margin is used; with friction in hinges that in
 /// which more of what is at rest stays so. Coefficients of friction are those at the velocities before the impact.
 ///
-/// Stops that are reached together act together: the velocities `v_i` towards them change to `-e_i v_i` in
-/// proportion. A stop may also exert no impulse, if the others move its joint away from it at least as fast:
-/// `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau).
+/// Where pushing makes a joint faster towards its stop, since friction of another turns it round, that goes on until a
+/// sliding or angular velocity reaches zero. Where no impulse of the stop is possible friction wedges the mechanism, as in
+/// a [`jam`](super::jam()), and what comes to rest so is not thrown back.
+///
+/// Stops that are reached together act together: the velocities `v_i` towards them fall to zero in proportion, then
+/// change to `-e_i v_i` in proportion. A stop may also exert no impulse, if the others move its joint away from it at least
+/// as fast: `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau); where the
+/// impact is over earlier, with as much of `e_i` as the others have reached.
 /// Without friction this is a linear complementarity problem with a unique outcome, which removes a kinetic
 /// energy of `sum_i P_i (1 - e_i) v_i/2`. All choices of the stops that push are tried.
 ///
@@ -61,6 +68,18 @@ pub struct Blow {
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are
 /// tried, an impact in which friction leaves the stops no impulse, and one with several possible outcomes.
 pub fn impact(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    stops: &[(JointId, f64)],
+) -> Result<Impact, Faults> {
+    match separate(mechanism) {
+        Some(parts) => separate::impact(&parts, (mechanism, configuration), stops, together),
+        None => together(mechanism, configuration, stops),
+    }
+}
+
+/// The impact in a mechanism that is taken as a whole.
+fn together(
     mechanism: &Mechanism,
     configuration: &Configuration,
     stops: &[(JointId, f64)],
@@ -99,6 +118,8 @@ struct AfterImpact {
     jumps: DVector<f64>,
     /// Of the stops (N s).
     impulses: Vec<f64>,
+    /// Work of the stops (J).
+    work: f64,
 }
 
 /// By how much everything changes while the velocities of some joints go to their targets.
@@ -127,6 +148,12 @@ trait Pushed {
         targets: &[(usize, f64)],
         unsolved: &mut usize,
     ) -> Result<Option<Change>, Faults>;
+
+    /// The change by which friction wedges the mechanism where no stop can push, until a velocity reaches zero.
+    ///
+    /// # Errors
+    /// More states than are tried.
+    fn wedged(&self, course: &AfterImpact) -> Result<Option<Change>, Faults>;
 }
 
 /// Joints that reach their stops together.
@@ -135,6 +162,8 @@ struct Collision<'c> {
     hits: &'c [Hit],
     /// For each, whether its stop pushes.
     pushes: Vec<bool>,
+    /// Whether pushing may make joints faster towards their stops, and friction wedge them.
+    wedges: bool,
     /// The velocities of the sliding joints (m/s), then of hinges with friction, in sizes of the mechanism; exactly zero where
     /// they are only rounding.
     velocities: &'c [f64],
@@ -156,25 +185,31 @@ fn outcome(
         let kind = FaultKind::TooManyStates { states: choices, limit: MOST_STATES };
         return Err(Fault::general(kind).into());
     }
-    let mut found: Option<AfterImpact> = None;
     let mut unsolved = 0;
-    // All stops together are tried first.
-    for choice in (1..choices).rev() {
-        collision.pushes = (0..hits).map(|hit| choice >> hit & 1 == 1).collect();
-        let Some(other) = attempt(&collision, &mut unsolved)? else { continue };
-        let differs = |found: &AfterImpact| {
-            let velocities = found.velocities.iter().zip(&other.velocities);
-            velocities.into_iter().any(|(one, other)| collision.without_rounding(one - other) != 0.0)
-        };
-        if found.as_ref().is_some_and(differs) {
-            return Err(collision.several());
+    for wedges in [false, true] {
+        collision.wedges = wedges;
+        let mut found: Option<AfterImpact> = None;
+        // All stops together are tried first.
+        for choice in (1..choices).rev() {
+            collision.pushes = (0..hits).map(|hit| choice >> hit & 1 == 1).collect();
+            let Some(other) = attempt(&collision, &mut unsolved)? else { continue };
+            let differs = |found: &AfterImpact| {
+                let velocities = found.velocities.iter().zip(&other.velocities);
+                velocities.into_iter().any(|(one, other)| collision.without_rounding(one - other) != 0.0)
+            };
+            if found.as_ref().is_some_and(differs) {
+                return Err(collision.several());
+            }
+            found.get_or_insert(other);
         }
-        found.get_or_insert(other);
+        if let Some(found) = found {
+            return Ok(found);
+        }
     }
     let joints = collision.joints();
     let kind =
         if unsolved > 0 { FaultKind::UnsolvedImpact { joints } } else { FaultKind::ImpactWedges { joints } };
-    found.ok_or_else(|| Fault::general(kind).into())
+    Err(Fault::general(kind).into())
 }
 
 impl Collision<'_> {
@@ -203,22 +238,36 @@ impl Collision<'_> {
             velocities: self.velocities.to_vec(),
             jumps: DVector::zeros(self.size),
             impulses: vec![0.0; self.hits.len()],
+            work: 0.0,
         };
-        let before = self.velocities;
-        let pushing = self.hits.iter().zip(&self.pushes).filter(|(_, pushes)| **pushes);
-        let target = |(hit, _): (&Hit, _)| (hit.joint, -hit.restitution * before[hit.joint]);
-        if !self.follow(pushed, &mut course, &pushing.map(target).collect::<Vec<_>>(), unsolved)? {
+        let targets = |part: f64| -> Vec<(usize, f64)> {
+            let target = |hit: &Hit| (hit.joint, -part * hit.restitution * self.velocities[hit.joint]);
+            self.pushing().map(|(_, hit)| target(hit)).collect()
+        };
+        if !self.follow(pushed, &mut course, &targets(0.0), unsolved)? {
             return Ok(None);
         }
-        let leaves = |hit: &Hit| {
-            let (before, after) = (before[hit.joint], course.velocities[hit.joint]);
-            -before.signum() * after >= hit.restitution * before.abs() - self.rounding()
-        };
-        Ok(self.hits.iter().all(leaves).then_some(course))
+        let undecided = *unsolved;
+        let returns = self.follow(pushed, &mut course, &targets(1.0), unsolved)?;
+        if !returns && (!self.wedges || *unsolved > undecided) {
+            return Ok(None);
+        }
+        let leaves = |hit: &Hit| -self.velocities[hit.joint].signum() * course.velocities[hit.joint];
+        let wanted = |hit: &Hit| hit.restitution * self.velocities[hit.joint].abs();
+        let bounces = self.pushing().map(|(_, hit)| hit).filter(|hit| wanted(hit) > 0.0);
+        let reached = bounces.map(|hit| leaves(hit) / wanted(hit)).fold(1.0_f64, f64::min).max(0.0);
+        let is_left = |hit: &Hit| leaves(hit) >= reached * wanted(hit) - self.rounding();
+        Ok(self.hits.iter().all(is_left).then_some(course))
     }
 
-    /// Follows an impact until the joints have reached their velocities, in proportion; `false` if no impulse
-    /// leads there. Every part except the last brings another joint or hinge to rest.
+    /// The stops that push, each with its number.
+    fn pushing(&self) -> impl Iterator<Item = (usize, &Hit)> {
+        self.hits.iter().enumerate().filter(|(hit, _)| self.pushes[*hit])
+    }
+
+    /// Follows an impact until the joints have reached their velocities, in proportion, or the stops have returned the work
+    /// that they have taken; `false` if no impulse leads there. Every part except the last brings another joint or hinge to
+    /// rest.
     fn follow(
         &self,
         pushed: &dyn Pushed,
@@ -226,43 +275,108 @@ impl Collision<'_> {
         targets: &[(usize, f64)],
         unsolved: &mut usize,
     ) -> Result<bool, Faults> {
-        let mut parts = 0..=4 * course.velocities.len();
-        while targets.iter().any(|(joint, target)| course.velocities[*joint] != *target) {
+        for _ in 0..4 * course.velocities.len() + 2 {
+            if targets.iter().all(|(joint, target)| course.velocities[*joint] == *target) {
+                return Ok(true);
+            }
             course.velocities.iter_mut().for_each(|velocity| *velocity = self.without_rounding(*velocity));
-            let Some(change) = pushed.change(&course.velocities, targets, unsolved)? else {
+            let Some((change, reaches)) = self.change(pushed, course, targets, unsolved)? else {
                 return Ok(false);
             };
-            if parts.next().is_none() {
+            let ends: (f64, &[(usize, f64)]) = if reaches { (1.0, targets) } else { (f64::INFINITY, &[]) };
+            let (part, stops) = until_one_stops(pushed, &course.velocities, &change.velocities, ends);
+            let returned = self.returned(course, (&change, part));
+            let part = returned.unwrap_or(part);
+            if !part.is_finite() {
                 return Ok(false);
             }
-            let (part, stops) = until_one_stops(pushed, &course.velocities, &change.velocities, targets);
-            course
-                .velocities
-                .iter_mut()
-                .zip(&change.velocities)
-                .for_each(|(velocity, change)| *velocity += part * change);
+            self.go_on(course, (&change, part));
             match stops {
+                _ if returned.is_some() => return Ok(true),
                 Some(other) => course.velocities[other] = 0.0,
                 None => targets.iter().for_each(|(joint, target)| course.velocities[*joint] = *target),
             }
-            course.jumps += change.jumps * part;
-            let mut impulses = change.impulses.into_iter();
-            for (impulse, _) in course.impulses.iter_mut().zip(&self.pushes).filter(|(_, pushes)| **pushes) {
-                *impulse += part * impulses.next().unwrap_or(0.0);
-            }
         }
-        Ok(true)
+        Ok(false)
+    }
+
+    /// How everything changes next, and whether that leads to the targets. Where pushing makes joints faster towards their
+    /// stops it goes on until something stops; where no stop can push, friction wedges what moves towards them.
+    fn change(
+        &self,
+        pushed: &dyn Pushed,
+        course: &AfterImpact,
+        targets: &[(usize, f64)],
+        unsolved: &mut usize,
+    ) -> Result<Option<(Change, bool)>, Faults> {
+        if let Some(change) = pushed.change(&course.velocities, targets, unsolved)? {
+            return Ok(Some((change, true)));
+        }
+        if !self.wedges {
+            return Ok(None);
+        }
+        let away = |&(joint, target): &(usize, f64)| (joint, 2.0 * course.velocities[joint] - target);
+        let away: Vec<(usize, f64)> = targets.iter().map(away).collect();
+        if let Some(change) = pushed.change(&course.velocities, &away, unsolved)? {
+            return Ok(Some((change, false)));
+        }
+        let nears = |(_, hit): (usize, &Hit)| {
+            course.velocities[hit.joint] * self.velocities[hit.joint].signum() > 0.0
+        };
+        if !self.pushing().any(nears) {
+            return Ok(None);
+        }
+        Ok(pushed.wedged(course)?.map(|change| (change, false)))
+    }
+
+    /// A part of a change.
+    fn go_on(&self, course: &mut AfterImpact, (change, part): (&Change, f64)) {
+        course.work = self.work(course, (change, part));
+        let velocities = course.velocities.iter_mut().zip(&change.velocities);
+        velocities.for_each(|(velocity, change)| *velocity += part * change);
+        course.jumps += &change.jumps * part;
+        for ((hit, _), impulse) in self.pushing().zip(&change.impulses) {
+            course.impulses[hit] += part * impulse;
+        }
+    }
+
+    /// `sum_i -d_i P_i (v_i + c_i/2)` of the stops that push, with the sense `d_i` in which their joints reach them: what they
+    /// have done before, and the linear and the quadratic term of a part of a change.
+    fn works(&self, course: &AfterImpact, change: &Change) -> [f64; 3] {
+        let terms = self.pushing().zip(&change.impulses).map(|((_, hit), impulse)| {
+            let push = -self.velocities[hit.joint].signum() * impulse;
+            [push * course.velocities[hit.joint], push * change.velocities[hit.joint] / 2.0]
+        });
+        terms.fold([course.work, 0.0, 0.0], |[before, linear, square], [one, other]| {
+            [before, linear + one, square + other]
+        })
+    }
+
+    fn work(&self, course: &AfterImpact, (change, part): (&Change, f64)) -> f64 {
+        let [before, linear, square] = self.works(course, change);
+        before + part * (linear + part * square)
+    }
+
+    /// The part of a change after which the stops have returned the work that they have taken; nothing if that is later.
+    fn returned(&self, course: &AfterImpact, (change, part): (&Change, f64)) -> Option<f64> {
+        let impulse: f64 = change.impulses.iter().map(|impulse| part * impulse).sum();
+        let is_over = self.work(course, (change, part)) > impulse * self.rounding();
+        let [before, linear, square] = self.works(course, change);
+        let root = (linear * linear - 4.0 * square * before).max(0.0).sqrt();
+        is_over.then(|| {
+            if linear > 0.0 { -2.0 * before / (linear + root) } else { (root - linear) / (2.0 * square) }
+        })
     }
 }
 
-/// The fraction of the change until another joint or hinge stops, and which; the whole if none does.
+/// The fraction of a change until a joint or hinge stops, and which, other than those whose target that is; `most` if none does.
 fn until_one_stops(
     pushed: &dyn Pushed,
     velocities: &[f64],
     changes: &[f64],
-    targets: &[(usize, f64)],
+    (most, targets): (f64, &[(usize, f64)]),
 ) -> (f64, Option<usize>) {
-    let mut first = (1.0, None);
+    let mut first = (most, None);
     for (joint, (velocity, change)) in velocities.iter().zip(changes).enumerate() {
         let part = -velocity / change;
         let ends_there = targets.contains(&(joint, 0.0));

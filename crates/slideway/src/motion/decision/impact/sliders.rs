@@ -1,6 +1,6 @@
 //! The impulses of an impact without friction in hinges.
 
-use super::{Blow, Change, Collision, Hit, Impact, Pushed, hits, outcome};
+use super::{AfterImpact, Blow, Change, Collision, Hit, Impact, Pushed, hits, outcome};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -9,6 +9,7 @@ use crate::modes::Side;
 use crate::motion::decision::assessment::Assessment;
 use crate::motion::decision::impulse::Impulses;
 use crate::motion::decision::instant::Instant;
+use crate::motion::decision::jam::{Impulse, Jam, jam};
 use crate::motion::decision::outputs::Group;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::{ContactPhase, JointPhase};
@@ -33,12 +34,19 @@ pub(super) fn impact(
             continue;
         }
         let size = instant.influence.frictionless.len();
-        let collision =
-            Collision { mechanism, hits: &hits, pushes: Vec::new(), velocities: &velocities, size };
+        let collision = Collision {
+            mechanism,
+            hits: &hits,
+            pushes: Vec::new(),
+            wedges: false,
+            velocities: &velocities,
+            size,
+        };
+        let before = &found.after;
         let course = outcome(collision, |collision, unsolved| {
             let instant = touching(&instant, collision);
             let impulses = Impulses::new(&instant);
-            collision.outcome(&Sliders { impulses: &impulses, group }, unsolved)
+            collision.outcome(&Sliders { impulses: &impulses, group, before, collision }, unsolved)
         })?;
         let after = Impulses::new(&instant).moved(&found.after, &course.jumps);
         let stops = hits.iter().map(|hit| hit.id).zip(course.impulses).collect();
@@ -63,6 +71,9 @@ fn touching<'m>(instant: &Instant<'m>, collision: &Collision<'_>) -> Instant<'m>
 struct Sliders<'s> {
     impulses: &'s Impulses<'s>,
     group: &'s Group,
+    /// The mechanism before the impact.
+    before: &'s Configuration,
+    collision: &'s Collision<'s>,
 }
 
 impl Pushed for Sliders<'_> {
@@ -88,6 +99,23 @@ impl Pushed for Sliders<'_> {
         let impulses = targets.iter().map(|(joint, _)| self.push(&state, *joint)).collect();
         Ok(Some(Change { velocities, jumps, impulses }))
     }
+
+    fn wedged(&self, course: &AfterImpact) -> Result<Option<Change>, Faults> {
+        let Instant { mechanism, influence, joints, .. } = self.impulses.instant;
+        let configuration = self.impulses.moved(self.before, &course.jumps);
+        let Jam::Stops(all) = jam(mechanism, &configuration)? else { return Ok(None) };
+        let of_group =
+            |impulse: &Impulse| self.group.joints.iter().any(|joint| joints[*joint].id == impulse.wedged);
+        let impulse = all.into_iter().find(of_group);
+        Ok(impulse.map(|impulse| {
+            let velocities = impulse.sliding_velocities.iter().zip(&course.velocities);
+            Change {
+                velocities: velocities.map(|(after, before)| after - before).collect(),
+                jumps: influence.of_friction(&impulse.friction_impulses),
+                impulses: vec![0.0; self.collision.pushing().count()],
+            }
+        }))
+    }
 }
 
 impl Sliders<'_> {
@@ -105,8 +133,7 @@ impl Sliders<'_> {
             (0..velocities.len()).map(|joint| self.impulses.options(joint, velocities[joint])).collect();
         for &(joint, target) in targets {
             jumps[joint] = target - velocities[joint];
-            let away = -self.impulses.instant.joints[joint].stop;
-            let sign = if stopped[joint] { away } else { velocities[joint].signum() };
+            let sign = if stopped[joint] { jumps[joint].signum() } else { velocities[joint].signum() };
             options[joint] = vec![JointPhase::Sliding(sign)];
         }
         let mut question = self.impulses.question(&jumps, &stopped);
