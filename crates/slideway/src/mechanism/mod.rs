@@ -6,6 +6,7 @@
 mod evaluation;
 mod excess;
 mod pad;
+mod part;
 mod press_fit;
 mod relations;
 
@@ -22,6 +23,7 @@ use evaluation::Evaluation;
 pub use excess::Excess;
 use nalgebra::Vector2;
 pub use pad::Pad;
+pub(crate) use part::Part;
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
 

@@ -33,7 +33,8 @@ pub(crate) struct Pieces {
 impl Pieces {
     /// All relations follow their arguments.
     pub(crate) fn free(mechanism: &Mechanism, relations: &[Relation]) -> Self {
-        let formulas = 0..=mechanism.formulas.len() + mechanism.pads().count();
+        let beyond = mechanism.pads().map(|(_, pad)| pad.formula.index() + 1);
+        let formulas = 0..=beyond.fold(mechanism.formulas.len(), usize::max);
         let first = formulas.map(|id| relations.partition_point(|relation| relation.formula.index() < id));
         Self { first: first.collect(), list: vec![Piece::Free; relations.len()] }
     }

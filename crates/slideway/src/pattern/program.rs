@@ -78,14 +78,6 @@ impl Region {
         Ok(parts.into_iter().map(|part| part.with_pins(sticking.clone())).collect())
     }
 
-    /// The region in which the forces of the turning pins have directions that are given for all pins.
-    pub(crate) fn with_directions(&self, directions: &[[f64; 2]]) -> Self {
-        let (turning, sticking): (Vec<_>, Vec<_>) =
-            self.pins.iter().cloned().zip(directions).partition(|(pin, _)| pin.turning.is_some());
-        let slacks = turning.iter().flat_map(|(pin, direction)| pin.along(**direction));
-        self.within(slacks).with_pins(sticking.into_iter().map(|(pin, _)| pin).collect())
-    }
-
     /// The part in which further slacks are at least zero, without pins.
     pub(super) fn within(&self, further: impl Iterator<Item = Affine>) -> Self {
         Self::new(self.dimension, self.slacks.iter().cloned().chain(further).collect())

@@ -69,10 +69,10 @@ fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Option<Tu
 
 /// How a mechanism begins to move in a state in which hinges turn.
 fn turned(setup: &Setup, state: &MotionState) -> Result<Option<Release>, Unsolved> {
-    let Some(linear) = State::new(setup, &state.pattern, question(setup)) else { return Ok(None) };
     let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
-    let region = linear.region(&static_friction(setup)).with_directions(&directions);
-    release(setup, &state.pattern, &linear, region)
+    let question = (question(setup), Some(&directions[..]));
+    let Some(linear) = State::turning(setup, &state.pattern, question) else { return Ok(None) };
+    release(setup, &state.pattern, &linear, linear.region(&static_friction(setup)))
 }
 
 fn question(setup: &Setup) -> StateQuestion {

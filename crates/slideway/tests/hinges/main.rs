@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
+mod break_away;
 mod cases;
 mod closed_forms;
 mod dead_centre;
@@ -17,3 +18,4 @@ mod standstill;
 mod tables;
 mod turning;
 mod uncertainty;
+mod unrelated;

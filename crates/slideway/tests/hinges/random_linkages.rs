@@ -8,10 +8,10 @@ use slideway::{Model, Settings, solve};
 use std::fmt::Write;
 
 /// A linear congruential generator (Knuth, The Art of Computer Programming, 3.3.4).
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn between(&mut self, [least, greatest]: [f64; 2]) -> f64 {
+    pub(super) fn between(&mut self, [least, greatest]: [f64; 2]) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         least + (greatest - least) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
     }

@@ -15,7 +15,7 @@ use crate::fault::Faults;
 use crate::motion::moving::energy::kinetic;
 use crate::motion::moving::equations::Equations;
 use crate::pattern::{HingePhase, JointPhase, Phase, direction};
-use crate::standstill::{KnownMotion, MotionState, motion_states, sticking_slack};
+use crate::standstill::{KnownMotion, MotionState, motion_states, whole_slack};
 
 /// The first impulse that can act; `None` if there is none.
 ///
@@ -38,7 +38,7 @@ pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<Halting
         let (found, _) = motion_states(&impulses)?;
         for state in found {
             let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
-            let slack = sticking_slack(&impulses, &state.pattern, &directions);
+            let slack = whole_slack(&impulses, &state.pattern, &directions);
             if slack.is_none_or(|slack| slack < -BOUNDARY) {
                 continue;
             }

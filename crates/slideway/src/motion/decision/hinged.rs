@@ -219,37 +219,27 @@ fn entered<'m>(
 /// too small to be told from rounding, which they are under loads that grow slowly, it is looked at later still.
 fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
     let EventInstant { mechanism, configuration, .. } = *event;
-    let Some(equations) = entered(mechanism, configuration, phase) else { return false };
-    let switching = Switching::new(mechanism, configuration);
-    let mut watch = Watch::new(&[], None);
-    watch.begin(phase, &equations, &switching);
-    let units = Units::of(&equations);
-    let value = |watched: &Watched, equations: &Equations<'_>| {
-        watch
-            .value(*watched, phase, equations)
-            .map_or(f64::NEG_INFINITY, |value| value / units.of_watched(*watched))
-    };
+    let Some(bounds) = WatchedPhase::new(event, phase) else { return false };
+    let (equations, units) = (&bounds.equations, &bounds.units);
+    let values = bounds.values();
     let begins = |watched: &Watched| match *watched {
         Watched::Velocity(joint, _) => event.signs[joint] == 0.0,
         Watched::Spin(hinge, _) => event.spins[hinge] == 0.0,
         _ => false,
     };
-    let bounds = watch.list.iter().filter(|watched| Units::counts(**watched));
-    let values: Vec<(&Watched, f64)> = bounds.map(|watched| (watched, value(watched, &equations))).collect();
     if values.iter().any(|(_, value)| *value < -BOUNDARY) {
         return false;
     }
-    let is_speed = |watched: &Watched| matches!(watched, Watched::Velocity(..) | Watched::Spin(..));
-    let at_boundary = |(watched, value): &&(&Watched, f64)| {
+    let at_boundary = |(watched, value): &&(Watched, f64)| {
         if is_speed(watched) { begins(watched) } else { *value <= BOUNDARY }
     };
-    let at_boundary: Vec<&(&Watched, f64)> = values.iter().filter(at_boundary).collect();
+    let at_boundary: Vec<&(Watched, f64)> = values.iter().filter(at_boundary).collect();
     let sticks_amid_motion = phase.sticks() && !phase.is_at_rest();
     if at_boundary.is_empty() && !sticks_amid_motion {
         return true;
     }
-    let stuck = |equations: &Equations<'_>| stuck_velocities(equations, phase, &units);
-    let stuck_before = stuck(&equations);
+    let stuck = |equations: &Equations<'_>| stuck_velocities(equations, phase, units);
+    let stuck_before = stuck(equations);
     for part in LATER {
         let Some(mut equations) = entered(mechanism, configuration, phase) else { return false };
         if later(&mut equations, configuration, part * units.time).is_none() {
@@ -260,7 +250,7 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
         }
         let changes = at_boundary.iter().map(|(watched, before)| {
             let least = if begins(watched) { MOVES } else { STAYS };
-            (begins(watched), (value(watched, &equations) - before) / least)
+            (begins(watched), (bounds.value(*watched, &equations) - before) / least)
         });
         let changes: Vec<(bool, f64)> = changes.collect();
         if changes.iter().any(|(_, change)| *change < -1.0) {
@@ -272,6 +262,68 @@ fn lasts(event: &EventInstant<'_>, phase: &Phase) -> bool {
         }
     }
     false
+}
+
+fn is_speed(watched: &Watched) -> bool {
+    matches!(watched, Watched::Velocity(..) | Watched::Spin(..))
+}
+
+/// What bounds a phase at an instant.
+struct WatchedPhase<'p> {
+    phase: &'p Phase,
+    equations: Equations<'p>,
+    watch: Watch<'p>,
+    units: Units,
+}
+
+impl<'p> WatchedPhase<'p> {
+    /// Nothing where the equations of the phase have no solution.
+    fn new(event: &EventInstant<'p>, phase: &'p Phase) -> Option<Self> {
+        let equations = entered(event.mechanism, event.configuration, phase)?;
+        let switching = Switching::new(event.mechanism, event.configuration);
+        let mut watch = Watch::new(&[], None);
+        watch.begin(phase, &equations, &switching);
+        let units = Units::of(&equations);
+        Some(Self { phase, equations, watch, units })
+    }
+
+    /// The value of one with the equations a little later, in its unit.
+    fn value(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
+        let value = self.watch.value(watched, self.phase, equations);
+        value.map_or(f64::NEG_INFINITY, |value| value / self.units.of_watched(watched))
+    }
+
+    /// All, with their values.
+    fn values(&self) -> Vec<(Watched, f64)> {
+        let bounds = self.watch.list.iter().copied().filter(|watched| Units::counts(*watched));
+        bounds.map(|watched| (watched, self.value(watched, &self.equations))).collect()
+    }
+}
+
+/// Whether nothing happens at an instant: nothing has just stopped or reversed, and the present phase is at no boundary.
+///
+/// # Errors
+/// As [`setup`].
+pub(super) fn is_undisturbed(event: &EventInstant<'_>) -> Result<bool, Faults> {
+    let Some(phase) = event.previous else { return Ok(false) };
+    let signs = event.signs.iter().chain(event.spins);
+    let sliders =
+        sliding_joints(event.mechanism).into_iter().filter_map(|joint| event.mechanism.slider(joint));
+    let rubs = sliders.map(|slider| {
+        let mut contacts = slider.contacts.iter().map(|k| &event.mechanism.contacts[k.index()]);
+        contacts.any(|contact| !contact.is_frictionless() || contact.mu_static != [0.0; 2])
+    });
+    let rubs = rubs.chain(event.spins.iter().map(|_| true));
+    let mut states = phase.joints_and_hinges().zip(signs).zip(rubs);
+    if states.any(|((state, sign), rubs)| rubs && state.sign() != *sign) {
+        return Ok(false);
+    }
+    let bounds = WatchedPhase::new(event, phase);
+    let inside = bounds.is_some_and(|bounds| {
+        bounds.values().iter().all(|(watched, value)| is_speed(watched) || *value > BOUNDARY)
+    });
+    Ok(inside
+        && (!phase.sticks() || sticking_margin(event.mechanism, event.configuration, phase)? > BOUNDARY))
 }
 
 /// The velocities of what sticks in a phase: one that no equation holds, since no motion moves it at once, goes on at a

@@ -69,7 +69,6 @@ impl<'m> Instant<'m> {
     ) -> Result<Self, Faults> {
         mechanism.check_no_press_fit("what follows in time")?;
         mechanism.check_determinate("what follows in time")?;
-        mechanism.check_frictionless_hinges()?;
         let equations = KineticEquations::new(mechanism, configuration)?;
         Self::of(mechanism, (configuration, equations), Least::Now(scale))
     }

@@ -52,7 +52,8 @@
 //! units where forces vanish, `sieve.rs` quickly excludes patterns of sliding, and `holding.rs` looks ahead
 //! in time for bodies that stand still while loads change, with forces that are affine in the loads
 //! (`plan.rs`). Mechanisms with friction in hinges are decided in `hinged.rs`, by the programs of
-//! [`standstill`](crate::standstill), and stopped by the impulses of `halting.rs`.
+//! [`standstill`](crate::standstill), and stopped by the impulses of `halting.rs`; parts that have nothing to do with one
+//! another are decided each by itself there (`separate.rs`).
 
 mod assessment;
 mod bounds;
@@ -73,6 +74,7 @@ mod parts;
 mod plan;
 pub(super) mod rules;
 mod scale;
+mod separate;
 mod sieve;
 mod state;
 mod sticking;

@@ -58,20 +58,28 @@ pub(super) struct PhaseSearch<'s> {
 }
 
 impl PhaseSearch<'_> {
+    /// Whether nothing happens in any group.
+    pub(super) fn nothing_happens(&self) -> bool {
+        self.undisturbed().1.iter().all(|undisturbed| *undisturbed)
+    }
+
+    /// What each group did before, and whether nothing happens in it.
+    fn undisturbed(&self) -> (Vec<Option<Assessment>>, Vec<bool>) {
+        let groups = &self.instant.groups;
+        let before: Vec<Option<Assessment>> = groups.iter().map(|group| self.before(group)).collect();
+        let goes_on = |(group, before): (&Group, &Option<Assessment>)| {
+            before.as_ref().is_some_and(|before| self.is_undisturbed(group, before))
+        };
+        let undisturbed = groups.iter().zip(&before).map(goes_on).collect();
+        (before, undisturbed)
+    }
+
     /// For each group of joints, what it can do, not yet in order.
     ///
     /// # Errors
     /// More states than are tried.
     pub(super) fn parts(&self, found: &mut Successors) -> Result<Vec<Vec<GroupPhase>>, Faults> {
-        let before: Vec<Option<Assessment>> =
-            self.instant.groups.iter().map(|group| self.before(group)).collect();
-        let undisturbed: Vec<bool> = self
-            .instant
-            .groups
-            .iter()
-            .zip(&before)
-            .map(|(group, before)| before.as_ref().is_some_and(|before| self.is_undisturbed(group, before)))
-            .collect();
+        let (before, undisturbed) = self.undisturbed();
         let nothing_happens = undisturbed.iter().all(|undisturbed| *undisturbed);
         let mut parts = Vec::with_capacity(self.instant.groups.len());
         for (index, group) in self.instant.groups.iter().enumerate() {

@@ -17,7 +17,7 @@ use crate::pattern::{JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 
 /// If there are more combinations of what independent groups of joints can do, they are not all listed.
-const MOST_COMBINATIONS: usize = 256;
+pub(super) const MOST_COMBINATIONS: usize = 256;
 const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
@@ -111,6 +111,7 @@ pub fn successors(
     stopped: &[bool],
     previous: Option<&Phase>,
 ) -> Result<Successors, Faults> {
+    mechanism.check_frictionless_hinges()?;
     let instant = Instant::looking_ahead(mechanism, configuration)?;
     instant.check_joints(stopped.len())?;
     let sign = |(joint, stopped): (&super::joints::SlidingJoint, &bool)| match joint.velocity {
@@ -136,11 +137,27 @@ pub(crate) fn continuations(event: &rules::EventInstant<'_>) -> Result<Successor
     at(instant, event, Detail::Order)
 }
 
-fn at(
+/// Whether nothing happens at an instant: nothing has just stopped or reversed, and the present phase is at no boundary.
+///
+/// # Errors
+/// As [`successors`].
+pub(super) fn is_undisturbed(event: &rules::EventInstant<'_>) -> Result<bool, Faults> {
+    let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
+    let instant = instant.in_units_of_at_least(event.rounding, event.configuration)?;
+    searched(instant, event, Detail::Order, |search| Ok(search.nothing_happens()))
+}
+
+fn at(instant: Instant<'_>, event: &rules::EventInstant<'_>, detail: Detail) -> Result<Successors, Faults> {
+    searched(instant, event, detail, following)
+}
+
+/// What a search at an instant finds.
+fn searched<T>(
     mut instant: Instant<'_>,
     event: &rules::EventInstant<'_>,
     detail: Detail,
-) -> Result<Successors, Faults> {
+    find: impl FnOnce(&PhaseSearch<'_>) -> Result<T, Faults>,
+) -> Result<T, Faults> {
     instant.check_joints(event.signs.len())?;
     if let Some(previous) = event.previous {
         instant.check(previous)?;
@@ -155,17 +172,19 @@ fn at(
     let event = &rules::EventInstant { signs: &signs, ..*event };
     let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
     let question = instant.question(&stopped, None);
-    let search = PhaseSearch { instant, event, question: &question, detail };
+    find(&PhaseSearch { instant, event, question: &question, detail })
+}
+
+fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
+    let PhaseSearch { event, detail, .. } = *search;
     let mut found = Successors { complete: true, ..Successors::default() };
     let mut parts = search.parts(&mut found)?;
     let is_few =
         parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len())) <= MOST_COMBINATIONS;
     found.complete &= is_few;
     let order = if is_few { None } else { Some(search.order(&mut parts)) };
-    let mut outcomes: Vec<CombinedPhase> = choices(&parts, order.as_deref())
-        .into_iter()
-        .map(|chosen| outcome(&search, &parts, chosen))
-        .collect();
+    let mut outcomes: Vec<CombinedPhase> =
+        choices(&parts, order.as_deref()).into_iter().map(|chosen| outcome(search, &parts, chosen)).collect();
     // Verdicts take time, so the order is determined only if several phases can follow, or none.
     let following = outcomes.iter().filter(|outcome| outcome.standing.is_ok()).count();
     if is_few && outcomes.len() > 1 && following != 1 {
@@ -178,7 +197,7 @@ fn at(
     for CombinedPhase { chosen, whole, standing } in outcomes {
         let parts: Vec<&GroupPhase> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
         match standing {
-            Ok(standing) => found.list.push(successor(&search, &whole, (&parts, standing))),
+            Ok(standing) => found.list.push(successor(search, &whole, (&parts, standing))),
             Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
         }
     }
@@ -193,7 +212,7 @@ fn at(
         let limit = MOST_COMBINATIONS as u64;
         return Err(Fault::general(FaultKind::TooManyStates { states, limit }).into());
     }
-    without_copies(&search, &mut found.list);
+    without_copies(search, &mut found.list);
     if found.list.len() == 1 && detail == Detail::Order {
         found.list[0].attainability = Attainability::without_eigenvalues(Verdict::NotComputed, ALONE);
     }
@@ -219,7 +238,7 @@ fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usiz
 
 /// Every way to choose one part for each group; if there are so many that an order of preference is given,
 /// only those in which all groups but at most one take their preferred part.
-fn choices(parts: &[Vec<GroupPhase>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
+pub(super) fn choices<T>(parts: &[Vec<T>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
     let Some(order) = order else {
         let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
         return combinations(&numbers);
@@ -264,7 +283,7 @@ fn successor(
 }
 
 /// Rank of a verdict: the verdict for several independent groups is the one of highest rank.
-fn severity(verdict: Verdict) -> u8 {
+pub(super) fn severity(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::NotComputed => 0,
         Verdict::Attainable => 1,

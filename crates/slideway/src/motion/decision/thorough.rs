@@ -4,6 +4,7 @@ use super::holding::Holding;
 use super::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
+use super::separate::{self, separate};
 use super::{halting, hinged};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -32,38 +33,28 @@ pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
-        if has_rough_hinges(instant.mechanism) {
-            return hinged::continuations(instant);
+        match separate(instant.mechanism) {
+            Some(parts) => separate::continuations(&parts, instant, continuations),
+            None => continuations(instant),
         }
-        let found = super::continuations(instant)?;
-        let one = |successor: super::Successor| Continuation {
-            phase: successor.phase,
-            verdict: successor.attainability.verdict,
-            continues: successor.continues,
-        };
-        Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
     }
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
-        if has_rough_hinges(instant.mechanism) {
-            return Ok(Vec::new());
+        let Some(parts) = separate(instant.mechanism) else { return tipping(instant) };
+        for part in parts {
+            if part.at(instant, continuations)?.list.is_empty() {
+                let joints = part.at(instant, tipping)?;
+                return Ok(joints.into_iter().map(|joint| part.in_whole(joint)).collect());
+            }
         }
-        let found = super::continuations(instant)?;
-        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
+        Ok(Vec::new())
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-        if has_rough_hinges(instant.mechanism) {
-            return halting::halting_impulse(instant);
+        match separate(instant.mechanism) {
+            Some(parts) => separate::jam(&parts, instant, continuations, halting_impulse),
+            None => halting_impulse(instant),
         }
-        let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
-            return Ok(None);
-        };
-        let first = impulses.into_iter().next();
-        Ok(first.map(|impulse| HaltingImpulse {
-            velocities: impulse.after.velocities,
-            energy_lost: impulse.energy_lost,
-        }))
     }
 
     fn sticking_margin(
@@ -72,10 +63,18 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults> {
-        if has_rough_hinges(mechanism) {
-            return hinged::sticking_margin(mechanism, configuration, phase);
+        let Some(parts) = separate(mechanism) else {
+            return sticking_margin(mechanism, configuration, phase);
+        };
+        let mut least = f64::INFINITY;
+        for part in parts {
+            let phase = part.phase(phase);
+            if phase.sticks() {
+                let configuration = part.configuration(configuration);
+                least = least.min(sticking_margin(&part.part.mechanism, &configuration, &phase)?);
+            }
         }
-        super::sticking_margin(mechanism, configuration, phase)
+        Ok(least)
     }
 
     fn normal_forces(
@@ -84,10 +83,16 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
-        if has_rough_hinges(mechanism) {
-            return Ok(vec![None; mechanism.contacts.len()]);
+        let Some(parts) = separate(mechanism) else { return normal_forces(mechanism, configuration, phase) };
+        let mut forces = vec![None; mechanism.contacts.len()];
+        for part in parts {
+            let configuration = part.configuration(configuration);
+            let of_part = normal_forces(&part.part.mechanism, &configuration, &part.phase(phase))?;
+            for (contact, force) in part.part.contacts.iter().zip(of_part) {
+                forces[contact.index()] = force;
+            }
         }
-        super::determined_normal_forces(mechanism, configuration, phase)
+        Ok(forces)
     }
 
     fn hold<'m>(
@@ -96,9 +101,79 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
-        if has_rough_hinges(mechanism) {
-            return Ok(hinged::hold(mechanism, configuration, resting));
+        if !has_rough_hinges(mechanism) {
+            return Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)));
         }
-        Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)))
+        let mut of = [resting.bodies.to_vec(), vec![false; resting.bodies.len()]];
+        for part in separate(mechanism).unwrap_or_default().iter().filter(|part| !part.is_rough()) {
+            part.part
+                .bodies
+                .iter()
+                .for_each(|body| of[1][body.index()] = std::mem::take(&mut of[0][body.index()]));
+        }
+        let [rough, smooth] = of.each_ref().map(|bodies| Resting { bodies, ..resting });
+        let forever = hinged::hold(mechanism, configuration, rough);
+        if forever.is_none() || !smooth.bodies.contains(&true) {
+            return Ok(forever);
+        }
+        Ok(Some(Box::new(Holding::new(mechanism, configuration, smooth)?)))
     }
+}
+
+/// The phases in which a mechanism can go on, taken as a whole.
+fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
+    if has_rough_hinges(instant.mechanism) {
+        return hinged::continuations(instant);
+    }
+    let found = super::continuations(instant)?;
+    let one = |successor: super::Successor| Continuation {
+        phase: successor.phase,
+        verdict: successor.attainability.verdict,
+        continues: successor.continues,
+    };
+    Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
+}
+
+fn tipping(instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
+    if has_rough_hinges(instant.mechanism) {
+        return Ok(Vec::new());
+    }
+    let found = super::continuations(instant)?;
+    Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
+}
+
+fn halting_impulse(instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+    if has_rough_hinges(instant.mechanism) {
+        return halting::halting_impulse(instant);
+    }
+    let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
+        return Ok(None);
+    };
+    let first = impulses.into_iter().next();
+    Ok(first.map(|impulse| HaltingImpulse {
+        velocities: impulse.after.velocities,
+        energy_lost: impulse.energy_lost,
+    }))
+}
+
+fn sticking_margin(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<f64, Faults> {
+    if has_rough_hinges(mechanism) {
+        return hinged::sticking_margin(mechanism, configuration, phase);
+    }
+    super::sticking_margin(mechanism, configuration, phase)
+}
+
+fn normal_forces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<Vec<Option<f64>>, Faults> {
+    if has_rough_hinges(mechanism) {
+        return Ok(vec![None; mechanism.contacts.len()]);
+    }
+    super::determined_normal_forces(mechanism, configuration, phase)
 }

@@ -4,7 +4,7 @@
 use super::State;
 use crate::ids::ContactId;
 use crate::mechanism::FrictionCircle;
-use crate::pattern::{AffineExpression, ContactPhase, JointPhase, Pin, Region, without_tipping};
+use crate::pattern::{Affine, AffineExpression, ContactPhase, JointPhase, Pin, Region, without_tipping};
 use crate::standstill::setup::{Setup, SlidingJoint};
 
 /// Static friction of contacts and hinges.
@@ -19,33 +19,50 @@ pub(in crate::standstill) struct StaticFriction {
 impl State<'_> {
     /// What the equations leave open within every inequality of the state, with this static friction.
     pub(in crate::standstill) fn region(&self, static_friction: &StaticFriction) -> Region {
+        let all = (0..self.setup.sliders.len()).flat_map(|slider| self.bounds_of(slider, static_friction));
+        let slacks = all.chain(self.pushes().into_iter().flatten()).chain(self.beginning());
+        self.within(slacks.map(|slack| self.function(&slack)).collect(), static_friction)
+    }
+
+    /// The same within the inequalities of what sticks alone, and those that depend on what the equations leave open: the
+    /// others bound what slides and turns.
+    pub(in crate::standstill) fn sticking_region(&self, static_friction: &StaticFriction) -> Region {
+        let sticks = |slider: &usize| self.pattern.joints[*slider] == JointPhase::Sticking;
+        let (sticking, sliding): (Vec<usize>, Vec<usize>) = (0..self.setup.sliders.len()).partition(sticks);
+        let bounds = |sliders: &[usize]| -> Vec<Affine> {
+            let all = sliders.iter().flat_map(|slider| self.bounds_of(*slider, static_friction));
+            all.map(|slack| self.function(&slack)).collect()
+        };
+        let mut slacks = bounds(&sticking);
+        slacks.extend(self.pushes().iter().flatten().map(|slack| self.function(slack)));
+        slacks.extend(bounds(&sliding).into_iter().filter(Affine::varies));
+        self.within(slacks, static_friction)
+    }
+
+    fn within(&self, slacks: Vec<Affine>, static_friction: &StaticFriction) -> Region {
+        Region::new(self.solutions.dimension(), slacks).with_pins(self.pins(&static_friction.radii))
+    }
+
+    /// The inequalities of the contacts of a sliding joint, and of its couple.
+    fn bounds_of(&self, slider: usize, static_friction: &StaticFriction) -> Vec<AffineExpression> {
+        let SlidingJoint { contacts, couple, .. } = &self.setup.sliders[slider];
         let mut slacks = Vec::new();
-        for (friction, mu_static) in self.friction.iter().zip(&static_friction.mu) {
-            slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
-        }
-        for (k, place) in self.between.iter().enumerate() {
-            let Some(place) = place.filter(|place| self.friction[k].share != Some(*place)) else { continue };
-            slacks.push(AffineExpression::unknown(place, 1.0));
-            if self.setup.mechanism.contacts[k].face.is_none() {
-                slacks.push(AffineExpression::unknown(place, -1.0).shifted(1.0));
+        for &k in contacts {
+            let bounds = self.friction[k].bounds(static_friction.mu[k], None);
+            slacks.extend(bounds.into_iter().map(|(_, slack)| slack));
+            let place = self.between[k].filter(|place| self.friction[k].share != Some(*place));
+            if let Some(place) = place {
+                slacks.push(AffineExpression::unknown(place, 1.0));
+                if self.setup.mechanism.contacts[k].face.is_none() {
+                    slacks.push(AffineExpression::unknown(place, -1.0).shifted(1.0));
+                }
             }
         }
-        for slider in &self.setup.sliders {
-            if let SlidingJoint { couple: Some(couple), contacts, .. } = slider
-                && let [k] = contacts[..]
-            {
-                let half = couple.half_length / self.setup.units.length;
-                slacks.extend(without_tipping(
-                    &self.friction[k].pressure,
-                    &self.reaction(couple.unknown),
-                    half,
-                ));
-            }
+        if let (Some(couple), [k]) = (couple, &contacts[..]) {
+            let half = couple.half_length / self.setup.units.length;
+            slacks.extend(without_tipping(&self.friction[*k].pressure, &self.reaction(couple.unknown), half));
         }
-        slacks.extend(self.pushes().into_iter().flatten());
-        slacks.extend(self.beginning());
-        let functions = slacks.iter().map(|slack| self.function(slack)).collect();
-        Region::new(self.solutions.dimension(), functions).with_pins(self.pins(&static_friction.radii))
+        slacks
     }
 
     /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do.
@@ -60,7 +77,8 @@ impl State<'_> {
         moving.map(|(_, joint, acceleration)| acceleration.times(joint.sign())).collect()
     }
 
-    /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones.
+    /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones unless
+    /// equations say so.
     fn pins(&self, static_radii: &[f64]) -> Vec<Pin> {
         let circles = self.setup.mechanism.friction_circles.iter().zip(static_radii).enumerate();
         let pin = |(index, (circle, static_radius)): (usize, (&FrictionCircle, &f64))| {
@@ -77,7 +95,8 @@ impl State<'_> {
                 allowance: 0.0,
             }
         };
-        circles.map(pin).collect()
+        let sticks = |hinge: usize| self.pattern.hinges[hinge] == JointPhase::Sticking;
+        circles.filter(|(hinge, _)| self.directions.is_none() || sticks(*hinge)).map(pin).collect()
     }
 }
 

@@ -47,6 +47,8 @@ pub(super) struct State<'s> {
     setup: &'s Setup,
     pattern: &'s Pattern,
     question: StateQuestion,
+    /// The directions of the forces of the hinges with friction, where they are given for those that turn.
+    directions: Option<&'s [[f64; 2]]>,
     friction: Vec<Friction>,
     /// Where an open contact is, an unknown: its share of the way from the negative to the positive face, or the distance
     /// of the open face of a press fit.
@@ -62,10 +64,20 @@ pub(super) struct State<'s> {
 impl<'s> State<'s> {
     /// The state with its equations; nothing where they contradict each other.
     pub(super) fn new(setup: &'s Setup, pattern: &'s Pattern, question: StateQuestion) -> Option<Self> {
+        Self::turning(setup, pattern, (question, None))
+    }
+
+    /// The same with given directions of the forces of the hinges that turn: then their couples are equations, too.
+    pub(super) fn turning(
+        setup: &'s Setup,
+        pattern: &'s Pattern,
+        (question, directions): (StateQuestion, Option<&'s [[f64; 2]]>),
+    ) -> Option<Self> {
         let mut state = Self {
             setup,
             pattern,
             question,
+            directions,
             friction: Vec::new(),
             between: Vec::new(),
             couples: Vec::new(),
@@ -156,6 +168,7 @@ impl<'s> State<'s> {
         let in_gap = contacts.filter(|(_, contact)| **contact == ContactPhase::PreloadGap);
         further.extend(in_gap.map(|(k, _)| (self.dense(&self.normal_force(k)), 0.0)));
         further.extend(self.compatibility());
+        further.extend(self.turning_couples());
         if self.question.wedged {
             further.extend(self.pressed_together());
         }
@@ -167,6 +180,20 @@ impl<'s> State<'s> {
             right_hand_side[first + index] = *value;
         }
         (matrix, right_hand_side)
+    }
+
+    /// M = -r s t.R of the hinges that turn, where the directions t of their forces are given.
+    fn turning_couples(&self) -> Vec<(DVector<f64>, f64)> {
+        let circles = self.setup.mechanism.friction_circles.iter().enumerate();
+        let couples = circles.zip(self.directions.unwrap_or_default()).filter_map(|((hinge, circle), t)| {
+            let sign = self.pattern.hinges[hinge].sign();
+            let radius = circle.radius / self.setup.units.length * sign;
+            let couple = [0, 1].into_iter().fold(self.friction_couple(hinge), |couple, axis| {
+                couple.plus(radius * t[axis], &self.reaction(self.hinge_place(circle, axis)))
+            });
+            (sign != 0.0).then(|| (self.dense(&couple), 0.0))
+        });
+        couples.collect()
     }
 
     /// Z^T (d + e) = 0 of redundant guides, with the law of each contact, eq. (R1).

@@ -26,7 +26,7 @@ mod projection;
 mod rest;
 
 use hinges::{RoughHinge, norm};
-pub(in crate::motion) use rest::joint_rests;
+pub(in crate::motion) use rest::{independent, joint_rests};
 
 use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;

@@ -4,10 +4,8 @@ use super::Equations;
 use crate::configuration::Velocity;
 use crate::expression::Symbol;
 use crate::ids::{BodyId, Frame, JointId};
-use crate::mechanism::{
-    CoordinateKind, Effort, JointKind, LoadKind, Mechanism, Quantity, loaded_bodies, quantities,
-};
-use crate::motion::moving::connected::connected;
+use crate::mechanism::{Drive, JointKind, LoadKind, Mechanism, Quantity, loaded_bodies, quantities};
+use crate::motion::moving::connected::{connected, join};
 
 impl Equations<'_> {
     /// For each body whether it stands still as long as the joints that stick in the phase do: together with
@@ -34,7 +32,8 @@ impl Equations<'_> {
         for (body, rate) in self.configuration.velocities.iter().enumerate() {
             moves[parts[body]] |= is_fast(rate) || freedoms[parts[body]] > 0;
         }
-        for driven in driven(self.mechanism) {
+        let drives = self.mechanism.drives.iter();
+        for driven in drives.flat_map(|drive| bodies_of_drive(self.mechanism, drive)) {
             moves[parts[driven.index()]] = true;
         }
         let loads: Vec<[Vec<BodyId>; 2]> =
@@ -63,41 +62,40 @@ pub(in crate::motion) fn joint_rests(mechanism: &Mechanism, joint: JointId, rest
     frames.into_iter().filter_map(Frame::body).all(|body| rests[body.index()])
 }
 
-/// The bodies on which drives act, and those whose motion they prescribe.
-fn driven(mechanism: &Mechanism) -> impl Iterator<Item = BodyId> + '_ {
-    mechanism.drives.iter().flat_map(|drive| {
-        let (frame, reaction) = match &drive.effort {
-            Effort::Force { at, reaction, .. } => (at.frame, *reaction),
-            Effort::Torque { body, reaction } => (*body, *reaction),
-        };
-        let prescribed = bodies_of(mechanism, &mechanism.coordinates[drive.coordinate.index()].kind);
-        [Some(frame), reaction].into_iter().flatten().filter_map(Frame::body).chain(prescribed)
-    })
+/// For each body a number that it shares with all those on which its motion depends, or whose motion depends on it: through
+/// joints, loads and drives, and through the coordinates in their formulas.
+pub(in crate::motion) fn independent(mechanism: &Mechanism) -> Vec<usize> {
+    let mut parts = connected(mechanism);
+    let loads = mechanism.loads.iter().map(|load| bodies_of_load(mechanism, &load.kind).concat());
+    let drives = mechanism.drives.iter().map(|drive| {
+        let further = bodies_of_quantity(mechanism, drive.acceleration);
+        bodies_of_drive(mechanism, drive).chain(further).collect::<Vec<BodyId>>()
+    });
+    for together in loads.chain(drives) {
+        together.windows(2).for_each(|pair| join(&mut parts, pair[0].index(), pair[1].index()));
+    }
+    parts
+}
+
+/// The bodies on which a drive acts, and those whose motion it prescribes.
+fn bodies_of_drive(mechanism: &Mechanism, drive: &Drive) -> impl Iterator<Item = BodyId> {
+    let prescribed = mechanism.coordinates[drive.coordinate.index()].kind.frames(mechanism);
+    drive.effort.frames().into_iter().chain(prescribed).filter_map(Frame::body)
 }
 
 /// The bodies on which a load acts, and those on whose motion its formulas depend.
 fn bodies_of_load(mechanism: &Mechanism, load: &LoadKind) -> [Vec<BodyId>; 2] {
-    let of = |quantity: Quantity| {
-        let Quantity::Varying(formula) = quantity else { return Vec::new() };
-        let symbols = mechanism.expression(formula).symbols();
-        let coordinates = symbols.filter_map(|(symbol, _)| match symbol {
-            Symbol::Coordinate(index) | Symbol::Rate(index) => Some(&mechanism.coordinates[index].kind),
-            _ => None,
-        });
-        coordinates.flat_map(|kind| bodies_of(mechanism, kind)).collect()
-    };
+    let of = |quantity: Quantity| bodies_of_quantity(mechanism, quantity);
     [loaded_bodies(mechanism, load), quantities(load).into_iter().flat_map(of).collect()]
 }
 
-/// The bodies on which a coordinate depends.
-fn bodies_of(mechanism: &Mechanism, coordinate: &CoordinateKind) -> Vec<BodyId> {
-    let frames = match coordinate {
-        CoordinateKind::Slide(joint) => match &mechanism.joints[joint.index()].kind {
-            JointKind::Slider(slider) => vec![slider.block, slider.guide],
-            JointKind::Hinge(ends) => ends.each_ref().map(|end| end.frame).to_vec(),
-        },
-        CoordinateKind::Rotation(body, frame) => vec![Frame::Body(*body), *frame],
-        CoordinateKind::Displacement(attachment, _) => vec![attachment.frame],
-    };
-    frames.into_iter().filter_map(Frame::body).collect()
+/// The bodies on whose motion a quantity depends.
+fn bodies_of_quantity(mechanism: &Mechanism, quantity: Quantity) -> Vec<BodyId> {
+    let Quantity::Varying(formula) = quantity else { return Vec::new() };
+    let symbols = mechanism.expression(formula).symbols();
+    let coordinates = symbols.filter_map(|(symbol, _)| match symbol {
+        Symbol::Coordinate(index) | Symbol::Rate(index) => Some(&mechanism.coordinates[index].kind),
+        _ => None,
+    });
+    coordinates.flat_map(|kind| kind.frames(mechanism)).filter_map(Frame::body).collect()
 }

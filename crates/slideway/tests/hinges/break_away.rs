@@ -1,0 +1,102 @@
+//! Joints that break away while hinges with friction turn (models of an independent review), against closed forms and an
+//! independent integration.
+
+use serde::Deserialize;
+use slideway::motion::{Cause, End, History, SimulateOptions, simulate};
+use slideway::{Model, Settings};
+
+const FALLS: &str = include_str!("../findings/pin_jam.toml");
+const FALLS_ROUGHER_AT_REST: &str = include_str!("../findings/pin_jams.toml");
+const PUSHED: &str = include_str!("../findings/pin_c.toml");
+
+/// A run of `reference/break-away.toml`.
+#[derive(Deserialize)]
+struct Reference {
+    name: String,
+    /// Time (s), "rail" or "pin", and whether it "sticks" or goes to the "right" or "left".
+    events: Vec<(f64, String, String)>,
+    /// Time, displacement of the cart, angle of the body, and their rates.
+    end: [f64; 5],
+}
+
+#[derive(Deserialize)]
+struct References {
+    run: Vec<Reference>,
+}
+
+fn moved(text: &str, settings: &[(&str, &str)], duration: f64) -> History {
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    let model = Model::parse(text).unwrap().with(&settings).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(duration).tolerance(1e-10)).unwrap();
+    assert_eq!(history.end, End::Finished, "{:#?}", history.events);
+    assert!(history.energy_error <= 1e-9 * history.energy_scale, "{:e}", history.energy_error);
+    history
+}
+
+/// Cart and body on a rough pin: it falls while the cart sticks, which then breaks away; the cart is pushed until it slides, and
+/// the body then turns; the body is turned.
+#[test]
+fn a_cart_breaks_away_beside_a_rough_pin() {
+    let text = include_str!("../../../../reference/break-away.toml");
+    let references: References = toml::from_str(text).unwrap();
+    let models: [(&str, &[(&str, &str)]); 4] = [
+        (FALLS, &[]),
+        (FALLS_ROUGHER_AT_REST, &[]),
+        (PUSHED, &[("F", "6 N/s")]),
+        (PUSHED, &[("T", "2 N*m/s")]),
+    ];
+    assert_eq!(references.run.len(), models.len());
+    for (Reference { name, events, end }, (text, settings)) in references.run.iter().zip(models) {
+        let history = moved(text, settings, end[0]);
+        let found: Vec<f64> = history.events[1..].iter().map(|event| event.time).collect();
+        assert_eq!(found.len(), events.len(), "{name}: {:#?}", history.events);
+        for (event, (time, what, does)) in history.events[1..].iter().zip(events) {
+            assert!((event.time - time).abs() < 1e-7, "{name}: {} {time}", event.time);
+            let phase = event.phase.as_ref().unwrap();
+            let state = if what == "rail" { phase.joints[0] } else { phase.hinges[0].state };
+            let expected = match does.as_str() {
+                "sticks" => slideway::motion::JointPhase::Sticking,
+                "right" => slideway::motion::JointPhase::Sliding(1.0),
+                _ => slideway::motion::JointPhase::Sliding(-1.0),
+            };
+            assert_eq!(state, expected, "{name} at {time}");
+        }
+        let last = history.reader().at(end[0]).unwrap().configuration.clone();
+        let found = [last.coordinates[0], last.coordinates[1], last.rates[0], last.rates[1]];
+        for (found, expected) in found.iter().zip(&end[1..]) {
+            assert!((found - expected).abs() < 1e-6, "{name}: {found} {expected}");
+        }
+    }
+}
+
+/// A block of 2 kg on a level rail, mu = 0.3, beside a pendulum on a rough pin: pulled with 6 N/s t + 0.2 N sin(30 t) it
+/// breaks away when that is 0.3 m g.
+#[test]
+fn a_block_breaks_away_beside_an_unrelated_pendulum() {
+    let history = moved(include_str!("../findings/indep0.toml"), &[], 2.0);
+    let pull = |t: f64| 6.0 * t + 0.2 * (30.0 * t).sin() - 0.3 * 2.0 * 9.81;
+    // It rises from 1.008 s on, where it has its last minimum, and is positive at 1.1 s.
+    let mut ends = [1.008, 1.1];
+    while ends[1] - ends[0] > 1e-13 {
+        let middle = f64::midpoint(ends[0], ends[1]);
+        ends[usize::from(pull(middle) > 0.0)] = middle;
+    }
+    let slips: Vec<f64> = history
+        .events
+        .iter()
+        .filter(|event| event.causes.contains(&Cause::Slips))
+        .map(|event| event.time)
+        .collect();
+    assert!((slips[0] - ends[0]).abs() < 1e-9, "{slips:?} {ends:?}");
+    assert_eq!(history.statistics.sampled, 0.0, "the block's rest is proven as without the pendulum");
+}
+
+/// A block of 2 kg comes to rest after a stop, on an incline of 30 degrees with mu = 0.1, and is pushed up with 8 N/s t until
+/// that is `m g (sin 30 + mu cos 30)`.
+#[test]
+fn a_block_that_came_to_rest_after_a_stop_breaks_away() {
+    let history = moved(include_str!("../findings/stop_pin.toml"), &[], 2.0);
+    let expected = 2.0 * 9.81 * (0.5 + 0.1 * 0.75_f64.sqrt()) / 8.0;
+    let slips = history.events.iter().find(|event| event.causes.contains(&Cause::Slips)).unwrap();
+    assert!((slips.time - expected).abs() < 1e-9, "{} {expected}", slips.time);
+}

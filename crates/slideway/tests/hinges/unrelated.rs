@@ -1,0 +1,133 @@
+//! A pendulum on a rough pin that has nothing to do with the rest of a mechanism changes nothing of it.
+
+use super::random_linkages::Random;
+use slideway::mechanism::Mechanism;
+use slideway::motion::{End, History, SimulateOptions, simulate};
+use slideway::{Model, gallery};
+use std::fmt::Write;
+
+const TOLERANCE: f64 = 1e-6;
+
+/// A model beside a pendulum that swings.
+fn beside_a_pendulum(text: &str) -> String {
+    let points = "[points]\nunrelated_O = [0, 0]\nunrelated_G = [0.02, -0.04]\n";
+    let body = "\n[bodies.unrelated]\npoints = [\"unrelated_O\"]\nmass = 1\ncentre_of_mass = \"unrelated_G\"\n\
+         moment_of_inertia = 1e-3\n";
+    let pin = "[joints.unrelated]\ntype = \"hinge\"\nbetween = [\"unrelated.unrelated_O\", \"ground.unrelated_O\"]\n\
+         friction_radius = \"2 mm\"\n";
+    let coordinate = "[coordinates.unrelated]\nrotation = \"unrelated\"\nrate = 2\n";
+    assert_eq!(text.matches("[points]\n").count(), 1, "{text}");
+    text.replace("[points]\n", points) + body + pin + coordinate
+}
+
+/// What happens to all but the last hinge with friction, if there is one: when, and the modes that follow; and how it ends.
+fn outcome(text: &str, duration: f64) -> Option<(History, Vec<(f64, String)>)> {
+    let model = Model::parse(text).unwrap();
+    let mechanism = Mechanism::new(&model).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(duration)).ok()?;
+    let all = mechanism.contacts.len() + mechanism.friction_circles.len();
+    let kept = all - usize::from(mechanism.coordinates.iter().any(|one| &*one.name == "unrelated"));
+    let mode = |event: &slideway::motion::Event| {
+        event.phase.as_ref().map_or("ends".to_owned(), |phase| phase.pattern(&mechanism)[..kept].to_owned())
+    };
+    let mut events: Vec<(f64, String)> =
+        history.events.iter().map(|event| (event.time - mechanism.time, mode(event))).collect();
+    events.dedup_by(|next, one| next.1 == one.1);
+    Some((history, events))
+}
+
+/// The differences that the pendulum makes.
+fn differences(text: &str, duration: f64) -> Vec<String> {
+    let (alone, beside) = (outcome(text, duration), outcome(&beside_a_pendulum(text), duration));
+    let (Some((alone, expected)), Some((beside, found))) = (&alone, &beside) else {
+        let is_same = alone.is_none() && beside.is_none();
+        return if is_same { Vec::new() } else { vec!["only one can begin".to_owned()] };
+    };
+    let same_events = found.len() == expected.len()
+        && found.iter().zip(expected).all(|(one, other)| {
+            one.1 == other.1 && (one.0 - other.0).abs() <= TOLERANCE * duration.max(one.0)
+        });
+    let mut all = Vec::new();
+    if !same_events {
+        all.push(format!("{expected:?} {found:?}"));
+    }
+    // At rest for ever is told as the end is reached.
+    if std::mem::discriminant(&alone.end) != std::mem::discriminant(&beside.end) {
+        all.push(format!("{:?} {:?}", alone.end, beside.end));
+    }
+    let last =
+        |history: &History| history.reader().at(history.stop()).map(|sample| sample.configuration.clone());
+    if let (true, Some(one), Some(other)) = (alone.end == End::Finished, last(alone), last(beside)) {
+        let states = one.coordinates.iter().chain(&one.rates);
+        let others = other.coordinates[..one.coordinates.len()].iter().chain(&other.rates);
+        let greatest = states.clone().fold(1.0_f64, |greatest, value| greatest.max(value.abs()));
+        let differs =
+            states.zip(others).any(|(one, other)| (one - other).abs() > 10.0 * TOLERANCE * greatest);
+        all.extend(differs.then(|| format!("{one:?} {other:?}")));
+    }
+    all
+}
+
+#[test]
+fn an_unrelated_pendulum_changes_no_motion_of_the_gallery() {
+    let mut failed = String::new();
+    for model in gallery::MODELS {
+        for difference in differences(model.text, 0.2) {
+            writeln!(failed, "{}: {difference}", model.name).unwrap();
+        }
+    }
+    assert!(failed.is_empty(), "{failed}");
+}
+
+/// A cart on a rail, and a block on a guide of the cart, under loads that swing, with stops, inclined at random.
+fn cart_and_block(random: &mut Random) -> String {
+    let mut rail = |name: &str, block: &str, guide: &str| {
+        let mu = random.between([0.0, 0.8]);
+        format!(
+            "[joints.{name}]\ntype = \"guided_slider\"\nblock = \"{block}\"\nguide = \"{guide}\"\nat = \"C\"\n\
+             along = \"{} deg\"\nlength = 10\nmu = {mu}\nmu_static = {}\ntravel = [{}, {}]\n\
+             stop = {{ restitution = {} }}\n[coordinates.{name}]\nslide = \"{name}\"\nrate = {}\n",
+            random.between([-60.0, 60.0]),
+            mu * random.between([1.0, 1.5]),
+            random.between([-0.4, -0.02]),
+            random.between([0.02, 0.4]),
+            random.between([0.0, 1.0]),
+            if random.between([0.0, 1.0]) < 0.5 { 0.0 } else { random.between([-1.0, 1.0]) }
+        )
+    };
+    let joints = rail("below", "cart", "ground") + &rail("above", "block", "cart");
+    let mut body = |name: &str| {
+        format!(
+            "[bodies.{name}]\npoints = [\"C\"]\nmass = {}\ncentre_of_mass = \"C\"\nmoment_of_inertia = 1\n\
+             [loads.on_{name}]\ntype = \"force\"\nat = \"{name}.C\"\n\
+             components = [\"{} N*sin({}/(1 s)*t)\", \"{} N/s*t\"]\n",
+            random.between([0.3, 3.0]),
+            random.between([-20.0, 20.0]),
+            random.between([1.0, 20.0]),
+            random.between([-10.0, 10.0])
+        )
+    };
+    format!("gravity = 9.81\n[points]\nC = [0, 0]\n{}{}{joints}", body("cart"), body("block"))
+}
+
+fn random_mechanisms(count: u64) {
+    let mut failed = String::new();
+    for seed in 1..=count {
+        let text = cart_and_block(&mut Random(seed));
+        for difference in differences(&text, 0.5) {
+            writeln!(failed, "{seed}: {difference}").unwrap();
+        }
+    }
+    assert!(failed.is_empty(), "{failed}");
+}
+
+#[test]
+fn an_unrelated_pendulum_changes_no_motion_of_random_mechanisms() {
+    random_mechanisms(30);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn an_unrelated_pendulum_changes_none_of_a_thousand_motions() {
+    random_mechanisms(1000);
+}
