@@ -59,6 +59,19 @@ def answers(problems, options, each=10):
     return answers(problems[:half], options, each) + answers(problems[half:], options, each)
 
 
+def streamed(problem, options):
+    """The answer of `modes --stream`, put together from its lines, or a text that tells how the program failed."""
+    code, out, err = run(["modes", "-", "--stream", *options], json.dumps(problem))
+    lines = [json.loads(line) for line in out.splitlines()]
+    if code not in (0, 1, 3) or not lines or "conclusion" not in lines[-1] or lines[-1]["conclusion"]["lines"] != len(lines) - 1:
+        return f"exit code {code}, {len(lines)} lines\n{err.strip()[:2000]}"
+    answer = dict(lines.pop()["conclusion"])
+    whole = [line for number, line in enumerate(lines, 1) if number not in answer["part_of_others"]]
+    for name, key in (("solutions", "solution"), ("gap_states", "gap_state"), ("continua", "continuum")):
+        answer[name] = [line[key] for line in whole if key in line]
+    return answer
+
+
 def batches(options, size):
     """(first, count) of the batches of a campaign."""
     return [(first, min(size, options.first + options.count - first))

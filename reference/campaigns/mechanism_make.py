@@ -83,7 +83,7 @@ class Maker:
             j.length = self.number(0.1, 0.6)
             j.height = rng.choice([0.0, self.number(0.02, 0.4)])
             j.around = rng.random() < 0.3
-        if rng.random() < 0.25:
+        if rng.random() < 0.3:
             j.preload = self.faces(0.5, 15)
             j.centre = kind != "pin_in_slot" and rng.random() < 0.4
         if kind == "block_slider" and rng.random() < 0.25:

@@ -3,7 +3,7 @@
 
     python3 reference/campaigns/mechanisms.py --seed 1 --count 10000 --failures /tmp/failures
 
-A point is a mechanism with one value of a factor on its friction; four points share a sweep, a map and limits. Every third
+A point is a mechanism with one value of a factor on its friction or on its loads; four points share a sweep, a map and limits. Every third
 mechanism is a model of the gallery with changed parameters, for which the questions are compared with each other. Standard library only.
 """
 import json
@@ -27,7 +27,8 @@ def subject(seed, index):
     if index % 3 == 2:
         return gallery_points.subject(rng)
     m = mechanism_make.mechanism(seed, index)
-    return mechanism_make.toml(m), "f", (0.0, rng.choice([0.5, 1.0, 2.0, 3.0])), [], m
+    name, interval = ("f", (0.0, rng.choice([0.5, 1.0, 2.0, 3.0]))) if rng.random() < 0.7 else ("P", (-2.0, rng.choice([1.0, 3.0])))
+    return mechanism_make.toml(m), name, interval, [], m
 
 
 def work(options, batch):
@@ -59,7 +60,8 @@ def against_equations(m, values, asked, total):
     for value, answer in zip(values, asked.solved):
         if answer is None:
             continue
-        found, between, rejected, doubtful = newton_euler.solutions(m, value, 1.0)
+        f, load = (value, 1.0) if asked.name == "f" else (1.0, value)
+        found, between, rejected, doubtful = newton_euler.solutions(m, f, load)
         if doubtful:
             total["doubtful"] += 1
             continue

@@ -252,7 +252,7 @@ def one_pattern(eq, pattern):
             add(column, eq.friction(j, s, -1, line), -minus)
             add_right(right, eq.friction(j, s, -1, line), minus)
             unknown(("share", name), column)
-        if j.kind == "guided_slider" and side:
+        if j.kind == "guided_slider":
             unknown(("C", name), eq.both(j, along(j, s), (0.0, 0.0), 1.0))
     if m.drive:
         _, _, body, at, angle = m.drive
@@ -264,7 +264,7 @@ def one_pattern(eq, pattern):
     if eq.redundant:
         deflections(eq, pattern, names, rows, right)
     if len(rows) != len(rows[0]):
-        return "no", None               # a guided slider between its faces: only for special loads
+        return "no", None
     x = solve_linear(rows, right)
     if x == "none":
         return "no", None

@@ -63,7 +63,7 @@ class Asked:
         if any(self.solved):
             chosen = self.rng.choice([i for i, a in enumerate(self.solved) if a])
             questions = [self.sweep, self.map, self.limits, lambda: self.check(chosen), lambda: self.drive(chosen), lambda: self.hold(chosen),
-                         lambda: self.simulate(chosen)]
+                         lambda: self.simulate(chosen), lambda: self.margin(chosen), lambda: self.backwards(chosen)]
             if self.rng.random() < 0.2:
                 questions.append(lambda: self.report(chosen))
             total["comparisons"] += len(questions)
@@ -112,8 +112,9 @@ class Asked:
         if comes != true:
             self.fault("sweep: counts", command, rows, f"solve: {true}")
             return
-        for kind, listed in (("solution", answer["solutions"]), ("gap_state", answer["preload_gap_states"])):
-            table = [row for row in rows if row["kind"].startswith(kind[:3])]
+        for kind, listed in (("solution", answer["solutions"]), ("preload_gap", answer["preload_gap_states"])):
+            table = [row for row in rows
+                     if row["kind"] == kind or kind == "solution" and row["kind"] == "boundary"]
             forces = [[float(v) for k, v in row.items() if k.startswith(("normal_force.", "effort.")) and v] for row in table]
             expected = [[c["normal_force"] for c in s["contacts"]] + [d["effort"] for d in s["drives"]] for s in listed]
             if len(listed) <= 100 and not matched(expected, forces):
@@ -144,7 +145,7 @@ class Asked:
     def others(self):
         """A second quantity whose range has the model's value in the middle."""
         if "\nP = 1.0\n" in self.file.read_text():
-            yield "P=0.5..1.5"
+            yield "P=0.5..1.5" if self.name == "f" else "f=0.5..1.5"
 
     def limits(self):
         low, high = self.interval
@@ -209,6 +210,36 @@ class Asked:
         elif Counter(s["pattern"] for s in listed) != Counter(s["pattern"] for s in mine["solutions"]):
             self.fault("drive: modes", command, report, f"solve: {[s['pattern'] for s in listed]}")
 
+    def backwards(self, i):
+        """The opposite direction of `drive` is `solve` with opposite rates."""
+        answer, command = self.solved[i], self.command("drive", self.values[i])
+        if not answer["model"]["drives"]:
+            return
+        report = self.json(command)
+        rates = [option for c in answer["state"] for option in ("--rate", f"{c['name']}={-c['rate']!r}")]
+        other = self.json(self.command("solve", self.values[i], *rates))
+        mine = next((d for d in (report or {}).get("directions", []) if d["direction"] == "reversed"), None)
+        if mine is None or not other or self.delicate(other):
+            return
+        efforts = [[d["effort"] for d in s["drives"]] for s in other["solutions"] + other["preload_gap_states"]]
+        if mine["status"] != other["status"] or not matched(efforts, [s["efforts"] for s in mine["solutions"]]):
+            self.fault("drive: backwards", command, report, f"solve {' '.join(rates)}: {other['status']}, {efforts}")
+
+    def margin(self, i):
+        """Where another number of solutions begins, as all friction grows, `solve` finds another number."""
+        answer = self.solved[i]
+        factor = (answer.get("margins") or {}).get("another_count")
+        if self.name != "f" or not factor or factor > 30 or self.delicate(answer):
+            return
+        counts = []
+        for near_it in (1 - 1e-4, 1 + 1e-4):
+            other = self.json(self.command("solve", self.values[i] * factor * near_it))
+            if not other or self.delicate(other):
+                return
+            counts.append([other["count"], other["gap_state_count"], bool(other["continua"]), len(other["rejected"])])
+        if counts[0][:3] != [answer["count"], answer["gap_state_count"], bool(answer["continua"])] or counts[1] == counts[0]:
+            self.fault("solve: margin", self.command("solve", self.values[i]), answer, f"solutions, gap states, continua, rejected before and after: {counts}")
+
     def hold(self, i):
         answer, command = self.solved[i], self.command("hold", self.values[i])
         report = self.json(command)
@@ -225,10 +256,11 @@ class Asked:
             return
         listed = answer["solutions"] + answer["preload_gap_states"]
         if not listed:
-            if report["end"]["kind"] == "finished" and len(report["events"]) == 1 and answer["status"] == "none":
+            causes = [cause["kind"] for event in report["events"] for cause in event["causes"]]
+            if report["end"]["kind"] == "finished" and "jams" not in causes and answer["status"] == "none":
                 self.fault("simulate: goes on", command, report, f"solve: {answer['status']}")
             return
-        if not report["events"]:
+        if not report["events"] or any(cause["kind"] == "jams" for cause in report["events"][0]["causes"]):
             self.fault("simulate: no start", command, report, f"solve: {answer['status']}")
             return
         first = report["events"][0]

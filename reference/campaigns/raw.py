@@ -11,7 +11,8 @@ from functools import partial
 
 import block_oracle
 import raw_generate
-from common import Failures, answers, arguments, batches, conclude
+import raw_problems
+from common import Failures, answers, arguments, batches, conclude, streamed
 from exact import Solutions, TooLarge
 from raw_compare import compare
 from raw_problems import FORMS, orientation
@@ -19,6 +20,13 @@ from raw_problems import FORMS, orientation
 LISTED = ["--max-solutions", "5000"]
 OPTIONS = {"plain": LISTED, "any": [*LISTED, "--any"], "found2": [*LISTED, "--max-found", "2"], "count": ["--count-only"],
            "unique": [*LISTED, "--uniqueness"], "nodes": [*LISTED, "--max-nodes", "3"]}
+STREAMED = 25           # of so many problems one is streamed, by a process of its own
+
+
+def fractions_read():
+    """How the program takes a text such as "2/3": "exactly", "rounded", or "not at all"."""
+    (answer,) = answers([{"type": "lcp", "M": [["1/3", 1], [1, 3]], "q": [-1, -3]}], [])     # singular, if it is 1/3
+    return "not at all" if "faults" in answer else "exactly" if answer["status"] == "continuum" else "rounded"
 
 
 def truth(problem):
@@ -34,34 +42,44 @@ def truth(problem):
 
 def work(options, batch):
     first, count = batch
-    made = [(index, *raw_generate.problem(options.seed, index)) for index in range(first, first + count)]
+    raw_problems.ROUNDED = options.fractions == "rounded"
+    made = [(index, *raw_generate.problem(options.seed, index, options.fractions != "not at all")) for index in range(first, first + count)]
     known = [truth(problem) for _, _, problem in made]
     total, failures = Counter(), Failures(options.failures)
     total["problems"] += count
     total["skipped"] += sum(exact is None for exact in known)
+    tell = partial(judge, options, total, failures)
     for name, flags in OPTIONS.items():
-        for (index, family, problem), exact, answer in zip(made, known, answers([p for _, _, p in made], flags)):
-            if exact is None and not isinstance(answer, str):
-                continue
-            total["comparisons"] += 1
-            fault = f"crash: {answer}" if isinstance(answer, str) else compare(problem, exact, answer, name, total)
-            if fault is None:
-                continue
-            total["failures"] += 1
-            kind = fault.split(":")[0]
-            total[f"failure: {name} {problem['type']} {kind}"] += 1
-            command = " ".join(["slideway modes", *flags, "--format json FILE"])
-            failures.write(f"raw-{options.seed}-{index}-{problem['type']}-{family}-{name}", {".json": json.dumps(problem) + "\n"}, command,
-                           answer if isinstance(answer, str) else json.dumps(answer), fault)
+        for case, exact, answer in zip(made, known, answers([p for _, _, p in made], flags)):
+            tell(case, exact, name, flags, answer)
+    for case, exact in list(zip(made, known))[::STREAMED]:
+        tell(case, exact, "stream", ["--stream"], streamed(case[2], []))
     return total
+
+
+def judge(options, total, failures, case, exact, name, flags, answer):
+    """Counts a comparison, and writes it down if it fails."""
+    index, family, problem = case
+    if exact is None and not isinstance(answer, str):
+        return
+    total["comparisons"] += 1
+    fault = f"crash: {answer}" if isinstance(answer, str) else compare(problem, exact, answer, name, total)
+    if fault is None:
+        return
+    total["failures"] += 1
+    total[f"failure: {name} {problem['type']} {fault.split(':')[0]}"] += 1
+    command = " ".join(["slideway modes", *flags, *([] if name == "stream" else ["--format json"]), "FILE"])
+    failures.write(f"raw-{options.seed}-{index}-{problem['type']}-{family}-{name}", {".json": json.dumps(problem) + "\n"}, command,
+                   answer if isinstance(answer, str) else json.dumps(answer), fault)
 
 
 def main():
     options = arguments(__doc__.splitlines()[0], 17000).parse_args()
+    options.fractions = fractions_read()
     conclude(partial(work, options), batches(options, 200), options.jobs,
              lambda t: f"{t['failures']} of {t['comparisons']} comparisons of {t['problems']} raw problems fail "
                        f"({t['skipped']} problems beyond the oracle, {t['no radius']} solutions without a radius, "
-                       f"{t['left open']} answers left open near a boundary).")
+                       f"{t['left open']} answers left open near a boundary; fractions as texts are read {options.fractions}).")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""Random raw problems: integers with ties, sparse, singular, of great scales, nearly degenerate, decimal, and of structure."""
+"""Random raw problems: integers with ties, sparse, singular, of great scales, nearly degenerate, decimal, fractions, and of structure."""
 import random
+from fractions import Fraction
+from math import isfinite
 
 KINDS = ["lcp", "hlcp", "ave", "mlcp", "mcp", "game", "modes", "block_ave"]
-FAMILIES = ["integer", "sparse", "singular", "dense", "scaled", "tiny", "decimal", "chain", "copositive", "large"]
+FAMILIES = ["integer", "sparse", "singular", "dense", "scaled", "tiny", "extreme", "decimal", "fractions", "chain", "copositive", "large"]
 FREE_MOST = 3
 
 
@@ -18,10 +20,14 @@ class Maker:
             return rng.choice([0, 0, 0, 0, 1, -1, 2])
         if self.family == "scaled":
             return rng.choice([0, 1, -1, 2, -3]) * 10.0 ** rng.choice([0, 0, 3, -3, 8, -8, 16, -16])
+        if self.family == "extreme":
+            return rng.choice([0, 0, 1, -1, 2, -3]) * rng.choice([1.0, 1.0, 1.0, 1e300, 1e-300, 1e308, 1e-308, 5e-324, 1e154])
         if self.family == "tiny":
             return rng.choice([0, 1, -1, 2, -1, 1, 5e-324, -5e-324, 1e-9, 1 + 1e-9, 1 - 2.0 ** -53, -1 - 2.0 ** -52])
         if self.family == "decimal":
             return rng.randint(-9, 9) / rng.choice([10, 10, 3, 7])
+        if self.family == "fractions":
+            return Fraction(rng.randint(-4, 4), rng.choice([1, 1, 2, 3, 3, 7]))
         return rng.randint(-2, 2) if self.family != "copositive" else rng.randint(0, 2)
 
     def dense(self, rows, columns):
@@ -136,7 +142,8 @@ def mcp(make):
 
 
 def game(make):
-    m, n = make.rng.randint(1, 4), make.rng.randint(1, 4)
+    most = 3 if make.family == "extreme" else 4
+    m, n = make.rng.randint(1, most), make.rng.randint(1, most)
     p = {"type": "game", "A": make.dense(m, n), "B": make.dense(m, n)}
     if make.rng.random() < 0.2:
         del p["B"]
@@ -173,9 +180,30 @@ def block_ave(make):
     return p
 
 
-def problem(seed, index):
-    """The problem with this number, the same whatever was made before."""
+def finite(value):
+    """Whether no sum or product on the way was too great for a number of a file."""
+    if isinstance(value, (dict, list)):
+        return all(map(finite, value.values() if isinstance(value, dict) else value))
+    return not isinstance(value, float) or isfinite(value)
+
+
+def written(value, fractions):
+    """Fractions as texts or as the nearest numbers."""
+    if isinstance(value, dict):
+        return {name: written(x, fractions) for name, x in value.items()}
+    if isinstance(value, list):
+        return [written(x, fractions) for x in value]
+    if not isinstance(value, Fraction):
+        return value
+    return int(value) if value.denominator == 1 else str(value) if fractions else float(value)
+
+
+def problem(seed, index, fractions=False):
+    """The problem with this number, the same whatever was made before; with fractions as texts if the program reads them."""
     rng = random.Random(f"{seed}/{index}")
-    make = Maker(rng, rng.choice(FAMILIES))
     kind = KINDS[index % len(KINDS)]
-    return make.family, globals()[kind](make)
+    while True:
+        make = Maker(rng, rng.choice(FAMILIES))
+        made = globals()[kind](make)
+        if finite(made):
+            return make.family, written(made, fractions)

@@ -6,8 +6,12 @@ from exact import Alternative, Slot
 ZERO, ONE = Fraction(0), Fraction(1)
 
 
+ROUNDED = False                        # whether the program takes a text such as "2/3" as the nearest floating-point number
+
+
 def number(entry):
-    return Fraction(entry)             # floats are exact, texts such as "2/3" too
+    """The number of a file: floating-point numbers as they are, texts as fractions."""
+    return Fraction(float(Fraction(entry))) if ROUNDED and isinstance(entry, str) else Fraction(entry)
 
 
 def matrix(rows):
