@@ -36,7 +36,7 @@ class Failures:
         (self.folder / f"{name}.txt").write_text(f"{command}\n\nWhat comes:\n{comes}\n\nWhat is true:\n{true}\n")
 
 
-def run(args, text="", timeout=60):
+def run(args, text="", timeout=240):
     """(exit code, output, errors) of slideway; the exit code is "hangs" if it does not end in time."""
     try:
         done = subprocess.run([SLIDEWAY, *map(str, args)], input=text, capture_output=True, text=True, timeout=timeout)
