@@ -16,6 +16,7 @@ import gallery_points
 import mechanism_make
 import newton_euler
 import questions
+import rest_oracle
 from common import Failures, arguments, batches, conclude, scratch
 
 POINTS = 4
@@ -39,7 +40,8 @@ def work(options, batch):
             file = Path(folder) / "model.toml"
             file.write_text(text)
             values = [low + (i + 0.5) * (high - low) / POINTS for i in range(POINTS)]
-            asked = questions.Asked(file, name, (low, high), values, settings, random.Random(index))
+            rests = partial(rest_oracle.holds, mechanism) if mechanism and rest_oracle.reaches(mechanism) else None
+            asked = questions.Asked(file, name, (low, high), values, settings, random.Random(index), rests)
             faults = asked.all(total)
             if mechanism is not None:
                 faults += against_equations(mechanism, values, asked, total)
@@ -97,7 +99,7 @@ def main():
     conclude(partial(work, options), batches(options, 10), options.jobs,
              lambda t: f"{t['failures']} of {t['comparisons']} comparisons between questions fail, at {t['points']} points of "
                        f"{t['mechanisms']} mechanisms ({t['refused']} points refused); {t['determinate']} points compared with the equations "
-                       f"of every body ({t['doubtful']} too near to a boundary).")
+                       f"of every body ({t['doubtful']} too near to a boundary), {t['rest']} states of rest with linear programs.")
 
 
 if __name__ == "__main__":

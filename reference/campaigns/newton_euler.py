@@ -185,7 +185,7 @@ class Equations:
 
     def friction(self, j, s, side, magnitude_line):
         """The column of a unit friction force with the pressed face of that side, or on the centre line (0)."""
-        sign = math.copysign(1.0, self.sliding(j, s))
+        sign = math.copysign(1.0, self.sliding(j, s))           # at rest either sign is meant
         height = -j.height if j.around else j.height
         x, y = along(j, s)
         offset = -side * height / 2 if magnitude_line else 0.0

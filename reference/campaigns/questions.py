@@ -30,9 +30,10 @@ def matched(first, second, relative=1e-7):
 
 
 class Asked:
-    def __init__(self, file, name, interval, values, settings, rng):
+    def __init__(self, file, name, interval, values, settings, rng, rests):
         self.file, self.name, self.interval, self.values, self.settings, self.rng = file, name, interval, values, settings, rng
         self.solved, self.faults = [], []
+        self.rests = rests          # whether it can rest, of the factors on friction and loads; None if that is not known
 
     def setting(self, value):
         return ["--set", f"{self.name}={value!r}"]
@@ -62,7 +63,7 @@ class Asked:
                 self.consistent(value, answer)
         if any(self.solved):
             chosen = self.rng.choice([i for i, a in enumerate(self.solved) if a])
-            questions = [self.sweep, self.map, self.limits, lambda: self.check(chosen), lambda: self.drive(chosen), lambda: self.hold(chosen),
+            questions = [self.sweep, self.map, self.limits, lambda: self.check(chosen), lambda: self.drive(chosen), lambda: self.hold(chosen, total),
                          lambda: self.simulate(chosen), lambda: self.margin(chosen), lambda: self.backwards(chosen)]
             if self.rng.random() < 0.2:
                 questions.append(lambda: self.report(chosen))
@@ -240,12 +241,18 @@ class Asked:
         if counts[0][:3] != [answer["count"], answer["gap_state_count"], bool(answer["continua"])] or counts[1] == counts[0]:
             self.fault("solve: margin", self.command("solve", self.values[i]), answer, f"solutions, gap states, continua, rejected before and after: {counts}")
 
-    def hold(self, i):
+    def hold(self, i, total):
         answer, command = self.solved[i], self.command("hold", self.values[i])
         report = self.json(command)
         said = RESTS.get(answer.get("from_rest"))
         if report and said and report["verdict"] not in said:
             self.fault("hold: verdict", command, report, f"solve: from_rest {answer['from_rest']}")
+        if not report or self.rests is None or report["verdict"] in ("may_hold", "does_not_hold"):
+            return
+        rests = self.rests(*((self.values[i], 1.0) if self.name == "f" else (1.0, self.values[i])))
+        total["rest"] += rests is not None
+        if rests is not None and rests != report["holds"]:
+            self.fault("hold: rest", command, report, f"by linear programs it {'can' if rests else 'cannot'} rest")
 
     def simulate(self, i):
         """The first event of a motion has the modes of `solve`, and its first instant the acceleration."""
