@@ -102,7 +102,16 @@ class Maker:
             m.springs.append((name, place, (place[0] + self.either(0.3, 0.8), place[1] + self.either(0.3, 0.8)), self.number(5, 200),
                               self.number(0.1, 0.9), self.rng.choice([0.0, self.number(0.5, 10)])))
 
-    def finish(self, m, force_driven=None):
+    def pins(self, m):
+        """Makes one hinge rough, seldom more."""
+        hinges = [j for j in m.joints if j.kind == "hinge"]
+        if hinges and self.rng.random() < 0.35:
+            m.family += " with rough pins"
+            for j in self.rng.sample(hinges, 1 if self.rng.random() < 0.8 else len(hinges)):
+                j.pin = (self.number(0.004, self.rng.choice([0.02, 0.1])), self.number(0.05, 0.6))
+
+    def finish(self, m):
+        self.pins(m)
         self.loads(m, self.rng.randint(1, 3))
         if self.rng.random() < 0.35:
             name, kind, of, _ = m.coordinates[0]
@@ -155,10 +164,6 @@ def slider_crank(make, m):
     m.joints = [Joint("O", "hinge", "c", "ground", (0.0, 0.0)), Joint("A", "hinge", "c", "r", pin), Joint("B", "hinge", "r", "p", end),
                 make.slider("j", make.rng.choice(["block_slider", "guided_slider"]), "p", at=end, angle=make.number(-0.2, 0.2))]
     m.coordinates = [("q", "rotation", "c", make.either(0.5, 8))]
-    if make.rng.random() < 0.25:
-        m.family = "slider_crank with rough pins"
-        for j in make.rng.sample(m.joints[:3], make.rng.randint(1, 3)):
-            j.pin = (make.number(0.004, 0.02), make.number(0.05, 0.4))
 
 
 def yoke(make, m):

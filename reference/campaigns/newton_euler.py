@@ -2,7 +2,7 @@
 
 Nothing is eliminated: the unknowns are the accelerations of all bodies, all forces, and the deflections of a carriage on rails.
 Accelerations of joints are second coefficients of Taylor polynomials in time. Floating-point numbers; `doubtful` tells where a
-pattern is too near to its boundary for them.
+pattern is too near to its boundary for them. One hinge may be rough: a quadratic for each pattern.
 """
 import math
 from itertools import product
@@ -205,22 +205,18 @@ def solutions(m, f, load):
         kinds.append((1, -1, 0) if jumps(j) or eq.redundant and j.play else (1, -1))
     found, between, rejected, doubtful = [], [], [], False
     for pattern in product(*kinds):
-        outcome = one_pattern(eq, pattern)
-        if outcome is None:
-            doubtful = True
-            continue
-        verdict, solution = outcome
-        if verdict == "doubtful":
-            doubtful = True
-        elif verdict == "tips":
-            rejected.append(solution)
-        elif verdict == "holds":
-            (between if 0 in pattern and not eq.redundant else found).append(solution)
+        for verdict, solution in one_pattern(eq, pattern):
+            if verdict == "doubtful":
+                doubtful = True
+            elif verdict == "tips":
+                rejected.append(solution)
+            elif verdict == "holds":
+                (between if 0 in pattern and not eq.redundant else found).append(solution)
     return found, between, rejected, doubtful
 
 
 def one_pattern(eq, pattern):
-    """(verdict, solution) of a pattern; None if its equations are singular."""
+    """[(verdict, solution)] of a pattern; its verdict is "doubtful" if its equations are singular."""
     m, bodies = eq.m, len(eq.names)
     names, columns = [], []
     right = eq.applied()
@@ -264,11 +260,36 @@ def one_pattern(eq, pattern):
     if eq.redundant:
         deflections(eq, pattern, names, rows, right)
     if len(rows) != len(rows[0]):
-        return "no", None
+        return []
     x = solve_linear(rows, right)
-    if x == "none":
-        return "no", None
-    return None if x is None else judge(eq, pattern, dict(zip(names, x)))
+    rough = [j for j in m.joints if j.pin]
+    if not isinstance(x, list):
+        return [] if x == "none" and not rough else [("doubtful", None)]
+    if not rough:
+        return [judge(eq, pattern, dict(zip(names, x)))]
+    return with_pin(eq, pattern, names, rows, right, x, *rough)
+
+
+def with_pin(eq, pattern, names, rows, right, x, j):
+    """The same with one rough hinge: its couple has the magnitude r |R|, and R depends linearly on it."""
+    turning = eq.velocities[j.block][2] - (0.0 if j.guide == "ground" else eq.velocities[j.guide][2])
+    if turning == 0.0:
+        return [("doubtful", None)]
+    circle = j.pin[0] * math.sin(math.atan(eq.f * j.pin[1]))
+    other = list(right)
+    for row, entry in eq.both(j, j.at, (0.0, 0.0), -math.copysign(circle, turning)).items():
+        other[row] -= entry
+    y = solve_linear(rows, other)
+    places = [names.index(("R", j.name, k)) for k in (0, 1)]
+    change = [b - a for a, b in zip(x, y)]
+    # |R_0 + m R_1| = m
+    a = sum(change[k] ** 2 for k in places) - 1
+    b, c = 2 * sum(x[k] * change[k] for k in places), sum(x[k] ** 2 for k in places)
+    square = b * b - 4 * a * c
+    if abs(a) < NEAR or abs(square) < NEAR * (b * b + abs(a * c)):
+        return [("doubtful", None)]
+    roots = [(-b + sign * math.sqrt(square)) / (2 * a) for sign in (1, -1)] if square > 0 else []
+    return [judge(eq, pattern, dict(zip(names, (p + m * q for p, q in zip(x, change))))) for m in roots if m >= 0]
 
 
 def add(column, other, factor):
