@@ -45,11 +45,11 @@ def run(args, text="", timeout=240):
     return done.returncode, done.stdout, done.stderr
 
 
-def answers(problems, options, each=10):
+def answers(problems, options, each=30):
     """The answer of `modes --json-lines` to every problem: an object, or a text that tells how the program failed on it."""
     lines = "".join(json.dumps(p) + "\n" for p in problems)
     code, out, err = run(["modes", "--json-lines", "--threads", "1", "--time-limit", f"{each}s", *options], lines,
-                         30 + 2 * each + len(problems))
+                         60 + 2 * each + 3 * len(problems))
     found = out.splitlines()
     if code in (0, 2) and len(found) == len(problems) and "panicked" not in err:
         return [json.loads(line) for line in found]

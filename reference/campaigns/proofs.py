@@ -132,7 +132,9 @@ def other_count(problem, tree):
         exact = Solutions(*FORMS[problem["type"]](problem))
     except TooLarge:
         return None
-    true, comes = len(exact.points) + len(exact.continua), tree.count()
+    if tree.products or not all(cell.exact for cell in tree.cells):
+        return None             # sets that may be part of others
+    true, comes = len(exact.points) + len(exact.continua), tree.count() - tree.parts_of_others()
     return None if comes == true else f"{true} sets of solutions, the proof lists {comes}"
 
 
