@@ -7,6 +7,7 @@ from exact import echelon, null_space
 from raw_problems import matrix, number
 
 DIGITS = 10 ** 120
+SPREAD = 10 ** 9                    # numbers of more different size may leave something open
 NEAR = Fraction(1, 10 ** 6)         # what is nearer to a boundary than this may be left open, but not be wrong
 
 
@@ -60,7 +61,8 @@ def solutions(problem):
     starts = [sum(blocks[:j]) for j in range(len(blocks))]
     double = blocks.index(2)
     singles = [j for j in range(len(blocks)) if j != double]
-    first, points, delicate = starts[double], [], False
+    entries = [abs(x) for x in (*(x for row in a + b for x in row), *map(number, problem["b"])) if x]
+    first, points, delicate = starts[double], [], max(entries, default=1) > SPREAD * min(entries, default=1)
     for signs in product((1, -1), repeat=len(singles)):
         # Unknowns: both components, their length, and the magnitudes of the others.
         rows = [[a[i][first], a[i][first + 1], b[i][double]] + [s * a[i][starts[j]] + b[i][j] for s, j in zip(signs, singles)]

@@ -141,7 +141,8 @@ def bar_in_slots(make, m):
     top = (make.number(0.05, 0.5), make.number(0.3, 0.8))
     make.body(m, "a", (top[0] / 2, top[1] / 2))
     make.body(m, "b", (0.0, 0.0))
-    m.joints = [make.slider("j", "block_slider", "b", at=(0.0, 0.0), angle=make.number(-0.2, 0.2)), Joint("h", "hinge", "a", "b", (0.0, 0.0)),
+    m.joints = [make.slider("j", "block_slider", "b", at=(0.0, 0.0), angle=make.number(-0.2, 0.2)),
+                Joint("h", "hinge", "a", "b", (0.0, 0.0)),
                 make.slider("k", "pin_in_slot", "a", at=top, angle=make.number(-0.4, 0.4))]
     m.coordinates = [("q", "slide", "j", make.either(0.05, 2))]
 
@@ -171,9 +172,10 @@ def yoke(make, m):
     pin = (r * math.cos(phi), r * math.sin(phi))
     make.body(m, "c", (0.0, 0.0))
     make.body(m, "y", (pin[0] + make.number(0, 0.2), make.number(-0.1, 0.1)))
+    middle = (pin[0] + make.number(0.1, 0.4), 0.0)
     m.joints = [Joint("O", "hinge", "c", "ground", (0.0, 0.0)),
                 make.slider("k", "pin_in_slot", "c", "y", at=pin, angle=make.number(1.2, 1.9)),
-                make.slider("j", make.rng.choice(["block_slider", "guided_slider"]), "y", at=(pin[0] + make.number(0.1, 0.4), 0.0), angle=0.0)]
+                make.slider("j", make.rng.choice(["block_slider", "guided_slider"]), "y", at=middle, angle=0.0)]
     m.coordinates = [("q", "rotation", "c", make.either(0.5, 8))]
 
 
@@ -294,5 +296,6 @@ def toml(m):
     head.append("\n[parameters]\nf = 1.0\nP = 1.0\n\n[points]")
     head += [f"{name} = {place(at)}" for name, at in points.items()]
     for name, (mass, inertia, centre) in m.bodies.items():
-        head.append(f"\n[bodies.{name}]\npoints = {owned[name]}\nmass = {mass!r}\nmoment_of_inertia = {inertia!r}\ncentre_of_mass = {place(centre)}")
+        head.append(f"\n[bodies.{name}]\npoints = {owned[name]}\nmass = {mass!r}")
+        head.append(f"moment_of_inertia = {inertia!r}\ncentre_of_mass = {place(centre)}")
     return "\n".join(head + rest) + "\n"

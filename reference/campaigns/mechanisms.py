@@ -49,7 +49,8 @@ def work(options, batch):
                 total["failures"] += 1
                 total[f"failure: {kind}"] += 1
                 shown = " ".join(["slideway", *map(str, command)]).replace(str(file), "FILE")
-                failures.write(f"mechanism-{options.seed}-{index}-{kind.replace(': ', '-').replace(' ', '-')}", {".toml": text}, shown, comes, true)
+                case = f"mechanism-{options.seed}-{index}-{kind.replace(': ', '-').replace(' ', '-')}"
+                failures.write(case, {".toml": text}, shown, comes, true)
             total["mechanisms"] += 1
     return total
 
