@@ -30,6 +30,11 @@ def root(square):
     return Fraction(isqrt(square.numerator * bottom * (scale // bottom) ** 2), scale // bottom * bottom)
 
 
+def equal(p, q):
+    """Whether two numbers are the same but for the rounding of roots."""
+    return abs(p - q) * 10 ** 60 <= max(abs(p), abs(q))
+
+
 def affine(rows, right):
     """A point and a basis of the directions of the solutions of linear equations; None if there are none."""
     width = len(rows[0])
@@ -85,7 +90,7 @@ def solutions(problem):
             x[first], x[first + 1] = values[0], values[1]
             for s, j, v in zip(signs, singles, values[3:]):
                 x[starts[j]] = s * v
-            if not any(max(abs(p - q) for p, q in zip(x, y)) < Fraction(1, 10 ** 60) for y in points):
+            if not any(all(equal(p, q) for p, q in zip(x, y)) for y in points):
                 points.append(x)
     return BlockSolutions([tuple((v,) for v in x) for x in points], delicate)
 
@@ -117,8 +122,8 @@ def clean(point, direction, t, quadratic):
     alpha, beta, gamma = quadratic
     values = at(point, direction, t)
     for k, (p, d) in enumerate(zip(point, direction)):
-        if d and abs(values[k]) < Fraction(1, 10 ** 60):
+        if d:
             zero = -p / d
-            if alpha * zero * zero + beta * zero + gamma == 0:
+            if equal(t, zero) and alpha * zero * zero + beta * zero + gamma == 0:
                 values[k] = Fraction(0)
     return values
