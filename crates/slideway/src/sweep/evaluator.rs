@@ -52,6 +52,11 @@ impl Plan {
     pub(super) fn prepare(&mut self) {
         let Some(formulas) = self.friction.as_ref().filter(|_| self.same_state()) else { return };
         self.stages = Stages::along(&mut Trail::default(), &self.mechanism, &self.columns).ok();
+        if let Some(stages) = &self.stages
+            && stages.configuration.put_misalignments(&mut self.mechanism).is_err()
+        {
+            self.stages = None;
+        }
         let rubs = !self.mechanism.friction_circles.is_empty();
         let needs_each = self.attainability || rubs || self.columns.may_be_between_faces(&self.mechanism);
         if let Some(stages) = self.stages.as_ref().filter(|_| !needs_each) {
@@ -281,6 +286,7 @@ impl<'p> Evaluator<'p> {
         if self.stages.is_none() || !plan.same_state() {
             self.stages = None;
             let stages = Stages::along(&mut self.trail, &self.mechanism, &plan.columns)?;
+            stages.configuration.put_misalignments(&mut self.mechanism)?;
             if plan.friction.is_none() {
                 stages.configuration.put_friction(&mut self.mechanism)?;
                 self.friction = Friction::of(&self.mechanism);

@@ -108,6 +108,7 @@ impl Stages {
             return Ok(());
         }
         let mut frictionless = mechanism.clone();
+        self.configuration.put_misalignments(&mut frictionless)?;
         for contact in &mut frictionless.contacts {
             (contact.mu, contact.preload) = ([0.0; 2], [0.0; 2]);
         }
