@@ -25,10 +25,11 @@ pub(super) fn effort_range(
     let of_corner = |motion: &&DrivenMotion| efficiency(&motion.efforts, frictionless, velocities);
     let shares = corners.iter().map(of_corner).map(|one| Some((one.is, one.value?)));
     let shares: Option<Vec<(EfficiencyKind, f64)>> = shares.collect();
+    let pushes = shares.iter().flatten().all(|(kind, _)| *kind == EfficiencyKind::Driving);
     // Without bound the efforts of drives that push leave nothing of their power to the load.
     let without_bound = match bounded {
         [true, true] => Some(None),
-        [true, false] if frictionless_pushes(&shares) => Some(Some(0.0)),
+        [true, false] if pushes => Some(Some(0.0)),
         _ => None,
     };
     let efficiency = shares.zip(without_bound).and_then(|(shares, without_bound)| {
@@ -41,10 +42,6 @@ pub(super) fn effort_range(
         power: [0, 1].map(|end| bounded[end].then_some(powers[end])),
         efficiency,
     })
-}
-
-fn frictionless_pushes(shares: &Option<Vec<(EfficiencyKind, f64)>>) -> bool {
-    shares.iter().flatten().all(|(kind, _)| *kind == EfficiencyKind::Driving)
 }
 
 /// The least and the greatest of some values; none of none.

@@ -29,8 +29,8 @@ pub(super) fn recount(varied: &Varied, greatest: Option<f64>, found: &mut ModesF
             let is_present = |mode: &ModeInterval| mode.from.at < at && at < mode.to.at;
             let modes = &found.existence.modes;
             let present: Vec<usize> = (0..modes.len()).filter(|&index| is_present(&modes[index])).collect();
-            let patterns = present.iter().map(|&index| &modes[index]);
-            let (count, known) = match recount.at(at, patterns.clone().collect()) {
+            let there: Vec<&ModeInterval> = present.iter().map(|&index| &modes[index]).collect();
+            let (count, known) = match recount.at(at, &there) {
                 None => (CountInterval { from: cell[0], to: cell[1], ..*interval }, known.clone()),
                 Some(Certified { numbers, copied, is_decided }) => {
                     for (&index, copied) in present.iter().zip(copied) {
@@ -73,7 +73,7 @@ struct Certified {
 
 impl Recount<'_> {
     /// What the certified search tells at a value; none where all of these modes are off their boundaries.
-    fn at(&self, at: f64, modes: Vec<&ModeInterval>) -> Option<Certified> {
+    fn at(&self, at: f64, modes: &[&ModeInterval]) -> Option<Certified> {
         let parts = self.varied.parts(at).ok()?;
         let line = parts.line_to(&parts);
         let options =

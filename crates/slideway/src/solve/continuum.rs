@@ -70,8 +70,10 @@ impl Answer<'_> {
         }
         let ranges = |names: Vec<(String, &'static str)>, at: &Values<'_>, along: &Values<'_>| {
             let each = |(index, (name, unit))| {
-                let values = |of: &Values<'_>| continua.iter().flat_map(|one| of(one, index)).collect();
-                range((name, unit), values(at), values(along))
+                let values = |of: &Values<'_>| -> Vec<f64> {
+                    continua.iter().flat_map(|one| of(one, index)).collect()
+                };
+                range((name, unit), &values(at), &values(along))
             };
             names.into_iter().enumerate().map(each).collect::<Vec<OpenRange>>()
         };
@@ -217,11 +219,10 @@ impl Answer<'_> {
 type Values<'a> = dyn Fn(&Continuum, usize) -> Vec<f64> + 'a;
 
 /// From the least to the greatest of the values at vertices, without bound where it grows along a direction.
-fn range((name, unit): (String, &'static str), at: Vec<f64>, along: Vec<f64>) -> OpenRange {
-    let [least, greatest] =
-        at.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], value| {
-            [least.min(value), greatest.max(value)]
-        });
+fn range((name, unit): (String, &'static str), at: &[f64], along: &[f64]) -> OpenRange {
+    let [least, greatest] = at.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], value| {
+        [least.min(*value), greatest.max(*value)]
+    });
     // Values that differ by rounding alone are one.
     let one = greatest - least <= SAME_STATE * least.abs().max(greatest.abs());
     let [least, greatest] = if one { [f64::midpoint(least, greatest) + 0.0; 2] } else { [least, greatest] };
