@@ -58,51 +58,65 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], most: usiz
     ExactOutcome::Singular(set)
 }
 
-/// Solves the equations of one pattern for some contacts, together only with those of the contacts that act
-/// on them.
+/// The exact unknowns of a solution of a pattern's equations that is known but for rounding, for one contact and those
+/// that act on it.
 ///
-/// Returns all these contacts in increasing order, and the outcome in that order; `None` if there are more
-/// than `most`. See [`solve_exactly`].
+/// `is_zero` says which unknowns are exactly zero; the columns of the others must be independent, as those of a vertex
+/// and of a regular pattern are. Returns contacts in increasing order, each with `y_k`, or the share `lambda_k` in its
+/// gap; `None` if more than `most` have to be solved for together, or if the columns are dependent.
 ///
 /// # Panics
 /// If the pattern does not have one state per contact.
 ///
 /// ```
 /// use nalgebra::{dmatrix, dvector};
-/// use slideway_modes::certificate::{solve_part_exactly, ExactOutcome};
+/// use slideway_modes::certificate::solve_part_exactly;
 /// use slideway_modes::{ContactState, ModeProblem};
 /// // The second pair does not act on the first.
 /// let m = dmatrix![2.0, 0.0; 1.0, 1.0];
 /// let problem = ModeProblem::from_linear_complementarity(&m, dvector![-4.0, -1.0])?;
 /// let pattern = [ContactState::Positive, ContactState::Negative];
-/// let (contacts, outcome) = solve_part_exactly(&problem, &pattern, &[0], 48).expect("few contacts");
-/// assert_eq!(contacts, [0]);
-/// let ExactOutcome::Regular { unknowns, .. } = outcome else { panic!("D is not 0") };
-/// assert_eq!(unknowns[0].to_f64().value(), 2.0);
+/// let part = solve_part_exactly(&problem, &pattern, &[false; 2], 0, 48).expect("few contacts");
+/// assert_eq!((part.len(), part[0].0, part[0].1.to_f64().value()), (1, 0, 2.0));
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
 pub fn solve_part_exactly(
     problem: &ModeProblem,
     pattern: &[ContactState],
-    contacts: &[usize],
+    is_zero: &[bool],
+    contact: usize,
     most: usize,
-) -> Option<(Vec<usize>, ExactOutcome)> {
+) -> Option<Vec<(usize, RBig)>> {
+    assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
+    let own = closed_part(problem, is_zero, contact, most)?;
+    let all: Vec<usize> = (0..pattern.len()).collect();
+    let others: Vec<usize> = all.iter().copied().filter(|&contact| !is_zero[contact]).collect();
+    // Of a singular pattern, further equations may be needed to tell the unknowns apart.
+    let systems = [(own.clone(), own), (all, others)].into_iter().filter(|(rows, _)| rows.len() <= most);
+    for (rows, columns) in systems {
+        let echelon = IntegerSystem::of(problem, pattern, &rows, &columns).eliminate();
+        if echelon.is_regular() {
+            let unknowns = echelon.solve_reduced(columns.len());
+            return Some(columns.into_iter().zip(unknowns).collect());
+        }
+    }
+    None
+}
+
+/// A contact and all others that act on it, directly or through others, but not those whose unknowns are zero, in
+/// increasing order; `None` if they are more than `most`.
+fn closed_part(problem: &ModeProblem, is_zero: &[bool], contact: usize, most: usize) -> Option<Vec<usize>> {
     let view = ProblemView::from(problem);
-    let mut part = contacts.to_vec();
+    let mut part = vec![contact];
     let mut followed = 0;
     while let Some(&row) = part.get(followed).filter(|_| part.len() <= most) {
-        let acting = (0..problem.contacts()).filter(|&contact| view.couples(contact, row));
-        let new: Vec<usize> = acting.filter(|contact| !part.contains(contact)).collect();
+        let acting = (0..is_zero.len()).filter(|&other| !is_zero[other] && view.couples(other, row));
+        let new: Vec<usize> = acting.filter(|other| !part.contains(other)).collect();
         part.extend(new);
         followed += 1;
     }
-    if part.len() > most {
-        return None;
-    }
     part.sort_unstable();
-    let alone = problem.restricted(&part, problem.right_hand_side());
-    let states: Vec<ContactState> = part.iter().map(|&contact| pattern[contact]).collect();
-    Some((part, solve_exactly(&alone, &states, 0)))
+    (part.len() <= most).then_some(part)
 }
 
 /// The sign of `D`.

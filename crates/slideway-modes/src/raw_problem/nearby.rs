@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use super::RawProblem;
 use super::correspondence::Correspondence;
 use super::report::{WithinRounding, WithinRoundingAnswer};
+use super::values::Sums;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, IntervalModeProblem, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
@@ -59,7 +60,7 @@ pub(super) fn within_rounding(
         None if nothing && result.completeness == Completeness::Proven => WithinRoundingAnswer::None,
         None => WithinRoundingAnswer::Unknown,
     };
-    let unknowns = found.map(|point| correspondence.unknowns(point.as_slice()));
+    let unknowns = found.map(|point| correspondence.unknowns(point.as_slice(), &Sums::default()));
     Some(WithinRounding { relative: TOLD, answer, unknowns })
 }
 

@@ -133,10 +133,10 @@ pub enum Unknowns {
         #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "known_values")]
         y: Vec<f64>,
         /// The first player's payoff, which depends on `y`.
-        #[serde(skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none", serialize_with = "known_payoff")]
         payoff_1: Option<f64>,
         /// The second player's payoff, which depends on `x`.
-        #[serde(skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none", serialize_with = "known_payoff")]
         payoff_2: Option<f64>,
     },
     /// For an absolute value equation, of blocks or not.
@@ -165,6 +165,12 @@ fn known_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     (!value.is_nan()).then_some(*value).serialize(serializer)
+}
+
+/// The same for the payoff of a player.
+#[allow(clippy::ref_option)]
+fn known_payoff<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    value.filter(|value| !value.is_nan()).serialize(serializer)
 }
 
 impl Unknowns {
