@@ -192,7 +192,7 @@ pub(super) fn integers_of_row(entries: &[Vec<f64>]) -> (Vec<IBig>, i32) {
 }
 
 /// `value = mantissa 2^exponent` with an odd mantissa; both 0 for zero.
-fn mantissa_and_exponent(value: f64) -> (i64, i32) {
+pub(crate) fn mantissa_and_exponent(value: f64) -> (i64, i32) {
     if value == 0.0 {
         return (0, 0);
     }

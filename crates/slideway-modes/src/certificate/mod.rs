@@ -38,8 +38,9 @@ pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModePro
 pub use cell::{Cell, CellPart};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
+pub(super) use elimination::mantissa_and_exponent;
 pub use enclosure::{LinearEnclosure, enclose_solution, proven_determinant_sign};
-pub(super) use exact::determinant_sign;
+pub(super) use exact::{determinant_sign, enclose_sums};
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub use exclusion::proves_empty;
 pub(super) use exclusion::proves_empty_while;

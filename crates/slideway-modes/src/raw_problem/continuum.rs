@@ -22,7 +22,7 @@ pub(super) fn told(
     let pattern = state.pattern(size);
     let points = Points { correspondence, problem, rest: some_point(state, size), pattern: &pattern };
     RawContinuum {
-        pattern: correspondence.pattern_of_set(&pattern, &state.positive_unknowns(size)),
+        pattern: correspondence.pattern_of_set(&state.positive_unknowns(size)),
         parts: match correspondence.players() {
             Some(players) => players.map(|player| strategies(state, &points, &player, most)).into(),
             None => parts(state, &points, most),

@@ -7,7 +7,6 @@ use super::report::{RawUnknown, Unknowns};
 use super::values::Sums;
 use super::{RawKind, RawProblem, game, mixed};
 use crate::error_free::sum_remainder;
-use crate::problem::ContactState;
 
 /// What an unknown `N` of the mode problem is, given `y+ = max(N, 0)` and `y- = max(-N, 0)`. Unknowns of the
 /// problem have an index.
@@ -197,6 +196,11 @@ impl Correspondence {
         }
     }
 
+    /// The bounds of all contacts and the signs of their unknowns in the sums; zero and one where there is no bound.
+    pub(super) fn shifts(&self) -> Vec<(f64, f64)> {
+        (0..self.roles.len()).map(|contact| self.shift(contact).unwrap_or((0.0, 1.0))).collect()
+    }
+
     /// Whether the sum of a bound and this value may be off by more than its own rounding: it is smaller than the value,
     /// which is rounded, or the value has no number.
     pub(super) fn loses_digits(&self, contact: usize, signed: f64) -> bool {
@@ -261,30 +265,21 @@ impl Correspondence {
         self.places(signed.iter().map(|&value| i8::from(value > 0.0) - i8::from(value < 0.0)))
     }
 
-    /// "+", "-" or "0" for every unknown with an index.
-    pub(super) fn pattern(&self, pattern: &[ContactState]) -> String {
-        let sign = |state: &ContactState| match state {
-            ContactState::Positive => 1,
-            ContactState::Negative => -1,
-            ContactState::Gap => 0,
+    /// For every unknown with an index, "+" or "-" as its sign somewhere in a set, "0" if it is zero throughout or in its
+    /// gap, and "*" for a free unknown of both signs; given which unknowns of the mode problem are positive in it.
+    pub(super) fn pattern_of_set(&self, positive: &[[bool; 4]]) -> String {
+        // Free unknowns have the same index in the mode problem.
+        let both = |index: usize| {
+            positive[index][..2] == [true; 2] && self.kind == RawKind::Mlcp && self.is_free(index)
         };
-        let character = |place| match place {
+        let places = self.places(positive.iter().map(|sides| i8::from(sides[0]) - i8::from(sides[1])));
+        let character = |(index, place)| match place {
+            _ if both(index) => '*',
             1 => '+',
             -1 => '-',
             _ => '0',
         };
-        self.places(pattern.iter().map(sign)).into_iter().map(character).collect()
-    }
-
-    /// The same for a set: "*" for a free unknown of both signs, given which unknowns of the mode problem are positive
-    /// in it.
-    pub(super) fn pattern_of_set(&self, pattern: &[ContactState], positive: &[[bool; 4]]) -> String {
-        let both = |index: usize| {
-            positive[index][..2] == [true; 2] && self.kind == RawKind::Mlcp && self.is_free(index)
-        };
-        // Free unknowns have the same index in the mode problem.
-        let signs = self.pattern(pattern);
-        signs.chars().enumerate().map(|(index, sign)| if both(index) { '*' } else { sign }).collect()
+        places.into_iter().enumerate().map(character).collect()
     }
 
     /// Whether an unknown of the mode problem may have either sign without a change of anything else.

@@ -6,7 +6,7 @@ use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use crate::certificate::solve_part_exactly;
+use crate::certificate::{enclose_sums, solve_part_exactly};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem};
 
@@ -27,6 +27,7 @@ pub(super) struct ExactUnknowns<'a> {
     pattern: Vec<ContactState>,
     is_zero: Vec<bool>,
     known: BTreeMap<usize, RBig>,
+    sums: BTreeMap<usize, Interval>,
 }
 
 impl<'a> ExactUnknowns<'a> {
@@ -44,6 +45,7 @@ impl<'a> ExactUnknowns<'a> {
             pattern: signed.iter().zip(pattern).map(state).collect(),
             is_zero: signed.iter().zip(pattern).map(is_zero).collect(),
             known: BTreeMap::new(),
+            sums: BTreeMap::new(),
         }
     }
 
@@ -58,11 +60,27 @@ impl<'a> ExactUnknowns<'a> {
         }
         self.known.get(&contact).cloned()
     }
+
+    /// Bounds on the sum of a bound and the unknown of a contact, where an exact one takes too much work, given the bounds
+    /// and the signs of the unknowns in the sums of all contacts; `None` if its pattern is not regular.
+    pub(super) fn enclosed_sum(&mut self, contact: usize, shifts: &[(f64, f64)]) -> Option<Interval> {
+        if !self.sums.contains_key(&contact) {
+            // Only positive unknowns have a bound added.
+            let own = |(shift, state): (&(f64, f64), &ContactState)| match state {
+                ContactState::Positive => *shift,
+                _ => (0.0, 1.0),
+            };
+            let shifts: Vec<(f64, f64)> = shifts.iter().zip(&self.pattern).map(own).collect();
+            let part = enclose_sums(self.problem, (&self.pattern, &self.is_zero), contact, &shifts)?;
+            self.sums.extend(part);
+        }
+        self.sums.get(&contact).copied()
+    }
 }
 
 /// The floating-point number nearest to an exact value.
 pub(super) fn nearest(value: &RBig) -> f64 {
-    Interval::around_ratio(value).middle()
+    value.to_f64().value()
 }
 
 /// A value as text, given its sign, its rounded size (infinity, or below the least normal number) and, if

@@ -47,8 +47,10 @@ impl Values {
                 continue;
             }
             let exact = exact_unknowns.of(at);
-            if let Some(exact) = exact.as_ref().filter(|_| is_sum) {
-                self.sums.insert(correspondence, at, exact);
+            match &exact {
+                Some(exact) if is_sum => self.sums.insert(correspondence, at, exact),
+                None if is_sum => self.sums.enclose(correspondence, at, exact_unknowns),
+                _ => {}
             }
             if let Some(value) = exact.as_ref().map(nearest).filter(|value| value.is_normal()) {
                 self.signed[at] = value.copysign(self.signed[at]);
@@ -147,6 +149,14 @@ impl Sums {
             let value = nearest(&exact_sum);
             let error = if value.is_finite() { exact_sum - exact(value) } else { RBig::ZERO };
             self.0.insert(contact, (value, Interval::around_ratio(&error).magnitude()));
+        }
+    }
+
+    /// Adds the one of a contact whose exact value takes too much work, within bounds.
+    fn enclose(&mut self, correspondence: &Correspondence, contact: usize, exact: &mut ExactUnknowns<'_>) {
+        if let Some(bounds) = exact.enclosed_sum(contact, &correspondence.shifts()) {
+            let middle = bounds.middle();
+            self.0.insert(contact, (middle, (bounds - Interval::point(middle)).magnitude()));
         }
     }
 
