@@ -237,9 +237,8 @@ impl<'a> Teller<'a> {
         let exactly = singular || is_degenerate || !beyond_range.is_empty();
         let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
             && (!exactly || size <= EXACT_UNKNOWNS);
-        let radius = |exact_unknowns: &mut ExactUnknowns<'_>| match singular {
-            true => self.exact_radius(exact_unknowns, &values),
-            false => self.radius(&pattern, &values),
+        let radius = |exact_unknowns: &mut ExactUnknowns<'_>| {
+            if singular { self.exact_radius(exact_unknowns, &values) } else { self.radius(&pattern, &values) }
         };
         let enclosure_radius = (affordable && values.gaps.is_empty())
             .then(|| radius(&mut exact_unknowns))

@@ -67,7 +67,7 @@ fn units(problem: &BlockProblem) -> Vec<i32> {
         }
     }
     #[expect(clippy::cast_possible_truncation, reason = "sums of some exponents of floating-point numbers")]
-    let exponents = units.into_iter().map(|unit| unit.floor() as i32);
+    let exponents = units.into_iter().map(|unit| unit.round() as i32);
     exponents.collect()
 }
 
@@ -105,14 +105,15 @@ mod tests {
     use super::*;
     use nalgebra::{dmatrix, dvector};
 
-    /// The second block acts on the first with 2^1000, the first on none: in its unit the row of the first is 1.
+    /// The second block acts on the first with 2^1000, the first on none: with its load 4 as its unit, the effect on the first
+    /// is the unit of that.
     #[test]
     fn units_balance_rows_and_columns() {
         let response = dmatrix![0.5, 2.0_f64.powi(1000); 0.0, 0.25];
         let none = BySide::same(DMatrix::zeros(2, 2));
         let problem = BlockProblem::new(BySide::same(response), none, dvector![1.0, 4.0]).expect("finite");
         let (units, scaled) = in_own_units(problem);
-        assert_eq!(units, [501, -499]);
+        assert_eq!(units, [1002, 2]);
         assert_eq!(scaled.response(Side::Positive).centre(), &dmatrix![0.5, 1.0; 0.0, 0.25]);
         assert_eq!(scaled.response(Side::Positive).radius().amax(), 0.0);
     }
