@@ -81,11 +81,7 @@ pub fn problem(bytes: &[u8]) -> Option<(ModeProblem, SearchOptions)> {
 }
 
 /// The arrays of a raw problem of a type, with sizes from 1 to 3, from bytes; what is missing is 0.
-pub fn arrays(
-    kind: RawKind,
-    [n, m]: [usize; 2],
-    bytes: &[u8],
-) -> Vec<(&'static str, Vec<usize>, Vec<f64>)> {
+pub fn arrays(kind: RawKind, [n, m]: [usize; 2], bytes: &[u8]) -> Vec<(&'static str, Vec<usize>, Vec<f64>)> {
     let mut entries = bytes.iter().copied().map(entry).chain(std::iter::repeat(0.0));
     // One block of one component, the others of two.
     let components = 2 * n - 1;

@@ -48,7 +48,8 @@ fn far_bounds_cost_no_digit_of_many_unknowns() {
         1 => -3.0,
         _ => 0.0,
     };
-    let m: Vec<Vec<f64>> = (0..size).map(|row| (0..size).map(|column| entry(row, column)).collect()).collect();
+    let m: Vec<Vec<f64>> =
+        (0..size).map(|row| (0..size).map(|column| entry(row, column)).collect()).collect();
     let q: Vec<f64> = m.iter().map(|row| -row.iter().sum::<f64>() / 3.0).collect();
     let far = |sign: f64| vec![sign * 1e300; size];
     let problem = json!({"type": "mcp", "M": m, "q": q, "l": far(-1.0), "u": far(1.0)});
@@ -64,7 +65,8 @@ fn ends_of_continua_keep_their_digits() {
         "l": [-1e20, -1e20, 0.25], "u": [1e20, 1e20, 1]});
     let report: Value = serde_json::from_str(&answer(&problem).json()).expect("JSON");
     let parts = report["continua"][0]["parts"].as_array().expect("parts");
-    let told: Vec<&Value> = parts.iter().flat_map(|part| part["vertices"].as_array().expect("a list")).collect();
+    let told: Vec<&Value> =
+        parts.iter().flat_map(|part| part["vertices"].as_array().expect("a list")).collect();
     assert_eq!(told.len(), 3, "{report}");
     assert!(told.iter().any(|vertex| vertex["z"] == json!([0.25, 0.25])), "{report}");
     assert!([0.25, 1.0].iter().all(|end| told.iter().any(|vertex| vertex["z"] == json!([end]))), "{report}");
@@ -92,10 +94,12 @@ fn payoffs_are_those_of_what_is_played() {
 fn blocks_of_very_different_sizes_are_answered() {
     let none = answer(&json!({"type": "block_ave", "blocks": [2], "B": [[1], [0]], "b": [-1.7e308, 0]}));
     assert!(none.solutions.is_empty());
-    let far = json!({"type": "block_ave", "blocks": [2, 1], "B": [[-1, -1e300], [0, 2], [0, 1]], "b": [-1, 0, 2]});
+    let far =
+        json!({"type": "block_ave", "blocks": [2, 1], "B": [[-1, -1e300], [0, 2], [0, 1]], "b": [-1, 0, 2]});
     let report = answer(&far);
     assert!(report.nodes < 10_000 && report.json().len() > 100);
-    let scaled = only_solution(&json!({"type": "block_ave", "blocks": [2], "B": [[0.1], [0]], "b": [3e307, 4e307]}));
+    let scaled =
+        only_solution(&json!({"type": "block_ave", "blocks": [2], "B": [[0.1], [0]], "b": [3e307, 4e307]}));
     let plain = only_solution(&json!({"type": "block_ave", "blocks": [2], "B": [[0.1], [0]], "b": [3, 4]}));
     let at = |solution: &Value, index: usize| solution["x"][index].as_f64().expect("a number");
     assert!([0, 1].iter().all(|&index| (at(&scaled, index) / 1e307 / at(&plain, index) - 1.0).abs() < 1e-14));
@@ -106,11 +110,20 @@ fn blocks_of_very_different_sizes_are_answered() {
 #[test]
 fn signs_of_blocks_are_certain() {
     let cases = [
-        (json!({"blocks": [2], "B": [[0.5], [-1.0]], "b": [1.5, -1.0], "A": [[1.45, -0.15], [-0.3, 1.15]]}), 1),
-        (json!({"blocks": [2], "B": [[-1.5], [-0.5]], "b": [-1.5, -1.5],
-            "A": [[0.7, 0.449_999_999_999_999_96], [-0.3, 0.7]]}), -1),
-        (json!({"blocks": [2], "B": [[-1.0], [0.0]], "b": [-1.5, 0.5],
-            "A": [[0.55, 0.449_999_999_999_999_96], [0.15, 1.45]]}), -1),
+        (
+            json!({"blocks": [2], "B": [[0.5], [-1.0]], "b": [1.5, -1.0], "A": [[1.45, -0.15], [-0.3, 1.15]]}),
+            1,
+        ),
+        (
+            json!({"blocks": [2], "B": [[-1.5], [-0.5]], "b": [-1.5, -1.5],
+            "A": [[0.7, 0.449_999_999_999_999_96], [-0.3, 0.7]]}),
+            -1,
+        ),
+        (
+            json!({"blocks": [2], "B": [[-1.0], [0.0]], "b": [-1.5, 0.5],
+            "A": [[0.55, 0.449_999_999_999_999_96], [0.15, 1.45]]}),
+            -1,
+        ),
     ];
     for (problem, sign) in cases {
         let report = answer(&problem);
@@ -132,8 +145,13 @@ fn patterns_of_sets_tell_what_is_zero_throughout() {
 fn points_of_singular_patterns_have_a_radius() {
     let problem = json!({"type": "lcp", "M": [[3, 3], [3, 3]], "q": [-1, -1]});
     let report = answer(&problem);
-    let ends: Vec<f64> = report.continua.iter().flat_map(|set| &set.parts).flat_map(|part| &part.vertices)
-        .flat_map(|vertex| vertex.named()[0].1.to_vec()).collect();
+    let ends: Vec<f64> = report
+        .continua
+        .iter()
+        .flat_map(|set| &set.parts)
+        .flat_map(|part| &part.vertices)
+        .flat_map(|vertex| vertex.named()[0].1.to_vec())
+        .collect();
     assert_eq!(ends.iter().filter(|end| **end == 1.0 / 3.0).count(), 2, "{ends:?}");
     // z_1 + z_2 = 0 admits zero only, though its columns depend on each other; z_3 = 1/3.
     let problem = json!({"type": "lcp", "M": [[-1, -1, 0], [-1, -1, 0], [0, 0, 3]], "q": [0, 0, -1]});
@@ -147,17 +165,37 @@ fn fractions_are_texts_of_two_integers() {
     let solution = only_solution(&json!({"type": "lcp", "M": [["2/3"]], "q": ["-2/3"]}));
     assert_eq!(solution["z"], json!([1.0]));
     let long = format!("1{}/3{}", "0".repeat(400), "0".repeat(400));
-    assert_eq!(only_solution(&json!({"type": "lcp", "M": [[1]], "q": [format!("-{long}")]}))["z"], json!([1.0 / 3.0]));
+    assert_eq!(
+        only_solution(&json!({"type": "lcp", "M": [[1]], "q": [format!("-{long}")]}))["z"],
+        json!([1.0 / 3.0])
+    );
     for wrong in ["2/0", "1.5/2", "/2", "2/", "2", "1/-2", "a/b"] {
         let problem = json!({"type": "lcp", "M": [[wrong]], "q": [1]}).to_string();
         let faults = RawProblem::from_json(problem.as_bytes()).expect_err(wrong);
-        assert_eq!(faults.to_string(), "`M`: the entry in row 0, column 0 (counted from 0) is a text, not a number");
+        assert_eq!(
+            faults.to_string(),
+            "`M`: the entry in row 0, column 0 (counted from 0) is a text, not a number"
+        );
     }
 }
 
 const SIZES: [f64; 16] = [
-    5e-324, 1e-310, f64::MIN_POSITIVE, 1e-300, 1e-160, 1e-16, 1e-9, 0.1, 1e9, 1e16, 1e20, 1e150, 1e154, 1e300,
-    1.7e308, f64::MAX,
+    5e-324,
+    1e-310,
+    f64::MIN_POSITIVE,
+    1e-300,
+    1e-160,
+    1e-16,
+    1e-9,
+    0.1,
+    1e9,
+    1e16,
+    1e20,
+    1e150,
+    1e154,
+    1e300,
+    1.7e308,
+    f64::MAX,
 ];
 
 /// Random numbers; the next one is that of a linear congruential generator.
@@ -203,7 +241,9 @@ impl Random {
                 (RawKind::Mlcp, "B") => self.array(&[m, m]),
                 (RawKind::Mlcp, "D") => self.array(&[m, n]),
                 (RawKind::Mlcp, "b") => self.array(&[m]),
-                (RawKind::Mcp, "l" | "u") => (0..n).map(|_| (self.below(3) > 0).then(|| self.entry())).collect(),
+                (RawKind::Mcp, "l" | "u") => {
+                    (0..n).map(|_| (self.below(3) > 0).then(|| self.entry())).collect()
+                }
                 (_, "a" | "b" | "q" | "right_hand_side") => self.array(&[n]),
                 _ => self.array(&[n, n]),
             };

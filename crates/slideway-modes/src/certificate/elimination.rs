@@ -29,7 +29,12 @@ impl IntegerSystem {
     }
 
     /// Some of the equations, with some of the unknowns.
-    pub(super) fn of(problem: &ModeProblem, pattern: &[ContactState], rows: &[usize], columns: &[usize]) -> Self {
+    pub(super) fn of(
+        problem: &ModeProblem,
+        pattern: &[ContactState],
+        rows: &[usize],
+        columns: &[usize],
+    ) -> Self {
         let view = ProblemView::from(problem);
         let row = |&row: &usize| {
             let mut all = dyadic_row(view, pattern, row);

@@ -158,7 +158,9 @@ pub(crate) fn enclose_sums(
             let term = RBig::from(column[row].clone()) * bound;
             if *sign < 0.0 { -term } else { term }
         });
-        Interval::around_ratio(&(terms.fold(RBig::from(right[row].clone()), |sum, term| sum + term) * &units[row]))
+        Interval::around_ratio(
+            &(terms.fold(RBig::from(right[row].clone()), |sum, term| sum + term) * &units[row]),
+        )
     };
     let entry = |row: usize, column: usize| {
         let entry = Interval::around_ratio(&(RBig::from(columns[column][row].clone()) * &units[row]));

@@ -111,7 +111,8 @@ impl BlockEquation {
         let contacts = self.problem.contacts();
         let sizes = (0..self.order.len()).map(|block| if block < contacts { 1 } else { 2 });
         let units = self.order.iter().zip(&self.units).zip(sizes);
-        let places = units.flat_map(|((&(first, _), &unit), size)| (first..first + size).map(move |at| (at, unit)));
+        let places =
+            units.flat_map(|((&(first, _), &unit), size)| (first..first + size).map(move |at| (at, unit)));
         for ((at, unit), &value) in places.zip(rows) {
             x[at] = scaled(value, unit);
         }

@@ -57,7 +57,8 @@ fn units(problem: &BlockProblem) -> Vec<i32> {
             let others = (0..blocks).filter(|&other| other != block);
             let in_row = others.clone().map(|other| sizes[(block, other)] + units[other]);
             let row = in_row.fold(size(problem.load(), block, 0), f64::max);
-            let column = others.map(|other| sizes[(other, block)] - units[other]).fold(f64::NEG_INFINITY, f64::max);
+            let column =
+                others.map(|other| sizes[(other, block)] - units[other]).fold(f64::NEG_INFINITY, f64::max);
             units[block] = match (row.is_finite(), column.is_finite()) {
                 (true, true) => 0.5 * (row - column),
                 (true, false) => row,

@@ -102,11 +102,7 @@ fn parts(state: &CombinedState<'_>, points: &Points<'_>, most: usize) -> Vec<Con
 }
 
 /// A part of a set with many corners; without them if its own are too many.
-fn part_of_product(
-    points: &Points<'_>,
-    part: &SetPart<DVector<f64>>,
-    most: usize,
-) -> Option<ContinuumPart> {
+fn part_of_product(points: &Points<'_>, part: &SetPart<DVector<f64>>, most: usize) -> Option<ContinuumPart> {
     let (vertices, directions) = (part.set.vertices(), part.set.directions());
     let told = corners(points, &part.contacts, (&vertices, &directions), most)?;
     let unlisted = part.set == SolutionSet::NotComputed;
@@ -283,7 +279,12 @@ mod tests {
         assert_eq!(StrategyParts::of(&unlisted, &rows).vertices(), None);
         let problem = game.mode_problem().expect("finite");
         let pattern = [ContactState::Positive; 6];
-        let points = Points { correspondence: &correspondence, problem: &problem, rest: vec![0.0; 6], pattern: &pattern };
+        let points = Points {
+            correspondence: &correspondence,
+            problem: &problem,
+            rest: vec![0.0; 6],
+            pattern: &pattern,
+        };
         let part = without_corners(&points, &StrategyParts::of(&unlisted, &rows).inside(&rows));
         let Some(Unknowns::Strategies { x, .. }) = part.inside else { panic!("a point inside") };
         assert_eq!((part.dimension, x), (Some(1), vec![0.5, 0.5]));

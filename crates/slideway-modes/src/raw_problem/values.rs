@@ -130,7 +130,11 @@ pub(super) struct Sums(BTreeMap<usize, (f64, f64)>);
 
 impl Sums {
     /// Those of a point that lose digits, and that have few enough unknowns for an exact value.
-    pub(super) fn of_point(correspondence: &Correspondence, signed: &[f64], mut exact: ExactUnknowns<'_>) -> Self {
+    pub(super) fn of_point(
+        correspondence: &Correspondence,
+        signed: &[f64],
+        mut exact: ExactUnknowns<'_>,
+    ) -> Self {
         let mut sums = Self::default();
         for (contact, &value) in signed.iter().enumerate() {
             if correspondence.loses_digits(contact, value)

@@ -25,8 +25,9 @@ pub(super) fn digest(view: ProblemView<'_>) -> u64 {
         }
     }
     for side in Side::BOTH {
-        (0..view.contacts())
-            .for_each(|contact| view.jump(contact, side).centre.iter().for_each(|&entry| add(residue(entry))));
+        (0..view.contacts()).for_each(|contact| {
+            view.jump(contact, side).centre.iter().for_each(|&entry| add(residue(entry)))
+        });
     }
     view.load().centre.iter().for_each(|&entry| add(residue(entry)));
     sum
@@ -56,6 +57,9 @@ mod tests {
         assert_eq!(2 * residue(0.5) % PRIME, 1);
         assert_eq!((residue(-0.75) + residue(0.75)) % PRIME, 0);
         assert_eq!(residue(2.0_f64.powi(61)), 1);
-        assert_eq!((residue(0.1) + residue(0.2)) % PRIME, (residue(0.1 + 0.2) + PRIME - residue(2.0_f64.powi(-55))) % PRIME);
+        assert_eq!(
+            (residue(0.1) + residue(0.2)) % PRIME,
+            (residue(0.1 + 0.2) + PRIME - residue(2.0_f64.powi(-55))) % PRIME
+        );
     }
 }

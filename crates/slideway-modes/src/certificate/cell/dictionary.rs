@@ -95,8 +95,9 @@ impl Dictionary {
         if dictionary.make_feasible(proceed) != Err(Ended::Infeasible) {
             return None;
         }
-        let contradicts =
-            |row: &usize| *dictionary.value(*row) < IBig::ZERO && dictionary.least_negative(*row, |_| true).is_none();
+        let contradicts = |row: &usize| {
+            *dictionary.value(*row) < IBig::ZERO && dictionary.least_negative(*row, |_| true).is_none()
+        };
         let row = (0..dictionary.rows.len()).find(contradicts)?;
         let others = dictionary.basic.iter().enumerate().filter(|(at, _)| *at != row);
         Some(others.map(|(_, &unknown)| unknown).collect())
