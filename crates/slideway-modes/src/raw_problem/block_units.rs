@@ -19,11 +19,8 @@ const LARGEST_POWER: i32 = 1000;
 /// The units of all blocks, and the problem in these units; as it is if numbers overflow in them.
 pub(super) fn in_own_units(problem: BlockProblem) -> (Vec<i32>, BlockProblem) {
     let units = units(&problem);
-    let blocks = units.len();
-    let mut of_rows = Vec::new();
-    for block in 0..blocks {
-        of_rows.extend(problem.rows_of(block).map(|_| units[block]));
-    }
+    let rows_of = |(block, &unit): (usize, &i32)| problem.rows_of(block).map(move |_| unit);
+    let of_rows: Vec<i32> = units.iter().enumerate().flat_map(rows_of).collect();
     let scaled = |part: &IntervalMatrix, units: &[i32]| {
         let scaled = DMatrix::from_fn(part.shape().0, part.shape().1, |row, column| {
             let entry = (part.centre()[(row, column)], part.radius()[(row, column)]);
@@ -38,7 +35,7 @@ pub(super) fn in_own_units(problem: BlockProblem) -> (Vec<i32>, BlockProblem) {
     };
     match within() {
         Some(scaled) => (units, scaled),
-        None => (vec![0; blocks], problem),
+        None => (vec![0; units.len()], problem),
     }
 }
 

@@ -25,9 +25,9 @@ pub(super) fn digest(view: ProblemView<'_>) -> u64 {
         }
     }
     for side in Side::BOTH {
-        (0..view.contacts()).for_each(|contact| {
-            view.jump(contact, side).centre.iter().for_each(|&entry| add(residue(entry)))
-        });
+        for contact in 0..view.contacts() {
+            view.jump(contact, side).centre.iter().for_each(|&entry| add(residue(entry)));
+        }
     }
     view.load().centre.iter().for_each(|&entry| add(residue(entry)));
     sum
