@@ -10,6 +10,7 @@ proof fails; 2: a file cannot be read.
 
 import json
 import math
+import re
 import sys
 from collections import Counter
 from fractions import Fraction
@@ -25,6 +26,8 @@ TYPES = {
 }
 JUMPS = ["jumps_positive", "jumps_negative"]
 LARGEST_EXPONENT = 4000
+# Of digests.
+PRIME, BASE = 2**61 - 1, 0x1234_5678_9ABC_DEF1
 
 
 class Unreadable(Exception):
@@ -68,6 +71,8 @@ def read_problem(path):
 
 def numbers(row, size):
     fits = size and isinstance(row, list) and len(row) == size
+    # Fractions are rounded once, to the nearest double.
+    row = [float(Fraction(x)) if isinstance(x, str) and re.fullmatch("-?[0-9]+/[0-9]*[1-9][0-9]*", x) else x for x in row] if fits else row
     require(fits and all(type(entry) is float and math.isfinite(entry) for entry in row),
             "an array has the wrong shape, or an entry that is not a number", Unreadable)
     return list(map(Fraction, row))
@@ -81,6 +86,15 @@ def matrix(rows, size):
 
 def combined(one, other, sign):
     return [[x + sign * y for x, y in zip(*columns)] for columns in zip(one, other)]
+
+
+def digest(sides, jumps, right):
+    """All numbers of a problem as the digits of one in a large base, modulo a prime: what a proof says it is about."""
+    value = len(right)
+    for number in chain(*(column for side in (*sides, *jumps) for column in side), right):
+        number = Fraction(number)
+        value = (value * BASE + number.numerator * pow(number.denominator, -1, PRIME)) % PRIME
+    return value
 
 
 class Problem:
@@ -438,6 +452,9 @@ def read_proof(problem_data, lines):
     """The tree of a proof that belongs to the problem, with all of its steps verified."""
     require(lines.next() == ["slideway", "proof", "1"], "this is not a proof of version 1")
     sizes, (name, *exponents) = lines.next(), lines.next()
+    if name == "digest":
+        require(exponents == [str(digest(*problem_data))], "the proof is about another problem")
+        name, *exponents = lines.next()
     if name != "rows":
         lines.fields, exponents = chain([[name, *exponents]], lines.fields), []
     require(all(abs(int(exponent)) <= LARGEST_EXPONENT for exponent in exponents), "an exponent is too large")

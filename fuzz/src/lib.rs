@@ -4,4 +4,4 @@ mod answer;
 mod small;
 
 pub use answer::answer;
-pub use small::{patterns, problem};
+pub use small::{arrays, patterns, problem};

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use slideway::modes::{Arguments, ContactState, ModeProblem, SearchOptions};
+use slideway::raw_problem::RawKind;
 
 /// What a byte stands for; small whole numbers are the most frequent.
 const AWKWARD: [f64; 32] = [
@@ -77,6 +78,34 @@ pub fn problem(bytes: &[u8]) -> Option<(ModeProblem, SearchOptions)> {
     };
     let options = SearchOptions { nodes: 2000, arguments, ..SearchOptions::default() };
     Some((problem.ok()?, options))
+}
+
+/// The arrays of a raw problem of a type, with sizes from 1 to 3, from bytes; what is missing is 0.
+pub fn arrays(kind: RawKind, [n, m]: [usize; 2], bytes: &[u8]) -> Vec<(&'static str, Vec<usize>, Vec<f64>)> {
+    let mut entries = bytes.iter().copied().map(entry).chain(std::iter::repeat(0.0));
+    // One block of one component, the others of two.
+    let components = 2 * n - 1;
+    let sizes = |name| match (kind, name) {
+        (_, "blocks") => vec![n],
+        (RawKind::BlockAve, "b") => vec![components],
+        (RawKind::BlockAve, "B") => vec![components, n],
+        (RawKind::BlockAve, _) => vec![components, components],
+        (RawKind::Game, _) | (RawKind::Mlcp, "C") => vec![n, m],
+        (RawKind::Mlcp, "B") => vec![m, m],
+        (RawKind::Mlcp, "D") => vec![m, n],
+        (RawKind::Mlcp, "b") => vec![m],
+        (_, "a" | "b" | "q" | "l" | "u" | "right_hand_side") => vec![n],
+        _ => vec![n, n],
+    };
+    let mut array = |name| {
+        let sizes: Vec<usize> = sizes(name);
+        let values: Vec<f64> = match name {
+            "blocks" => (0..n).map(|block| if block == 0 { 1.0 } else { 2.0 }).collect(),
+            _ => entries.by_ref().take(sizes.iter().product()).collect(),
+        };
+        (name, sizes, values)
+    };
+    kind.names().into_iter().map(&mut array).collect()
 }
 
 /// All patterns, with the gap where there is a jump.

@@ -207,6 +207,9 @@ def main(problems=200, mutants=25, seed=1):
             truth = equations.truth()
             exponents = [rng.randint(-3, 3) for _ in equations.right] if rng.random() < 0.3 else []
             text = proof_of(equations, exponents, rng)
+            if number % 2:
+                head, size, rest = text.split("\n", 2)
+                text = f"{head}\n{size}\ndigest {check_proof.digest(*problem_data)}\n{rest}"
             tree = check(problem_data, text)
             assert tree is not None and is_true(tree, equations, truth), (data, text)
             steps.update(line.split()[0] for line in text.splitlines()[2:])
@@ -216,7 +219,7 @@ def main(problems=200, mutants=25, seed=1):
                 tree = check(problem_data, other)
                 outcomes["refused" if tree is None else "accepted and true"] += 1
                 assert tree is None or is_true(tree, equations, truth), (data, other)
-    missing = set("f z l x c b e s m p cell g rows".split()) - set(steps)
+    missing = set("f z l x c b e s m p cell g rows digest".split()) - set(steps)
     print(f"{problems} proofs accepted: " + ", ".join(f"{step} {count}" for step, count in sorted(steps.items())))
     print(f"{outcomes.total()} changed or careless proofs: "
           + ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items())))

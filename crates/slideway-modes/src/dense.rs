@@ -3,13 +3,15 @@
 //! Results equal nalgebra's to the last bit, because the operations are the same, in the same order. Each
 //! function with a `proceed` calls it now and then, and returns nothing once that is false.
 
-use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence};
+use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence, SVD};
 
 /// `proceed` is called once per this many multiplications, which take some milliseconds.
 const BETWEEN: usize = 1 << 23;
 /// Products are computed this many columns at a time: with fewer, nalgebra would spend much time on copies of
 /// the other factor.
 const PANEL: usize = 128;
+/// Steps of the iteration for singular values, for each row and column: some two are usual.
+const STEPS_FOR_EACH: usize = 40;
 
 /// Asks whether to continue, but not too often.
 pub(crate) struct Pace<'p> {
@@ -37,6 +39,17 @@ impl<'p> Pace<'p> {
     pub(crate) fn proceed(&mut self) -> &mut dyn FnMut() -> bool {
         self.proceed
     }
+}
+
+/// Singular values, in no order, with their vectors; `None` if a number is not finite, or if the iteration takes more steps
+/// than it ever needs.
+pub(crate) fn singular_values(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
+    let steps = STEPS_FOR_EACH * (matrix.nrows() + matrix.ncols());
+    let is_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+    let finite = Some(matrix).filter(|matrix| is_finite(matrix.as_slice()));
+    finite
+        .and_then(|matrix| SVD::try_new_unordered(matrix, true, true, 5.0 * f64::EPSILON, steps))
+        .filter(|found| is_finite(found.singular_values.as_slice()))
 }
 
 /// `left right`.

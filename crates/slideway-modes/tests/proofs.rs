@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use nalgebra::{DMatrix, DVector};
+use slideway_modes::raw_problem::RawProblem;
 use slideway_modes::{CombinedState, ModeProblem, NoProof, SearchOptions, Side, prove};
 
 use super::instances;
@@ -188,4 +189,37 @@ fn a_monotone_problem_takes_one_node() {
     let problem = ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit");
     let text = proven(&problem, "monotone");
     assert!(text.contains("\nm 0\n") && !text.contains("\nb "), "{text}");
+}
+
+/// Numbers of very different sizes need vectors of long integers, which are found all the same.
+#[test]
+fn problems_of_great_scales_have_proofs() {
+    let problems = [
+        r#"{"type": "game", "A": [[536870912], [0]]}"#,
+        r#"{"type": "game", "A": [[1e300, 1], [-1e-300, 3]], "B": [[1, -1e16], [2, 1e9]]}"#,
+        r#"{"type": "lcp", "M": [[1e-300, 0, 1], [0, 1, 1e200], [2, 1e-9, 1]], "q": [-1e10, -1, 1]}"#,
+        r#"{"type": "hlcp", "A": [[2, 1e-9], [0, 1e160]], "B": [[1, -1e16], [3, 1]], "q": [1e-300, 2]}"#,
+        r#"{"type": "mcp", "M": [[2, 1], [1, -1]], "q": [-1, 1e9], "l": [-1e20, 0], "u": [1e20, 1e12]}"#,
+    ];
+    for (at, text) in problems.into_iter().enumerate() {
+        let raw = RawProblem::from_json(text.as_bytes()).expect("a problem");
+        proven(&raw.mode_problem().expect("finite"), &format!("great_scales_{at}"));
+    }
+}
+
+/// w = z - 1 and w = 2 z - 1 have the same proof but for the digest.
+#[test]
+fn a_proof_is_about_one_problem() {
+    let problem = |m: f64| {
+        let (m, q) = (DMatrix::from_element(1, 1, m), DVector::from_element(1, -1.0));
+        ModeProblem::from_linear_complementarity(&m, q).expect("finite")
+    };
+    let text = proven(&problem(1.0), "digest");
+    let other = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("digest_other.json");
+    std::fs::write(&other, json(&problem(2.0))).expect("the folder of tests is writable");
+    let (accepted, said) = checked(&other, &text);
+    assert!(!accepted && said.contains("the proof is about another problem"), "{said}");
+    let without: String =
+        text.lines().filter(|line| !line.starts_with("digest")).map(|line| format!("{line}\n")).collect();
+    assert!(checked(&other, &without).0);
 }

@@ -3,7 +3,7 @@
 mod batch;
 mod stream;
 
-use super::proof::ProofFiles;
+use super::proof::{ProofFiles, text_of};
 use crate::arguments::{ModesArguments, ModesFormat};
 use crate::failure::Failure;
 use crate::files::Files;
@@ -14,6 +14,7 @@ use crate::watch::{Watch, outcome};
 use slideway::Report;
 use slideway::progress::Callback;
 use slideway::raw_problem::{RawFault, RawKind, RawProblem, RawReport, SIZE_LIMIT, solve, to_npz};
+use std::path::Path;
 use std::time::Instant;
 
 /// Finds and writes all solutions of a problem given by its matrices.
@@ -29,14 +30,7 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     // A large file takes its part of the time.
     let begun = Instant::now();
     let problem = read(arguments)?;
-    if arguments.proof.is_some() && problem.kind() == RawKind::BlockAve {
-        let reason = "it states linear equations, and lengths of blocks are no linear functions".to_owned();
-        return Err(Failure::NoProof { reason });
-    }
-    let proof = arguments
-        .proof
-        .as_deref()
-        .map(|path| ProofFiles::new(path, checker_reads(&problem, arguments), &mut files));
+    let proof = arguments.proof.as_deref().map(|path| proof_files(&problem, path, arguments, &mut files));
     let proof = proof.transpose()?;
     let mut watch = Watch::since(begun, arguments.time_limit());
     let report = answer(&problem, arguments, &mut |progress| watch.look(progress));
@@ -50,6 +44,27 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
         proof.write(&exact, &arguments.file, &arguments.options(), &mut watch)?;
     }
     Ok(outcome(watch.finish(), report.status.into()))
+}
+
+/// Where a proof goes.
+///
+/// # Errors
+/// If there can be none, which is better said before the search than after it.
+fn proof_files(
+    problem: &RawProblem,
+    path: &Path,
+    arguments: &ModesArguments,
+    files: &mut Files<'_>,
+) -> Result<ProofFiles, Failure> {
+    if problem.kind() == RawKind::BlockAve {
+        let reason = "it states linear equations, and lengths of blocks are no linear functions".to_owned();
+        return Err(Failure::NoProof { reason });
+    }
+    let checker_reads = checker_reads(problem, arguments);
+    if !checker_reads {
+        text_of(&problem.mode_problem().expect("shapes and values are checked where the problem is read"))?;
+    }
+    ProofFiles::new(path, checker_reads, files)
 }
 
 /// Whether the checker of proofs reads the problem as it is given: one of its types, in a file of JSON.

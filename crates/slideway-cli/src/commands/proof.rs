@@ -47,10 +47,7 @@ impl ProofFiles {
     ) -> Result<(), Failure> {
         let no_proof = |reason: String| Failure::NoProof { reason };
         if let Some((file, _)) = &self.problem {
-            let text = exact_json(problem);
-            let text =
-                text.ok_or_else(|| no_proof("some numbers are sums that no file holds exactly".to_owned()))?;
-            file.write(&text)?;
+            file.write(&text_of(problem)?)?;
         }
         let proof = prove(problem, options, &mut |progress| watch.look(progress))
             .map_err(|fault| no_proof(fault.to_string()))?;
@@ -58,17 +55,23 @@ impl ProofFiles {
         let problem = self.problem.as_ref().map_or(given, |(_, path)| path.as_path());
         let cells: Vec<String> = proof.cells.iter().map(ToString::to_string).collect();
         let note = format!(
-            "note: proof of {} in {} nodes; to check it: python3 reference/check_proof.py {} {}",
-            if let [one] = cells.as_slice() {
-                format!("{one} cells")
-            } else {
-                format!("{} cells", cells.join(" x "))
-            },
+            "note: proof of {} in {} {}; to check it: python3 reference/check_proof.py {} {}",
+            if proof.cells == [1] { "1 cell".to_owned() } else { format!("{} cells", cells.join(" x ")) },
             proof.nodes,
+            if proof.nodes == 1 { "node" } else { "nodes" },
             quoted(problem.as_os_str()),
             quoted(self.path.as_os_str())
         );
         complain(&note, self.proof.color());
         Ok(())
     }
+}
+
+/// The problem as a file.
+///
+/// # Errors
+/// If no file holds its numbers.
+pub(super) fn text_of(problem: &ModeProblem) -> Result<String, Failure> {
+    let reason = || "some numbers are sums that no file holds exactly".to_owned();
+    exact_json(problem).ok_or_else(|| Failure::NoProof { reason: reason() })
 }

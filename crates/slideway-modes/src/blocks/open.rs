@@ -8,6 +8,7 @@ use super::relaxation::{RelaxedPoint, largest};
 use super::result::{OpenLabel, OpenRegion};
 use super::sector::{Sector, length};
 use super::zero::{Zero, slopes_at};
+use crate::dense::singular_values;
 
 /// A share of the load below this is that of a point at infinity.
 const NO_LOAD: f64 = 1e-6;
@@ -79,8 +80,10 @@ fn label(problem: &BlockProblem, piece: &Piece, relaxed: &RelaxedPoint) -> OpenL
         OpenLabel::TooSmall
     } else {
         let slopes = matrix(problem, &piece.states, &slopes_at(problem, &point));
-        let values = slopes.singular_values();
-        if values.min() <= SINGULAR_NEAR_FOLD * values.max() { OpenLabel::Fold } else { OpenLabel::TooSmall }
+        match singular_values(slopes).map(|found| found.singular_values) {
+            Some(values) if values.min() <= SINGULAR_NEAR_FOLD * values.max() => OpenLabel::Fold,
+            _ => OpenLabel::TooSmall,
+        }
     }
 }
 
@@ -100,9 +103,9 @@ pub(super) fn point_of_continuum(problem: &BlockProblem, piece: &Piece) -> Optio
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
     let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
     let middle: DMatrix<f64> = matrix(problem, &piece.states, &slopes);
-    let start = middle.svd(true, true).solve(&load(problem, &piece.states), CUT).ok()?;
+    let start = singular_values(middle)?.solve(&load(problem, &piece.states), CUT).ok()?;
     let point = gauss_newton(problem, piece, start)?;
-    let decomposition = matrix(problem, &piece.states, &slopes_at(problem, &point)).svd(false, true);
+    let decomposition = singular_values(matrix(problem, &piece.states, &slopes_at(problem, &point)))?;
     let values = &decomposition.singular_values;
     let (at, least) = values.argmin();
     if least > SINGULAR_ON_CURVE * values.max() {
@@ -124,7 +127,7 @@ fn gauss_newton(problem: &BlockProblem, piece: &Piece, start: DVector<f64>) -> O
             return Some(point);
         }
         let slopes: DMatrix<f64> = matrix(problem, &piece.states, &slopes_at(problem, &point));
-        let decomposition = slopes.svd(true, true);
+        let decomposition = singular_values(slopes)?;
         let cut = CUT * decomposition.singular_values.max();
         point -= decomposition.solve(&error, cut).ok()?;
         if !point.amax().is_finite() {

@@ -150,7 +150,7 @@ impl BlockProblem {
     }
 
     /// The number of blocks, `s + h`.
-    pub(super) fn blocks(&self) -> usize {
+    pub(crate) fn blocks(&self) -> usize {
         self.response.positive.shape().1
     }
 
@@ -160,7 +160,7 @@ impl BlockProblem {
     }
 
     /// The rows of a block: one or two.
-    pub(super) fn rows_of(&self, block: usize) -> std::ops::Range<usize> {
+    pub(crate) fn rows_of(&self, block: usize) -> std::ops::Range<usize> {
         match block.checked_sub(self.contacts()) {
             None => block..block + 1,
             Some(hinge) => self.contacts() + 2 * hinge..self.contacts() + 2 * hinge + 2,

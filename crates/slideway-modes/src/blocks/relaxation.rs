@@ -113,8 +113,13 @@ pub(super) fn largest(entries: &[f64]) -> f64 {
     entries.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 
-/// The relaxation of a piece; `pivots` counts those of the simplex method.
-pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> Relaxed {
+/// The relaxation of a piece; `pivots` counts those of the simplex method. It is not solved once `proceed` is `false`.
+pub(super) fn relax(
+    problem: &BlockProblem,
+    piece: &Piece,
+    pivots: &mut u64,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Relaxed {
     let jumping: Vec<usize> =
         (0..problem.contacts()).filter(|&contact| shares(problem, piece, contact)).collect();
     let rows = problem.rows();
@@ -127,7 +132,7 @@ pub(super) fn relax(problem: &BlockProblem, piece: &Piece, pivots: &mut u64) -> 
     let count = program.columns();
     let bounds = Bounds { lower: vec![0.0; count], upper: vec![f64::INFINITY; count] };
     let mut basis = program.artificial_basis();
-    let LinearOutcome::Feasible(values) = program.solve(&mut basis, &bounds, pivots, &mut || true) else {
+    let LinearOutcome::Feasible(values) = program.solve(&mut basis, &bounds, pivots, proceed) else {
         return Relaxed::Unsolved;
     };
     let errors: f64 = values[count - 2 * rows..].iter().sum();

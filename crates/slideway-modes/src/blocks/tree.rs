@@ -114,7 +114,10 @@ impl<'a, 'c> Tree<'a, 'c> {
     }
 
     fn decide(&mut self, piece: &Piece) -> Decision {
-        let relaxed = match relax(self.problem, piece, &mut self.pivots) {
+        let told = Progress { counted: "nodes", done: self.found.nodes, fraction: None, found: None };
+        let relaxed = match relax(self.problem, piece, &mut self.pivots, &mut || {
+            (self.progress)(&told).is_continue()
+        }) {
             Relaxed::Empty => return Decision::Done,
             Relaxed::Point(point) => Some(point),
             Relaxed::Unsolved => None,

@@ -9,12 +9,14 @@ use crate::problem::{ContactState, ModeProblem, ProblemView};
 /// Equations `A z = b` as integers, row by row `[A | b]`. Rows are scaled by powers of two.
 pub(super) struct IntegerSystem {
     rows: Vec<Vec<IBig>>,
+    unknowns: usize,
 }
 
 /// The system after elimination: the first `pivots.len()` rows are independent, row `i` has its first nonzero
 /// entry in column `pivots[i]`, and the others are zero except for the right-hand side.
 pub(super) struct Echelon {
     rows: Vec<Vec<IBig>>,
+    unknowns: usize,
     pivots: Vec<usize>,
     swaps_are_odd: bool,
 }
@@ -22,16 +24,30 @@ pub(super) struct Echelon {
 impl IntegerSystem {
     /// The equations of one pattern, without rounding.
     pub(super) fn new(problem: &ModeProblem, pattern: &[ContactState]) -> Self {
+        let all: Vec<usize> = (0..pattern.len()).collect();
+        Self::of(problem, pattern, &all, &all)
+    }
+
+    /// Some of the equations, with some of the unknowns.
+    pub(super) fn of(
+        problem: &ModeProblem,
+        pattern: &[ContactState],
+        rows: &[usize],
+        columns: &[usize],
+    ) -> Self {
         let view = ProblemView::from(problem);
-        let rows = (0..pattern.len()).map(|row| integers_of_row(&dyadic_row(view, pattern, row)).0).collect();
-        Self { rows }
+        let row = |&row: &usize| {
+            let mut all = dyadic_row(view, pattern, row);
+            let own = columns.iter().copied().chain([pattern.len()]);
+            integers_of_row(&own.map(|at| std::mem::take(&mut all[at])).collect::<Vec<_>>()).0
+        };
+        Self { rows: rows.iter().map(row).collect(), unknowns: columns.len() }
     }
 
     /// The columns of `A`, and `b`.
     pub(super) fn columns(&self) -> (Vec<Vec<IBig>>, Vec<IBig>) {
         let column = |at: usize| self.rows.iter().map(|row| row[at].clone()).collect();
-        let unknowns = self.rows.len();
-        ((0..unknowns).map(column).collect(), column(unknowns))
+        ((0..self.unknowns).map(column).collect(), column(self.unknowns))
     }
 
     /// [`eliminate_while`](Self::eliminate_while) without interruption.
@@ -43,14 +59,14 @@ impl IntegerSystem {
     /// Bareiss's elimination: after each step, all entries are minors of the original matrix, so division by
     /// the previous pivot leaves no remainder. `None` once `proceed` is `false`.
     pub(super) fn eliminate_while(self, proceed: &mut dyn FnMut() -> bool) -> Option<Echelon> {
-        let mut rows = self.rows;
-        let unknowns = rows.len();
+        let Self { mut rows, unknowns } = self;
+        let equations = rows.len();
         let mut pivots = Vec::new();
         let mut swaps_are_odd = false;
         let mut previous = IBig::ONE;
         for column in 0..unknowns {
             let rank = pivots.len();
-            let Some(found) = (rank..unknowns)
+            let Some(found) = (rank..equations)
                 .filter(|&row| !rows[row][column].is_zero())
                 .min_by_key(|&row| bit_length(&rows[row][column]))
             else {
@@ -71,7 +87,7 @@ impl IntegerSystem {
             previous.clone_from(&pivot_row[column]);
             pivots.push(column);
         }
-        Some(Echelon { rows, pivots, swaps_are_odd })
+        Some(Echelon { rows, unknowns, pivots, swaps_are_odd })
     }
 }
 
@@ -86,11 +102,12 @@ fn eliminate_row(row: &mut [IBig], pivot_row: &[IBig], column: usize, previous: 
 }
 
 impl Echelon {
+    /// Whether no two solutions differ.
     pub(super) fn is_regular(&self) -> bool {
-        self.pivots.len() == self.rows.len()
+        self.pivots.len() == self.unknowns
     }
 
-    /// The sign of the determinant.
+    /// The sign of the determinant, with as many equations as unknowns.
     pub(super) fn determinant_sign(&self) -> Sign {
         if !self.is_regular() {
             return Sign::Zero;
@@ -180,7 +197,7 @@ pub(super) fn integers_of_row(entries: &[Vec<f64>]) -> (Vec<IBig>, i32) {
 }
 
 /// `value = mantissa 2^exponent` with an odd mantissa; both 0 for zero.
-fn mantissa_and_exponent(value: f64) -> (i64, i32) {
+pub(crate) fn mantissa_and_exponent(value: f64) -> (i64, i32) {
     if value == 0.0 {
         return (0, 0);
     }

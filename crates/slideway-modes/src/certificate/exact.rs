@@ -2,12 +2,16 @@
 
 use std::cmp::Ordering;
 
-use dashu_int::IBig;
+use dashu_int::ops::BitTest;
+use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
+use nalgebra::DMatrix;
 
 use super::elimination::{Echelon, IntegerSystem};
+use super::enclosure::enclose_solution;
 use super::polyhedron::ExactSet;
 use crate::interval::{Interval, Sign};
+use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{ContactState, ModeProblem, ProblemView};
 
 /// The exact solutions of the equations of one pattern.
@@ -58,51 +62,115 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], most: usiz
     ExactOutcome::Singular(set)
 }
 
-/// Solves the equations of one pattern for some contacts, together only with those of the contacts that act
-/// on them.
+/// The exact unknowns of a solution of a pattern's equations that is known but for rounding, for one contact and those
+/// that act on it.
 ///
-/// Returns all these contacts in increasing order, and the outcome in that order; `None` if there are more
-/// than `most`. See [`solve_exactly`].
+/// `is_zero` says which unknowns are exactly zero; the columns of the others must be independent, as those of a vertex
+/// and of a regular pattern are. Returns contacts in increasing order, each with `y_k`, or the share `lambda_k` in its
+/// gap; `None` if more than `most` have to be solved for together, or if the columns are dependent.
 ///
 /// # Panics
 /// If the pattern does not have one state per contact.
 ///
 /// ```
 /// use nalgebra::{dmatrix, dvector};
-/// use slideway_modes::certificate::{solve_part_exactly, ExactOutcome};
+/// use slideway_modes::certificate::solve_part_exactly;
 /// use slideway_modes::{ContactState, ModeProblem};
 /// // The second pair does not act on the first.
 /// let m = dmatrix![2.0, 0.0; 1.0, 1.0];
 /// let problem = ModeProblem::from_linear_complementarity(&m, dvector![-4.0, -1.0])?;
 /// let pattern = [ContactState::Positive, ContactState::Negative];
-/// let (contacts, outcome) = solve_part_exactly(&problem, &pattern, &[0], 48).expect("few contacts");
-/// assert_eq!(contacts, [0]);
-/// let ExactOutcome::Regular { unknowns, .. } = outcome else { panic!("D is not 0") };
-/// assert_eq!(unknowns[0].to_f64().value(), 2.0);
+/// let part = solve_part_exactly(&problem, &pattern, &[false; 2], 0, 48).expect("few contacts");
+/// assert_eq!((part.len(), part[0].0, part[0].1.to_f64().value()), (1, 0, 2.0));
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
 pub fn solve_part_exactly(
     problem: &ModeProblem,
     pattern: &[ContactState],
-    contacts: &[usize],
+    is_zero: &[bool],
+    contact: usize,
     most: usize,
-) -> Option<(Vec<usize>, ExactOutcome)> {
+) -> Option<Vec<(usize, RBig)>> {
+    assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
+    let own = closed_part(problem, (pattern, is_zero), contact, most)?;
+    let all: Vec<usize> = (0..pattern.len()).collect();
+    let others: Vec<usize> = all.iter().copied().filter(|&contact| !is_zero[contact]).collect();
+    // Of a singular pattern, further equations may be needed to tell the unknowns apart.
+    let systems = [(own.clone(), own), (all, others)].into_iter().filter(|(rows, _)| rows.len() <= most);
+    for (rows, columns) in systems {
+        let echelon = IntegerSystem::of(problem, pattern, &rows, &columns).eliminate();
+        if echelon.is_regular() {
+            let unknowns = echelon.solve_reduced(columns.len());
+            return Some(columns.into_iter().zip(unknowns).collect());
+        }
+    }
+    None
+}
+
+/// A contact and all others that act on it in a pattern, directly or through others, but not those whose unknowns are
+/// zero, in increasing order; `None` if they are more than `most`.
+fn closed_part(
+    problem: &ModeProblem,
+    (pattern, is_zero): (&[ContactState], &[bool]),
+    contact: usize,
+    most: usize,
+) -> Option<Vec<usize>> {
     let view = ProblemView::from(problem);
-    let mut part = contacts.to_vec();
+    let acts = |other: usize, row: usize| {
+        view.matrix_terms(other, pattern[other]).any(|(term, _)| term.centre[row] != 0.0)
+    };
+    let mut part = vec![contact];
     let mut followed = 0;
     while let Some(&row) = part.get(followed).filter(|_| part.len() <= most) {
-        let acting = (0..problem.contacts()).filter(|&contact| view.couples(contact, row));
-        let new: Vec<usize> = acting.filter(|contact| !part.contains(contact)).collect();
+        let acting = (0..is_zero.len()).filter(|&other| !is_zero[other] && acts(other, row));
+        let new: Vec<usize> = acting.filter(|other| !part.contains(other)).collect();
         part.extend(new);
         followed += 1;
     }
-    if part.len() > most {
-        return None;
-    }
     part.sort_unstable();
-    let alone = problem.restricted(&part, problem.right_hand_side());
-    let states: Vec<ContactState> = part.iter().map(|&contact| pattern[contact]).collect();
-    Some((part, solve_exactly(&alone, &states, 0)))
+    (part.len() <= most).then_some(part)
+}
+
+/// Encloses `b_k + s_k y_k` for one contact and those that act on it, given the numbers `b_k` and signs `s_k` of all: of a
+/// solution of a regular pattern, as [`solve_part_exactly`], for any number of contacts.
+///
+/// These sums are the unknowns of the equations, with `sum c_k s_k b_k` on the right-hand side: what is large in both
+/// cancels before anything is rounded.
+pub(crate) fn enclose_sums(
+    problem: &ModeProblem,
+    (pattern, is_zero): (&[ContactState], &[bool]),
+    contact: usize,
+    shifts: &[(f64, f64)],
+) -> Option<Vec<(usize, Interval)>> {
+    let own = closed_part(problem, (pattern, is_zero), contact, usize::MAX)?;
+    let system = IntegerSystem::of(problem, pattern, &own, &own);
+    let (columns, right) = system.columns();
+    let exact = |value: f64| RBig::try_from(value).ok();
+    let shifts: Vec<(f64, RBig)> =
+        own.iter().map(|&at| Some((shifts[at].1, exact(shifts[at].0)?))).collect::<Option<_>>()?;
+    // Rows of integers, divided by the size of their largest entry.
+    let bits = |row: usize| columns.iter().map(|column| column[row].bit_len()).max().unwrap_or(0);
+    let units: Vec<RBig> =
+        (0..own.len()).map(|row| RBig::from_parts(IBig::ONE, UBig::ONE << bits(row))).collect();
+    let load = |row: usize| {
+        let terms = columns.iter().zip(&shifts).filter(|(_, (_, bound))| !bound.is_zero());
+        let terms = terms.map(|(column, (sign, bound))| {
+            let term = RBig::from(column[row].clone()) * bound;
+            if *sign < 0.0 { -term } else { term }
+        });
+        Interval::around_ratio(
+            &(terms.fold(RBig::from(right[row].clone()), |sum, term| sum + term) * &units[row]),
+        )
+    };
+    let entry = |row: usize, column: usize| {
+        let entry = Interval::around_ratio(&(RBig::from(columns[column][row].clone()) * &units[row]));
+        if shifts[column].0 < 0.0 { -entry } else { entry }
+    };
+    let size = own.len();
+    let matrix = IntervalMatrix::from_intervals(&DMatrix::from_fn(size, size, entry))?;
+    let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(size, 1, |row, _| load(row)))?;
+    let solution = enclose_solution(&matrix, &right)?.solution;
+    Some(own.into_iter().enumerate().map(|(at, contact)| (contact, solution.entry(at, 0))).collect())
 }
 
 /// The sign of `D`.

@@ -12,6 +12,7 @@
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 
+use super::cell::contradiction;
 use super::elimination::integers_of_row;
 use crate::problem::{ContactState, ProblemView, Side};
 
@@ -106,6 +107,24 @@ impl LiftedSystem {
             ContactState::Gap => [share, rest],
         };
         pair.into_iter().flatten()
+    }
+
+    /// Some `v` with `v . C_j <= 0` for the given columns and `v . b > 0`, so that their unknowns solve the equations for no
+    /// `y >= 0`: by the simplex method in integers of any length, however different the numbers are in size. `None` if
+    /// there is a solution, or once `proceed` is `false`.
+    pub(crate) fn farkas(&self, columns: &[usize], proceed: &mut dyn FnMut() -> bool) -> Option<Vec<IBig>> {
+        let own: Vec<Vec<IBig>> = columns.iter().map(|&column| self.columns[column].clone()).collect();
+        let zero = contradiction(&own, &self.right, proceed)?;
+        let zero: Vec<usize> = zero.into_iter().map(|at| columns[at]).collect();
+        // All vectors of the basis with another product with `b` than zero prove the same: they differ by sums of
+        // equations in which nothing is left.
+        let product = |vector: &[IBig]| -> IBig { vector.iter().zip(&self.right).map(|(a, b)| a * b).sum() };
+        let basis = self.left_null_space(&zero, proceed)?;
+        let mut vector = basis.into_iter().find(|vector| !product(vector).is_zero())?;
+        if product(&vector) < IBig::ZERO {
+            vector.iter_mut().for_each(|entry| *entry = -std::mem::take(entry));
+        }
+        Some(vector)
     }
 
     /// A basis of all `v` with `v . C_j = 0` for some columns, in integers without common factor; `None` once

@@ -38,9 +38,10 @@ pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModePro
 pub use cell::{Cell, CellPart};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
+pub(super) use elimination::mantissa_and_exponent;
 pub use enclosure::{LinearEnclosure, enclose_solution, proven_determinant_sign};
-pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
+pub(super) use exact::{determinant_sign, enclose_sums};
 pub use exclusion::proves_empty;
 pub(super) use exclusion::proves_empty_while;
 pub(super) use lifted::{LiftedSystem, make_primitive};

@@ -120,8 +120,12 @@ pub(super) fn scaled_to_one(direction: Vec<RBig>) -> Option<Vec<RBig>> {
     Some(direction.into_iter().map(|value| value / &largest).collect())
 }
 
+/// The nearest number; one with the sign of the value if it is too small to have any.
 fn nearest(value: &RBig) -> f64 {
-    Interval::around_ratio(value).nonzero_middle()
+    match value.to_f64().value() {
+        0.0 => Interval::around_ratio(value).nonzero_middle(),
+        number => number,
+    }
 }
 
 fn distinct(points: impl Iterator<Item = Vec<RBig>>) -> Vec<Vec<RBig>> {

@@ -2,9 +2,9 @@
 
 use super::correspondence::Correspondence;
 use super::listing::{Counts, Sort, list};
-use super::range::in_range;
+use super::range::{ExactUnknowns, in_range};
 use super::report::{RawContinuum, RawGroup, RawLine, RawReport, RawShares, RawSolution, SCHEMA};
-use super::residual::Equations;
+use super::residual::{Equations, exact};
 use super::values::Values;
 use super::{RawProblem, block_answer, continuum, free, nearby};
 use crate::certificate::{Decision, decide};
@@ -217,7 +217,7 @@ impl<'a> Teller<'a> {
     }
 
     fn continuum(&self, state: &CombinedState<'_>, most: usize) -> RawContinuum {
-        continuum::told(state, self.correspondence, self.problem.contacts(), most)
+        continuum::told(state, self.correspondence, self.problem, most)
     }
 
     fn point(&self, state: &CombinedState<'_>, number: usize) -> RawSolution {
@@ -230,21 +230,26 @@ impl<'a> Teller<'a> {
         };
         let on_boundary = values.signed.iter().enumerate().any(is_on_boundary);
         let is_degenerate = on_boundary || values.signed.contains(&0.0);
-        let beyond_range = values.settle(self.correspondence, self.problem, &pattern);
+        let mut exact_unknowns = ExactUnknowns::new(self.problem, &pattern, &values.signed);
+        let beyond_range = values.settle(self.correspondence, &mut exact_unknowns);
         let singular = state.parts.iter().any(|(_, part)| matches!(part, GroupState::Singular(_)));
         let work = (number as f64 + 1.0) * (size as f64).powi(3);
-        let exactly = is_degenerate || !beyond_range.is_empty();
+        let exactly = singular || is_degenerate || !beyond_range.is_empty();
         let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
             && (!exactly || size <= EXACT_UNKNOWNS);
-        let enclosure_radius = (affordable && !singular && values.gaps.is_empty())
-            .then(|| self.radius(&pattern, &values.signed))
+        let radius = |exact_unknowns: &mut ExactUnknowns<'_>| {
+            if singular { self.exact_radius(exact_unknowns, &values) } else { self.radius(&pattern, &values) }
+        };
+        let enclosure_radius = (affordable && values.gaps.is_empty())
+            .then(|| radius(&mut exact_unknowns))
             .flatten()
-            .map(|radius| match self.correspondence.rounding(&values.signed) {
+            .map(|radius| match self.correspondence.rounding(&values.signed, &values.sums) {
                 0.0 => radius,
                 rounding => (radius + rounding).next_up(),
-            });
+            })
+            .map(|radius| radius.max(values.sums.error()));
         RawSolution {
-            unknowns: self.correspondence.unknowns(&values.signed),
+            unknowns: self.correspondence.unknowns(&values.signed, &values.sums),
             signs,
             on_boundary,
             enclosure_radius,
@@ -255,22 +260,39 @@ impl<'a> Teller<'a> {
         }
     }
 
-    /// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Values
+    /// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Sums, values
     /// without a floating-point number, and those that are not told, are ignored.
-    fn radius(&self, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
+    fn radius(&self, pattern: &[ContactState], values: &Values) -> Option<f64> {
         let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
             decide(self.problem, pattern).decision
         else {
             return None;
         };
-        let distance = |(bounds, value): (&Interval, &f64)| {
-            let largest = (bounds.upper() - value.abs()).max(value.abs() - bounds.lower());
+        let distance = |at: usize| {
+            let (bounds, value) = (unknowns[at], values.signed[at].abs());
+            let largest = (bounds.upper() - value).max(value - bounds.lower());
             if largest > 0.0 { largest.next_up() } else { 0.0 }
         };
-        let is_told = |at: usize| in_range(values[at]) && self.correspondence.tells(at, values[at]);
-        let known = unknowns.iter().zip(values).enumerate().filter(|(at, _)| is_told(*at));
-        let radius = known.map(|(_, one)| distance(one)).fold(0.0, f64::max);
+        let radius = self.told_values(values).map(distance).fold(0.0, f64::max);
         radius.is_finite().then_some(radius)
+    }
+
+    /// The same for a point of a singular pattern, which is known exactly.
+    fn exact_radius(&self, exact_unknowns: &mut ExactUnknowns<'_>, values: &Values) -> Option<f64> {
+        let mut distance = |at: usize| {
+            let error = exact_unknowns.of(at)? - exact(values.signed[at].abs());
+            Some(Interval::around_ratio(&error).magnitude())
+        };
+        self.told_values(values).try_fold(0.0, |most: f64, at| Some(most.max(distance(at)?)))
+    }
+
+    /// The unknowns of the mode problem whose values are told as they are.
+    fn told_values(&self, values: &Values) -> impl Iterator<Item = usize> {
+        let is_told = |&at: &usize| {
+            let value = values.signed[at];
+            in_range(value) && self.correspondence.tells(at, value) && values.sums.value(at).is_none()
+        };
+        (0..values.signed.len()).filter(is_told)
     }
 }
 

@@ -1,5 +1,7 @@
 //! From named arrays to a problem: its type, the names that belong to it, shapes and values.
 
+use std::collections::HashSet;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::block_equation::BlockEquation;
@@ -15,7 +17,9 @@ use crate::problem::ModeProblem;
 pub(super) struct Given {
     pub(super) kind: GivenType,
     /// Names and arrays; `None` for a faulty one whose fault has been recorded.
-    pub(super) arrays: Vec<(String, Option<Array>)>,
+    arrays: Vec<(String, Option<Array>)>,
+    /// All names, of which a file may have very many.
+    names: HashSet<String>,
 }
 
 /// What a file states about its type.
@@ -32,13 +36,21 @@ impl Given {
     /// Whether the name is already used.
     pub(super) fn has(&self, key: &str) -> bool {
         let typed = key == "type" && !matches!(self.kind, GivenType::Nothing);
-        typed || self.arrays.iter().any(|(name, _)| name == key)
+        typed || self.names.contains(key)
+    }
+
+    /// Adds an array; `None` for one that is faulty, or has a name that belongs to no problem.
+    pub(super) fn add(&mut self, key: String, array: Option<Array>) {
+        self.names.insert(key.clone());
+        self.arrays.push((key, array));
     }
 
     /// Records the name of an array that cannot be read.
     pub(super) fn set_faulty(&mut self, key: String, fault: RawFault, faults: &mut Vec<RawFault>) {
-        faults.push(fault);
-        self.arrays.push((key, None));
+        if !faults.contains(&fault) {
+            faults.push(fault);
+        }
+        self.add(key, None);
     }
 
     fn array(&self, key: &str) -> Option<&Array> {

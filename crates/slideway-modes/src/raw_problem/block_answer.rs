@@ -3,9 +3,11 @@
 use super::answer::stopped;
 use super::block_equation::BlockEquation;
 use super::kind::RawKind;
-use super::report::{RawReport, RawSolution, SCHEMA, Unknowns};
+use super::range::{in_range, told as words};
+use super::report::{BeyondRange, RawReport, RawSolution, RawUnknown, SCHEMA, Unknowns};
 use super::right_hand_sides::{EveryAnswer, EveryRightHandSide};
 use crate::blocks::{BlockResult, BlockSolution, OpenLabel, OpenRegion, search, unique_for_every_load};
+use crate::interval::Interval;
 use crate::progress::Callback;
 use crate::search::SearchOptions;
 use crate::status::{Proof, Status};
@@ -78,16 +80,13 @@ fn strategy(equation: &BlockEquation, result: &BlockResult) -> String {
 
 /// What prevents the list from being proven complete.
 fn open(equation: &BlockEquation, result: &BlockResult, options: &SearchOptions) -> Vec<String> {
-    let contacts = equation.problem().contacts();
     let region = |region: &OpenRegion| {
-        let (forces, reactions) = region.point.split_at(contacts);
-        let reactions: Vec<[f64; 2]> = reactions.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-        let x: Vec<String> =
-            equation.unknowns(forces, &reactions).iter().map(|value| format!("{value:.6e}")).collect();
-        let place = match region.label {
-            OpenLabel::LockingDirection => "along",
-            _ => "near",
+        let (place, x) = match region.label {
+            OpenLabel::LockingDirection => ("along", equation.direction(&region.point)),
+            _ => ("near", equation.unknowns(&region.point)),
         };
+        let x: Vec<String> =
+            x.iter().map(|value| format!("{:.6e}", value.clamp(f64::MIN, f64::MAX))).collect();
         format!("{}: not decided {place} x = ({})", region.label.as_str(), x.join(", "))
     };
     let mut open: Vec<String> = result.stopped.map(|reason| stopped(reason, options)).into_iter().collect();
@@ -99,15 +98,29 @@ fn open(equation: &BlockEquation, result: &BlockResult, options: &SearchOptions)
 }
 
 fn told(equation: &BlockEquation, solution: &BlockSolution) -> RawSolution {
-    let x = equation.unknowns(&solution.forces, &solution.reactions);
-    let sign = |value: &f64| i8::from(*value > 0.0) - i8::from(*value < 0.0);
+    let rows: Vec<f64> = solution.forces.iter().chain(solution.reactions.as_flattened()).copied().collect();
+    let x = equation.unknowns(&rows);
+    let bounds = equation.enclosures(&solution.enclosure);
+    let sign = |bounds: &Interval| i8::from(bounds.lower() > 0.0) - i8::from(bounds.upper() < 0.0);
+    let signs: Vec<i8> = bounds.iter().map(sign).collect();
+    // A number that is not zero and rounds to it has none.
+    let has_number = |at: usize| in_range(x[at]) && (x[at] != 0.0 || signs[at] == 0);
+    let distance = |at: usize| (bounds[at] - Interval::point(x[at])).magnitude();
+    let radius = (0..x.len()).filter(|&at| has_number(at)).map(distance).fold(0.0, f64::max);
+    let beyond = |at: usize| BeyondRange {
+        name: RawUnknown::X,
+        index: at,
+        value: words(f64::from(signs[at]), x[at], None),
+    };
     RawSolution {
-        signs: x.iter().map(sign).collect(),
         on_boundary: !solution.on_boundary.is_empty() || !solution.unloaded.is_empty(),
-        enclosure_radius: Some(solution.radius),
+        enclosure_radius: radius.is_finite().then_some(radius),
         residual: equation.residual(&x, &solution.magnitudes),
-        unknowns: Unknowns::AbsoluteValue { x },
-        beyond_range: Vec::new(),
+        beyond_range: (0..x.len()).filter(|&at| !has_number(at)).map(beyond).collect(),
+        unknowns: Unknowns::AbsoluteValue {
+            x: (0..x.len()).map(|at| if has_number(at) { x[at] + 0.0 } else { f64::NAN }).collect(),
+        },
+        signs,
         gaps: Vec::new(),
         shares_vary: false,
     }

@@ -2,8 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::block_units::{self, interval_times_power, times_power};
 use crate::blocks::BlockProblem;
 use crate::certificate::{IntervalMatrix, enclose_solution};
+use crate::interval::Interval;
 use crate::problem::{BySide, ModeProblemError, ProblemPart, Side};
 
 /// An absolute value equation whose unknowns come in blocks of one or two components,
@@ -22,6 +24,8 @@ pub struct BlockEquation {
     /// The first component of each block in the order of [`BlockProblem`]: blocks of one first, and the number of the
     /// block.
     order: Vec<(usize, usize)>,
+    /// The unit of each block in that order is this power of two.
+    units: Vec<i32>,
     problem: BlockProblem,
 }
 
@@ -69,11 +73,13 @@ impl BlockEquation {
         let [response, load] = [selected(&response, &rows, &blocks), selected(&load, &rows, &[0])];
         let contacts = sizes.iter().filter(|&&size| size == 1).count();
         let no_jumps = IntervalMatrix::exact(DMatrix::zeros(size, contacts));
-        let problem = BlockProblem::within_bounds(BySide::same(response), BySide::same(no_jumps), load)?;
-        Ok(Self { a, b, right_hand_side, order, problem })
+        let given = BlockProblem::within_bounds(BySide::same(response), BySide::same(no_jumps), load)?;
+        let (units, problem) = block_units::in_own_units(given);
+        Ok(Self { a, b, right_hand_side, order, units, problem })
     }
 
-    /// The block mode problem with the same solutions, blocks of one first; within bounds unless `A` is the identity.
+    /// The block mode problem with the same solutions, blocks of one first; within bounds unless `A` is the identity. Each
+    /// block is a multiple of a power of two, so that numbers of every size can be computed with.
     pub fn problem(&self) -> &BlockProblem {
         &self.problem
     }
@@ -83,15 +89,32 @@ impl BlockEquation {
         self.right_hand_side.len()
     }
 
-    /// Blocks of one as pairs of a component and the value, blocks of two as pairs of their first component and the
-    /// vector: `x` in the order of the equation.
-    pub(super) fn unknowns(&self, forces: &[f64], reactions: &[[f64; 2]]) -> Vec<f64> {
-        let mut x = vec![0.0; self.size()];
-        for (&(first, _), &force) in self.order.iter().zip(forces) {
-            x[first] = force;
-        }
-        for (&(first, _), reaction) in self.order[forces.len()..].iter().zip(reactions) {
-            x[first..first + 2].copy_from_slice(reaction);
+    /// `x` in the order of the equation, from the rows of a point of [`BlockProblem`]; infinite, or zero, if it is beyond the
+    /// range of floating-point numbers.
+    pub(super) fn unknowns(&self, rows: &[f64]) -> Vec<f64> {
+        self.in_order(rows, 0.0, times_power)
+    }
+
+    /// The largest components of a direction are of the size of one.
+    pub(super) fn direction(&self, rows: &[f64]) -> Vec<f64> {
+        let largest = self.units.iter().copied().max().unwrap_or(0);
+        self.in_order(rows, 0.0, |value, unit| times_power(value, unit - largest))
+    }
+
+    /// The same for bounds on the unknowns.
+    pub(super) fn enclosures(&self, rows: &[Interval]) -> Vec<Interval> {
+        self.in_order(rows, Interval::ZERO, interval_times_power)
+    }
+
+    fn in_order<T: Copy>(&self, rows: &[T], zero: T, scaled: impl Fn(T, i32) -> T) -> Vec<T> {
+        let mut x = vec![zero; self.size()];
+        let contacts = self.problem.contacts();
+        let sizes = (0..self.order.len()).map(|block| if block < contacts { 1 } else { 2 });
+        let units = self.order.iter().zip(&self.units).zip(sizes);
+        let places =
+            units.flat_map(|((&(first, _), &unit), size)| (first..first + size).map(move |at| (at, unit)));
+        for ((at, unit), &value) in places.zip(rows) {
+            x[at] = scaled(value, unit);
         }
         x
     }
@@ -101,8 +124,8 @@ impl BlockEquation {
     pub(super) fn residual(&self, x: &[f64], lengths: &[f64]) -> Option<f64> {
         let x = DVector::from_column_slice(x);
         let mut of_blocks = DVector::zeros(self.order.len());
-        for (&(_, block), &length) in self.order.iter().zip(lengths) {
-            of_blocks[block] = length;
+        for ((&(_, block), &length), &unit) in self.order.iter().zip(lengths).zip(&self.units) {
+            of_blocks[block] = times_power(length, unit);
         }
         let sum = &self.a * &x + &self.b * &of_blocks - &self.right_hand_side;
         let sizes = self.a.abs() * x.abs() + self.b.abs() * &of_blocks + self.right_hand_side.abs();

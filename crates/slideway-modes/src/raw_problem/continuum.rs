@@ -3,8 +3,10 @@
 use nalgebra::DVector;
 
 use super::correspondence::Correspondence;
+use super::range::ExactUnknowns;
 use super::report::{ContinuumPart, RawContinuum, Unknowns};
-use crate::problem::{SetPart, SolutionSet};
+use super::values::Sums;
+use crate::problem::{ContactState, ModeProblem, SetPart, SolutionSet};
 use crate::search::{CORNERS, CombinedState, GroupState};
 use crate::solutions::SingularMode;
 
@@ -13,20 +15,64 @@ use crate::solutions::SingularMode;
 pub(super) fn told(
     state: &CombinedState<'_>,
     correspondence: &Correspondence,
-    size: usize,
+    problem: &ModeProblem,
     most: usize,
 ) -> RawContinuum {
+    let size = problem.contacts();
+    let pattern = state.pattern(size);
+    let points = Points { correspondence, problem, rest: some_point(state, size), pattern: &pattern };
     RawContinuum {
-        pattern: correspondence.pattern_of_set(&state.pattern(size), &state.positive_unknowns(size)),
+        pattern: correspondence.pattern_of_set(&state.positive_unknowns(size)),
         parts: match correspondence.players() {
-            Some(players) => players.map(|player| strategies(state, correspondence, &player, most)).into(),
-            None => parts(state, correspondence, most),
+            Some(players) => players.map(|player| strategies(state, &points, &player, most)).into(),
+            None => parts(state, &points, most),
         },
     }
 }
 
+/// A point of the combination, but for groups whose corners are not known.
+fn some_point(state: &CombinedState<'_>, size: usize) -> Vec<f64> {
+    let mut point = vec![0.0; size];
+    let mut set = |contacts: &[usize], values: &DVector<f64>| {
+        contacts.iter().zip(values).for_each(|(&contact, &value)| point[contact] = value);
+    };
+    for (contacts, part) in &state.parts {
+        match (part, part.normal_force()) {
+            (_, Some(values)) => set(contacts, values),
+            (GroupState::Singular(SingularMode { set: SolutionSet::Product(own), .. }), None) => {
+                for part in own.iter().map(|part| part.clone().renumbered(|contact| contacts[contact])) {
+                    set(&part.contacts, &part.inside);
+                }
+            }
+            (GroupState::Singular(mode), None) => {
+                mode.set.vertices().first().into_iter().for_each(|vertex| set(contacts, vertex));
+            }
+            (_, None) => {}
+        }
+    }
+    point
+}
+
+/// Tells points of a set from the values of some of its unknowns.
+struct Points<'a> {
+    correspondence: &'a Correspondence,
+    problem: &'a ModeProblem,
+    /// The values of the other unknowns, on which these may depend.
+    rest: Vec<f64>,
+    pattern: &'a [ContactState],
+}
+
+impl Points<'_> {
+    fn told(&self, contacts: &[usize], values: &[f64]) -> Unknowns {
+        let mut signed = self.rest.clone();
+        contacts.iter().zip(values).for_each(|(&contact, &value)| signed[contact] = value);
+        let exact = ExactUnknowns::new(self.problem, self.pattern, &signed);
+        self.correspondence.point(contacts, values, &Sums::of_point(self.correspondence, &signed, exact))
+    }
+}
+
 /// The groups of unknowns that vary together and, last, all those that are fixed.
-fn parts(state: &CombinedState<'_>, correspondence: &Correspondence, most: usize) -> Vec<ContinuumPart> {
+fn parts(state: &CombinedState<'_>, points: &Points<'_>, most: usize) -> Vec<ContinuumPart> {
     let mut fixed: Vec<(usize, f64)> = Vec::new();
     let mut parts = Vec::new();
     for (contacts, part) in &state.parts {
@@ -37,13 +83,13 @@ fn parts(state: &CombinedState<'_>, correspondence: &Correspondence, most: usize
                     if let SolutionSet::Point(point) = &part.set {
                         fixed.extend(part.contacts.into_iter().zip(point.iter().copied()));
                     } else {
-                        parts.extend(part_of_product(correspondence, &part, most));
+                        parts.extend(part_of_product(points, &part, most));
                     }
                 }
             }
             (GroupState::Singular(mode), None) => {
                 let (vertices, directions) = (mode.set.vertices(), mode.set.directions());
-                parts.extend(corners(correspondence, contacts, (&vertices, &directions), most));
+                parts.extend(corners(points, contacts, (&vertices, &directions), most));
             }
             (_, None) => {}
         }
@@ -51,32 +97,28 @@ fn parts(state: &CombinedState<'_>, correspondence: &Correspondence, most: usize
     parts.sort_by(|one, other| one.indices.cmp(&other.indices));
     fixed.sort_by_key(|(contact, _)| *contact);
     let (contacts, values): (Vec<usize>, Vec<f64>) = fixed.into_iter().unzip();
-    parts.extend(corners(correspondence, &contacts, (&[&DVector::from_vec(values)], &[]), most));
+    parts.extend(corners(points, &contacts, (&[&DVector::from_vec(values)], &[]), most));
     parts
 }
 
 /// A part of a set with many corners; without them if its own are too many.
-fn part_of_product(
-    correspondence: &Correspondence,
-    part: &SetPart<DVector<f64>>,
-    most: usize,
-) -> Option<ContinuumPart> {
+fn part_of_product(points: &Points<'_>, part: &SetPart<DVector<f64>>, most: usize) -> Option<ContinuumPart> {
     let (vertices, directions) = (part.set.vertices(), part.set.directions());
-    let told = corners(correspondence, &part.contacts, (&vertices, &directions), most)?;
+    let told = corners(points, &part.contacts, (&vertices, &directions), most)?;
     let unlisted = part.set == SolutionSet::NotComputed;
-    Some(if unlisted { without_corners(correspondence, part) } else { told })
+    Some(if unlisted { without_corners(points, part) } else { told })
 }
 
 /// A part whose corners are not listed.
-fn without_corners(correspondence: &Correspondence, part: &SetPart<DVector<f64>>) -> ContinuumPart {
+fn without_corners(points: &Points<'_>, part: &SetPart<DVector<f64>>) -> ContinuumPart {
     ContinuumPart {
-        indices: correspondence.indices(&part.contacts),
+        indices: points.correspondence.indices(&part.contacts),
         vertices: Vec::new(),
         directions: Vec::new(),
         vertex_count: 0,
         direction_count: 0,
         dimension: part.dimension,
-        inside: Some(correspondence.point(&part.contacts, part.inside.as_slice())),
+        inside: Some(points.told(&part.contacts, part.inside.as_slice())),
     }
 }
 
@@ -84,36 +126,33 @@ fn without_corners(correspondence: &Correspondence, part: &SetPart<DVector<f64>>
 /// which responses are best for one is determined by the strategy of the other, and so is the payoff.
 fn strategies(
     state: &CombinedState<'_>,
-    correspondence: &Correspondence,
+    points: &Points<'_>,
     contacts: &[usize],
     most: usize,
 ) -> ContinuumPart {
     // All unknowns of a game depend on one another, so that they are one group.
-    let mut points: Vec<DVector<f64>> = Vec::new();
+    let mut corners: Vec<DVector<f64>> = Vec::new();
     for (_, part) in &state.parts {
         match part {
             GroupState::Singular(SingularMode { set: SolutionSet::Product(parts), .. }) => {
                 let own = StrategyParts::of(parts, contacts);
                 match own.vertices() {
-                    Some(all) => points.extend(all),
-                    None => return without_corners(correspondence, &own.inside(contacts)),
+                    Some(all) => corners.extend(all),
+                    None => return without_corners(points, &own.inside(contacts)),
                 }
             }
-            GroupState::Singular(mode) => points.extend(mode.set.vertices().into_iter().cloned()),
-            other => points.extend(other.normal_force().cloned()),
+            GroupState::Singular(mode) => corners.extend(mode.set.vertices().into_iter().cloned()),
+            other => corners.extend(other.normal_force().cloned()),
         }
     }
-    let mut vertices: Vec<Unknowns> = Vec::new();
-    for point in points {
+    let own = |point: DVector<f64>| {
         let values: Vec<f64> = contacts.iter().map(|&contact| point[contact]).collect();
-        let vertex = correspondence.point(contacts, &values);
-        if !vertices.contains(&vertex) {
-            vertices.push(vertex);
-        }
-    }
+        points.told(contacts, &values)
+    };
+    let mut vertices = distinct(corners.into_iter().map(own));
     let vertex_count = vertices.len();
     vertices.truncate(most);
-    let indices = correspondence.indices(contacts);
+    let indices = points.correspondence.indices(contacts);
     ContinuumPart {
         indices,
         vertices,
@@ -178,23 +217,35 @@ impl<'a> StrategyParts<'a> {
 
 /// The set with these vertices and directions; `None` if the problem has no such unknowns.
 fn corners(
-    correspondence: &Correspondence,
+    points: &Points<'_>,
     contacts: &[usize],
     (vertices, directions): (&[&DVector<f64>], &[&DVector<f64>]),
     most: usize,
 ) -> Option<ContinuumPart> {
-    let indices = correspondence.indices(contacts);
-    let point = |one: &&DVector<f64>| correspondence.point(contacts, one.as_slice());
-    let direction = |one: &&DVector<f64>| correspondence.direction(contacts, one.as_slice());
+    let indices = points.correspondence.indices(contacts);
+    let vertices = distinct(vertices.iter().map(|one| points.told(contacts, one.as_slice())));
+    let direction = |one: &&DVector<f64>| points.correspondence.direction(contacts, one.as_slice());
+    let directions = distinct(directions.iter().map(direction));
     (!indices.is_empty()).then(|| ContinuumPart {
         indices,
-        vertices: vertices.iter().take(most).map(point).collect(),
-        directions: directions.iter().take(most).map(direction).collect(),
         vertex_count: vertices.len(),
         direction_count: directions.len(),
+        vertices: vertices.into_iter().take(most).collect(),
+        directions: directions.into_iter().take(most).collect(),
         dimension: None,
         inside: None,
     })
+}
+
+/// Without those that are told like one before.
+fn distinct(all: impl Iterator<Item = Unknowns>) -> Vec<Unknowns> {
+    let mut kept: Vec<Unknowns> = Vec::new();
+    for one in all {
+        if !kept.contains(&one) {
+            kept.push(one);
+        }
+    }
+    kept
 }
 
 #[cfg(test)]
@@ -226,7 +277,15 @@ mod tests {
         assert_eq!(StrategyParts::of(&listed, &columns).vertices().map(|all| all.len()), Some(1));
         let unlisted = [mix(SolutionSet::NotComputed), rest];
         assert_eq!(StrategyParts::of(&unlisted, &rows).vertices(), None);
-        let part = without_corners(&correspondence, &StrategyParts::of(&unlisted, &rows).inside(&rows));
+        let problem = game.mode_problem().expect("finite");
+        let pattern = [ContactState::Positive; 6];
+        let points = Points {
+            correspondence: &correspondence,
+            problem: &problem,
+            rest: vec![0.0; 6],
+            pattern: &pattern,
+        };
+        let part = without_corners(&points, &StrategyParts::of(&unlisted, &rows).inside(&rows));
         let Some(Unknowns::Strategies { x, .. }) = part.inside else { panic!("a point inside") };
         assert_eq!((part.dimension, x), (Some(1), vec![0.5, 0.5]));
     }

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::range::in_range;
 use super::report::{RawUnknown, Unknowns};
+use super::values::Sums;
 use super::{RawKind, RawProblem, game, mixed};
 use crate::error_free::sum_remainder;
-use crate::problem::ContactState;
 
 /// What an unknown `N` of the mode problem is, given `y+ = max(N, 0)` and `y- = max(-N, 0)`. Unknowns of the
 /// problem have an index.
@@ -93,8 +93,8 @@ impl Correspondence {
     }
 
     /// The unknowns of the whole problem.
-    pub(super) fn unknowns(&self, signed: &[f64]) -> Unknowns {
-        self.named(&self.told(signed.iter().copied().enumerate(), false))
+    pub(super) fn unknowns(&self, signed: &[f64], sums: &Sums) -> Unknowns {
+        self.named(&self.told(signed.iter().copied().enumerate(), sums, false))
     }
 
     /// The indices of the unknowns that follow from some of the mode problem.
@@ -112,13 +112,14 @@ impl Correspondence {
     }
 
     /// The unknowns of a point with these indices, from some of the mode problem.
-    pub(super) fn point(&self, contacts: &[usize], signed: &[f64]) -> Unknowns {
-        self.named(&self.told(contacts.iter().copied().zip(signed.iter().copied()), false))
+    pub(super) fn point(&self, contacts: &[usize], signed: &[f64], sums: &Sums) -> Unknowns {
+        self.named(&self.told(contacts.iter().copied().zip(signed.iter().copied()), sums, false))
     }
 
     /// The same for a direction, which has no constants.
     pub(super) fn direction(&self, contacts: &[usize], signed: &[f64]) -> Unknowns {
-        self.named(&self.told(contacts.iter().copied().zip(signed.iter().copied()), true))
+        let signed = contacts.iter().copied().zip(signed.iter().copied());
+        self.named(&self.told(signed, &Sums::default(), true))
     }
 
     /// Of a game, the unknowns of the mode problem that are each player's strategy and the payoff that this
@@ -129,11 +130,12 @@ impl Correspondence {
         (self.kind == RawKind::Game).then_some(strategies)
     }
 
-    fn told(&self, signed: impl Iterator<Item = (usize, f64)>, direction: bool) -> Told {
+    fn told(&self, signed: impl Iterator<Item = (usize, f64)>, sums: &Sums, direction: bool) -> Told {
         let mut told = Told::default();
         let from = |bound: f64| if direction { 0.0 } else { bound };
         for (contact, value) in signed {
             let (above, below) = (value.max(0.0), (-value).max(0.0));
+            let sum = |bound: f64, value: f64| sums.value(contact).unwrap_or_else(|| from(bound) + value);
             let mut set = |index: usize, z: Option<f64>, w: f64| {
                 let entry = told.values.entry(index).or_insert((0.0, 0.0));
                 entry.0 = z.unwrap_or(entry.0);
@@ -142,14 +144,14 @@ impl Correspondence {
             };
             match self.roles[contact] {
                 Role::Switched(index) | Role::Free(index) => set(index, Some(value), 0.0),
-                Role::Above(index, bound) => set(index, Some(from(bound) + above), below),
-                Role::Below(index, bound) => set(index, Some(from(bound) - above), -below),
+                Role::Above(index, bound) => set(index, Some(sum(bound, above)), below),
+                Role::Below(index, bound) => set(index, Some(sum(bound, -above)), -below),
                 Role::Ceiling(index, bound) => {
                     set(index, (value <= 0.0 && !direction).then_some(bound), -below);
                 }
                 Role::Fixed(index, bound) => set(index, Some(from(bound)), value),
                 Role::Constant => {}
-                Role::Payoff(player, least) => told.payoffs[player] = Some(from(least) + above),
+                Role::Payoff(player, least) => told.payoffs[player] = Some(sum(least, above)),
             }
         }
         told
@@ -175,8 +177,8 @@ impl Correspondence {
             RawKind::Game => Unknowns::Strategies {
                 x: some(true, |pair| pair.0),
                 y: some(false, |pair| pair.0),
-                payoff_1: told.payoffs[0],
-                payoff_2: told.payoffs[1],
+                payoff_1: told.payoffs[0].map(number),
+                payoff_2: told.payoffs[1].map(number),
             },
             RawKind::Ave | RawKind::BlockAve => Unknowns::AbsoluteValue { x: all(|pair| pair.0) },
             RawKind::Modes => {
@@ -185,16 +187,38 @@ impl Correspondence {
         }
     }
 
+    /// The bound that is added to a positive value of the mode problem, and the sign of the value in the sum.
+    pub(super) fn shift(&self, contact: usize) -> Option<(f64, f64)> {
+        match self.roles[contact] {
+            Role::Above(_, bound) | Role::Payoff(_, bound) => Some((bound, 1.0)),
+            Role::Below(_, bound) => Some((bound, -1.0)),
+            _ => None,
+        }
+    }
+
+    /// The bounds of all contacts and the signs of their unknowns in the sums; zero and one where there is no bound.
+    pub(super) fn shifts(&self) -> Vec<(f64, f64)> {
+        (0..self.roles.len()).map(|contact| self.shift(contact).unwrap_or((0.0, 1.0))).collect()
+    }
+
+    /// Whether the sum of a bound and this value may be off by more than its own rounding: it is smaller than the value,
+    /// which is rounded, or the value has no number.
+    pub(super) fn loses_digits(&self, contact: usize, signed: f64) -> bool {
+        let is_lost = |(bound, sign): (f64, f64)| {
+            bound != 0.0 && signed > 0.0 && (!in_range(signed) || (bound + sign * signed).abs() < signed)
+        };
+        self.shift(contact).is_some_and(is_lost)
+    }
+
     /// An upper bound of the rounding errors of what [`Self::unknowns`] adds up.
-    pub(super) fn rounding(&self, signed: &[f64]) -> f64 {
-        let error = |(role, &value): (&Role, &f64)| match *role {
-            Role::Above(_, bound) | Role::Payoff(_, bound) if value > 0.0 => {
-                sum_remainder(bound, value, bound + value).abs()
+    pub(super) fn rounding(&self, signed: &[f64], sums: &Sums) -> f64 {
+        let error = |(contact, &value): (usize, &f64)| match self.shift(contact) {
+            Some((bound, sign)) if value > 0.0 && sums.value(contact).is_none() => {
+                sum_remainder(bound, sign * value, bound + sign * value).abs()
             }
-            Role::Below(_, bound) if value > 0.0 => sum_remainder(bound, -value, bound - value).abs(),
             _ => 0.0,
         };
-        self.roles.iter().zip(signed).map(error).filter(|error| error.is_finite()).fold(0.0, f64::max)
+        signed.iter().enumerate().map(error).filter(|error| error.is_finite()).fold(0.0, f64::max)
     }
 
     /// The unknowns that are not zero, or not at their bound, because this one is not zero.
@@ -241,30 +265,21 @@ impl Correspondence {
         self.places(signed.iter().map(|&value| i8::from(value > 0.0) - i8::from(value < 0.0)))
     }
 
-    /// "+", "-" or "0" for every unknown with an index.
-    pub(super) fn pattern(&self, pattern: &[ContactState]) -> String {
-        let sign = |state: &ContactState| match state {
-            ContactState::Positive => 1,
-            ContactState::Negative => -1,
-            ContactState::Gap => 0,
+    /// For every unknown with an index, "+" or "-" as its sign somewhere in a set, "0" if it is zero throughout or in its
+    /// gap, and "*" for a free unknown of both signs; given which unknowns of the mode problem are positive in it.
+    pub(super) fn pattern_of_set(&self, positive: &[[bool; 4]]) -> String {
+        // Free unknowns have the same index in the mode problem.
+        let both = |index: usize| {
+            positive[index][..2] == [true; 2] && self.kind == RawKind::Mlcp && self.is_free(index)
         };
-        let character = |place| match place {
+        let places = self.places(positive.iter().map(|sides| i8::from(sides[0]) - i8::from(sides[1])));
+        let character = |(index, place)| match place {
+            _ if both(index) => '*',
             1 => '+',
             -1 => '-',
             _ => '0',
         };
-        self.places(pattern.iter().map(sign)).into_iter().map(character).collect()
-    }
-
-    /// The same for a set: "*" for a free unknown of both signs, given which unknowns of the mode problem are positive
-    /// in it.
-    pub(super) fn pattern_of_set(&self, pattern: &[ContactState], positive: &[[bool; 4]]) -> String {
-        let both = |index: usize| {
-            positive[index][..2] == [true; 2] && self.kind == RawKind::Mlcp && self.is_free(index)
-        };
-        // Free unknowns have the same index in the mode problem.
-        let signs = self.pattern(pattern);
-        signs.chars().enumerate().map(|(index, sign)| if both(index) { '*' } else { sign }).collect()
+        places.into_iter().enumerate().map(character).collect()
     }
 
     /// Whether an unknown of the mode problem may have either sign without a change of anything else.

@@ -2,11 +2,14 @@
 
 use std::fmt;
 
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 
 use super::assemble::{Given, GivenType};
 use super::fault::RawFault;
+use super::range::nearest;
 use super::shape::Array;
 
 /// The names and arrays of a JSON text; faults of single arrays are added to `faults`.
@@ -27,7 +30,7 @@ pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, Ra
             };
         } else {
             match array(&key, &value) {
-                Ok(array) => given.arrays.push((key, Some(array))),
+                Ok(array) => given.add(key, Some(array)),
                 Err(fault) => given.set_faulty(key, fault, faults),
             }
         }
@@ -129,7 +132,8 @@ fn array(key: &str, value: &Value) -> Result<Array, RawFault> {
 fn numbers(key: &str, entries: &[Value], row: Option<usize>) -> Result<Vec<f64>, RawFault> {
     let number = |(at, entry): (usize, &Value)| {
         let no_bound = || no_bound(key).filter(|_| entry.is_null() && row.is_none());
-        entry.as_f64().or_else(no_bound).ok_or_else(|| RawFault::NotANumber {
+        let fraction = || entry.as_str().and_then(fraction);
+        entry.as_f64().or_else(fraction).or_else(no_bound).ok_or_else(|| RawFault::NotANumber {
             key: key.to_owned(),
             row: row.unwrap_or(at),
             column: row.map(|_| at),
@@ -137,6 +141,17 @@ fn numbers(key: &str, entries: &[Value], row: Option<usize>) -> Result<Vec<f64>,
         })
     };
     entries.iter().enumerate().map(number).collect()
+}
+
+/// The number nearest to a fraction of integers of any length, such as "-2/3".
+fn fraction(text: &str) -> Option<f64> {
+    let (numerator, denominator) = text.split_once('/')?;
+    let is_whole = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    if !is_whole(numerator.strip_prefix('-').unwrap_or(numerator)) || !is_whole(denominator) {
+        return None;
+    }
+    let (numerator, denominator): (IBig, UBig) = (numerator.parse().ok()?, denominator.parse().ok()?);
+    (!denominator.is_zero()).then(|| nearest(&RBig::from_parts(numerator, denominator)))
 }
 
 /// What `null` means in the bounds of an unknown.

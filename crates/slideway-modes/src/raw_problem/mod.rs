@@ -30,8 +30,8 @@
 //! ```
 //!
 //! # Numbers
-//! Every number is a 64-bit floating-point number; decimal fractions and large integers are rounded to the
-//! nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
+//! Every number is a 64-bit floating-point number; decimal fractions, large integers and, in JSON, fractions such as
+//! `"2/3"` are rounded to the nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
 //! unknown whose value is beyond the range of such numbers has none, and is reported as text:
 //! [`BeyondRange`].
 
@@ -40,6 +40,7 @@ mod answer;
 mod assemble;
 mod block_answer;
 mod block_equation;
+mod block_units;
 mod continuum;
 mod correspondence;
 #[cfg(feature = "json")]
@@ -171,7 +172,7 @@ impl RawProblem {
     }
 
     /// The problem in a JSON text: an object with `type` and the arrays of that type, where a matrix is a
-    /// list of rows. `type` may be absent if the names of the arrays determine it.
+    /// list of rows, and a number may be a fraction of integers as text, `"2/3"`. `type` may be absent if the names of the arrays determine it.
     ///
     /// # Errors
     /// Everything that is wrong with it, as far as reading could continue.
@@ -231,9 +232,11 @@ impl RawProblem {
             assert_eq!(sizes.iter().product::<usize>(), values.len(), "entries of {name}");
             (name.to_owned(), Some(shape::Array { sizes, values }))
         };
-        let arrays = arrays.into_iter().map(array).collect();
         let kind = assemble::GivenType::Text(kind.word().to_owned());
-        assemble::Given { kind, arrays }.assemble(Vec::new())
+        let mut given = assemble::Given::default();
+        given.kind = kind;
+        arrays.into_iter().map(array).for_each(|(name, array)| given.add(name, array));
+        given.assemble(Vec::new())
     }
 
     /// Its type.

@@ -13,6 +13,8 @@ use nalgebra::{DMatrix, DVector};
 use super::RawProblem;
 use super::correspondence::Correspondence;
 use super::report::{WithinRounding, WithinRoundingAnswer};
+use super::values::Sums;
+use crate::dense::singular_values;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, IntervalModeProblem, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
@@ -59,7 +61,7 @@ pub(super) fn within_rounding(
         None if nothing && result.completeness == Completeness::Proven => WithinRoundingAnswer::None,
         None => WithinRoundingAnswer::Unknown,
     };
-    let unknowns = found.map(|point| correspondence.unknowns(point.as_slice()));
+    let unknowns = found.map(|point| correspondence.unknowns(point.as_slice(), &Sums::default()));
     Some(WithinRounding { relative: TOLD, answer, unknowns })
 }
 
@@ -128,7 +130,7 @@ impl<'a> Nearby<'a> {
         if present.is_empty() {
             return None;
         }
-        let factors = matrix.clone().svd(true, true);
+        let factors = singular_values(matrix.clone())?;
         let smallest = factors.singular_values.amax() * RELATIVE * signed.len() as f64;
         let load = self.problem.right_hand_side();
         let mut y = factors.solve(load, smallest).ok()?;

@@ -3,6 +3,7 @@
 //! Supports only what problems and answers need: versions 1 to 3 of the format, real numbers and texts (NumPy
 //! documentation, "numpy.lib.format").
 
+use super::GREATEST_SIZE;
 use super::fault::RawFault;
 use super::shape::Array;
 
@@ -27,7 +28,10 @@ pub(super) fn numbers(key: &str, bytes: &[u8], most: usize) -> Result<Array, Raw
         return Err(RawFault::EntryType { key: key.to_owned(), found: npy.entry_type });
     };
     let count = npy.sizes.iter().try_fold(1, |count: usize, &size| count.checked_mul(size));
-    let count = count.filter(|&count| count <= most).ok_or(broken("it has too many entries"))?;
+    let Some(count) = count.filter(|&count| count <= most) else {
+        let found = npy.sizes.iter().copied().max().unwrap_or(usize::MAX);
+        return Err(RawFault::TooManyUnknowns { found, limit: GREATEST_SIZE });
+    };
     if npy.data.len() != count * entry.width {
         return Err(broken("its length is not that of its entries"));
     }
@@ -240,7 +244,8 @@ mod tests {
         assert_eq!(bytes.len(), 128 + 48);
         let array = numbers("M", &bytes, 6).expect("an array");
         assert_eq!((array.sizes.as_slice(), array.values[4]), (&[2, 3][..], 5.0));
-        assert!(matches!(numbers("M", &bytes, 5), Err(RawFault::Npy { .. })));
+        let too_many = numbers("M", &bytes, 5).map_err(|fault| fault.to_string());
+        assert_eq!(too_many, Err("the problem has 3 unknowns; at most 2000 are accepted".to_owned()));
         assert_eq!(text("type", &write_texts(&[], &["lcp"])), Ok(Some("lcp".to_owned())));
     }
 

@@ -1,10 +1,12 @@
 //! Values to which no floating-point number is close: too large, or so small that digits are lost.
 
+use std::collections::BTreeMap;
+
 use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use crate::certificate::{ExactOutcome, solve_part_exactly};
+use crate::certificate::{enclose_sums, solve_part_exactly};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem};
 
@@ -19,18 +21,66 @@ pub(super) fn in_range(value: f64) -> bool {
     value == 0.0 || value.is_normal()
 }
 
-/// The exact unknown of a contact (`y_k`, or `lambda_k` in a gap); `None` if that takes too much work, or if
-/// it is not unique.
-pub(super) fn exact_unknown(problem: &ModeProblem, pattern: &[ContactState], contact: usize) -> Option<RBig> {
-    let (contacts, outcome) = solve_part_exactly(problem, pattern, &[contact], TOGETHER)?;
-    let ExactOutcome::Regular { unknowns, .. } = outcome else { return None };
-    let at = contacts.binary_search(&contact).ok()?;
-    unknowns.into_iter().nth(at)
+/// Exact unknowns of one state: `y_k`, or `lambda_k` in a gap.
+pub(super) struct ExactUnknowns<'a> {
+    problem: &'a ModeProblem,
+    pattern: Vec<ContactState>,
+    is_zero: Vec<bool>,
+    known: BTreeMap<usize, RBig>,
+    sums: BTreeMap<usize, Interval>,
+}
+
+impl<'a> ExactUnknowns<'a> {
+    /// Of the state with these rounded values, which are zero only where the exact ones are. Elsewhere their signs decide
+    /// on the sides, as a set may contain points with free unknowns of either sign.
+    pub(super) fn new(problem: &'a ModeProblem, pattern: &[ContactState], signed: &[f64]) -> Self {
+        let is_zero = |(value, state): (&f64, &ContactState)| *value == 0.0 && *state != ContactState::Gap;
+        let state = |(value, state): (&f64, &ContactState)| match *value {
+            value if value > 0.0 => ContactState::Positive,
+            value if value < 0.0 => ContactState::Negative,
+            _ => *state,
+        };
+        Self {
+            problem,
+            pattern: signed.iter().zip(pattern).map(state).collect(),
+            is_zero: signed.iter().zip(pattern).map(is_zero).collect(),
+            known: BTreeMap::new(),
+            sums: BTreeMap::new(),
+        }
+    }
+
+    /// That of a contact; `None` if it takes too much work, or if it is not unique.
+    pub(super) fn of(&mut self, contact: usize) -> Option<RBig> {
+        if self.is_zero[contact] {
+            return Some(RBig::ZERO);
+        }
+        if !self.known.contains_key(&contact) {
+            let part = solve_part_exactly(self.problem, &self.pattern, &self.is_zero, contact, TOGETHER)?;
+            self.known.extend(part);
+        }
+        self.known.get(&contact).cloned()
+    }
+
+    /// Bounds on the sum of a bound and the unknown of a contact, where an exact one takes too much work, given the bounds
+    /// and the signs of the unknowns in the sums of all contacts; `None` if its pattern is not regular.
+    pub(super) fn enclosed_sum(&mut self, contact: usize, shifts: &[(f64, f64)]) -> Option<Interval> {
+        if !self.sums.contains_key(&contact) {
+            // Only positive unknowns have a bound added.
+            let own = |(shift, state): (&(f64, f64), &ContactState)| match state {
+                ContactState::Positive => *shift,
+                _ => (0.0, 1.0),
+            };
+            let shifts: Vec<(f64, f64)> = shifts.iter().zip(&self.pattern).map(own).collect();
+            let part = enclose_sums(self.problem, (&self.pattern, &self.is_zero), contact, &shifts)?;
+            self.sums.extend(part);
+        }
+        self.sums.get(&contact).copied()
+    }
 }
 
 /// The floating-point number nearest to an exact value.
 pub(super) fn nearest(value: &RBig) -> f64 {
-    Interval::around_ratio(value).middle()
+    value.to_f64().value()
 }
 
 /// A value as text, given its sign, its rounded size (infinity, or below the least normal number) and, if

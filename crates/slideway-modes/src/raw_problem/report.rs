@@ -133,10 +133,10 @@ pub enum Unknowns {
         #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "known_values")]
         y: Vec<f64>,
         /// The first player's payoff, which depends on `y`.
-        #[serde(skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none", serialize_with = "known_payoff")]
         payoff_1: Option<f64>,
         /// The second player's payoff, which depends on `x`.
-        #[serde(skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none", serialize_with = "known_payoff")]
         payoff_2: Option<f64>,
     },
     /// For an absolute value equation, of blocks or not.
@@ -165,6 +165,12 @@ fn known_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     (!value.is_nan()).then_some(*value).serialize(serializer)
+}
+
+/// The same for the payoff of a player.
+#[allow(clippy::ref_option)]
+fn known_payoff<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    value.filter(|value| !value.is_nan()).serialize(serializer)
 }
 
 impl Unknowns {
@@ -250,13 +256,14 @@ pub struct RawSolution {
     /// The unknowns.
     #[serde(flatten)]
     pub unknowns: Unknowns,
-    /// Sign of every `z_k - w_k`, `x_k` (of blocks, too: component by component) or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
+    /// Sign of every `z_k - w_k`, `x_k` (of blocks, too: component by component, and 0 where the sign is not certain) or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1
     /// where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a mixed problem, the signs of `u` come
     /// first. Of a game: for the pure strategies of both players, 1 if it is played, 0 if it is another best
     /// response, -1 if not.
     pub signs: Vec<i8>,
-    /// Whether some sign outside a gap is 0: the solution is on the boundary between patterns. Of blocks: whether
-    /// some block may be zero.
+    /// Whether the solution is on the boundary between patterns: both unknowns of a pair vanish, or an unknown whose
+    /// coefficients depend on its sign, outside a gap. A free unknown that is zero is on no boundary. Of blocks: whether some
+    /// block may be zero.
     pub on_boundary: bool,
     /// Maximum distance of the unknowns that have a number from the exact solution for the given numbers;
     /// absent if it was not determined.
@@ -350,8 +357,8 @@ pub struct GapShare {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawContinuum {
-    /// "+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap, and "*" a
-    /// free unknown that has both signs.
+    /// "+", "-" or "0" for every unknown, as the `signs` of a solution inside the set: "0" is zero throughout, or in its
+    /// gap, and "*" a free unknown that has both signs.
     pub pattern: String,
     /// Its parts: unknowns that vary together and, last, those that are fixed, if any.
     pub parts: Vec<ContinuumPart>,

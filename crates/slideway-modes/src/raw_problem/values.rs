@@ -1,18 +1,23 @@
 //! The values of one solution: floating-point numbers, and exact values beyond their range.
 
+use std::collections::BTreeMap;
+
 use dashu_ratio::RBig;
 
 use super::correspondence::{Correspondence, Quantity};
-use super::range::{exact_unknown, in_range, nearest, told};
+use super::range::{ExactUnknowns, in_range, nearest, told};
 use super::report::{BeyondRange, GapShare, RawUnknown};
 use super::residual::{Equations, exact};
-use crate::problem::{ContactState, ModeProblem};
+use crate::interval::Interval;
+use crate::problem::ContactState;
 use crate::search::CombinedState;
 
 /// Signed values `N` and shares of a state. A value beyond the range of floating-point numbers is infinite or
 /// subnormal, with its sign.
 pub(super) struct Values {
     pub(super) signed: Vec<f64>,
+    /// Unknowns of the problem that are sums of a bound and a value, from exact ones.
+    pub(super) sums: Sums,
     pub(super) gaps: Vec<GapShare>,
     /// The exact sizes, or shares, of unknowns beyond the range; `None` if they are not known.
     beyond: Vec<(usize, Option<RBig>)>,
@@ -24,33 +29,40 @@ impl Values {
             state.normal_force(size).map_or_else(|| vec![0.0; size], |force| force.as_slice().to_vec());
         let gaps =
             state.shares().into_iter().map(|share| GapShare { index: share.contact, lambda: share.lambda });
-        Self { signed, gaps: gaps.collect(), beyond: Vec::new() }
+        Self { signed, sums: Sums::default(), gaps: gaps.collect(), beyond: Vec::new() }
     }
 
-    /// Replaces values that the search did not find with full precision by the numbers nearest to the exact
-    /// values, and reports the unknowns that have no such number.
+    /// Replaces values that the search did not find with full precision, and sums that lose digits, by the numbers nearest
+    /// to the exact values, and reports the unknowns that have no such number.
     pub(super) fn settle(
         &mut self,
         correspondence: &Correspondence,
-        problem: &ModeProblem,
-        pattern: &[ContactState],
+        exact_unknowns: &mut ExactUnknowns<'_>,
     ) -> Vec<BeyondRange> {
         let mut told_of = Vec::new();
-        for at in (0..self.signed.len()).filter(|&at| !in_range(self.signed[at])).collect::<Vec<_>>() {
-            let exact = exact_unknown(problem, pattern, at);
-            if let Some(value) = exact.as_ref().map(nearest).filter(|value| value.is_normal()) {
-                self.signed[at] = value.copysign(self.signed[at]);
+        for at in 0..self.signed.len() {
+            let value = self.signed[at];
+            let is_sum = correspondence.loses_digits(at, value);
+            if in_range(value) && !is_sum {
                 continue;
             }
-            told_of.extend(beyond_range(
-                &correspondence.quantities(at, self.signed[at]),
-                self.signed[at],
-                exact.as_ref(),
-            ));
-            self.beyond.push((at, exact));
+            let exact = exact_unknowns.of(at);
+            match &exact {
+                Some(exact) if is_sum => self.sums.insert(correspondence, at, exact),
+                None if is_sum => self.sums.enclose(correspondence, at, exact_unknowns),
+                _ => {}
+            }
+            if let Some(value) = exact.as_ref().map(nearest).filter(|value| value.is_normal()) {
+                self.signed[at] = value.copysign(self.signed[at]);
+            }
+            let quantities = correspondence.quantities(at, value);
+            told_of.extend(beyond_range(&quantities, self.signed[at], self.sums.value(at), exact.as_ref()));
+            if !in_range(self.signed[at]) {
+                self.beyond.push((at, exact));
+            }
         }
         for gap in self.gaps.iter_mut().filter(|gap| !in_range(gap.lambda)) {
-            let exact = exact_unknown(problem, pattern, gap.index);
+            let exact = exact_unknowns.of(gap.index);
             if let Some(value) = exact.as_ref().map(nearest).filter(|value| value.is_normal()) {
                 gap.lambda = value;
                 continue;
@@ -89,16 +101,76 @@ impl Values {
     }
 }
 
-/// The unknowns that have no floating-point number because one of the mode problem has none, given its rounded
-/// and perhaps its exact size.
-fn beyond_range(quantities: &[Quantity], signed: f64, size: Option<&RBig>) -> Vec<BeyondRange> {
-    // A bound and a number too small to matter have a floating-point number near.
-    let is_beyond = |quantity: &&Quantity| quantity.shift == 0.0 || signed.is_infinite();
+/// The unknowns that have no floating-point number because one of the mode problem has none, or because a sum has none:
+/// given the rounded and perhaps the exact size of the former, and the latter, if it was computed.
+fn beyond_range(
+    quantities: &[Quantity],
+    signed: f64,
+    sum: Option<f64>,
+    size: Option<&RBig>,
+) -> Vec<BeyondRange> {
+    let is_beyond = |quantity: &&Quantity| match sum {
+        Some(sum) => !in_range(sum),
+        // A bound and a number too small to matter have a floating-point number near.
+        None => !in_range(signed) && (quantity.shift == 0.0 || signed.is_infinite()),
+    };
     let told_of = |quantity: &Quantity| {
         let &Quantity { name, index, sign, shift } = quantity;
-        // |shift + sign size|, which has the sign of the second term.
-        let size = size.map(|size| exact(sign * shift) + size);
+        let value = size.map(|size| exact(shift) + exact(sign) * size);
+        let sign = value.as_ref().map_or(sign, |value| if *value < RBig::ZERO { -1.0 } else { 1.0 });
+        let size = value.map(|value| exact(sign) * value);
         BeyondRange { name, index, value: told(sign, signed, size.as_ref()) }
     };
     quantities.iter().filter(is_beyond).map(told_of).collect()
+}
+
+/// Unknowns of the problem that are a bound and a value of its mode problem, each rounded once, by contact.
+#[derive(Default)]
+pub(super) struct Sums(BTreeMap<usize, (f64, f64)>);
+
+impl Sums {
+    /// Those of a point that lose digits, and that have few enough unknowns for an exact value.
+    pub(super) fn of_point(
+        correspondence: &Correspondence,
+        signed: &[f64],
+        mut exact: ExactUnknowns<'_>,
+    ) -> Self {
+        let mut sums = Self::default();
+        for (contact, &value) in signed.iter().enumerate() {
+            if correspondence.loses_digits(contact, value)
+                && let Some(size) = exact.of(contact)
+            {
+                sums.insert(correspondence, contact, &size);
+            }
+        }
+        sums
+    }
+
+    /// Adds the one of a contact with this exact value.
+    pub(super) fn insert(&mut self, correspondence: &Correspondence, contact: usize, size: &RBig) {
+        if let Some((bound, sign)) = correspondence.shift(contact) {
+            let exact_sum = exact(bound) + exact(sign) * size;
+            let value = nearest(&exact_sum);
+            let error = if value.is_finite() { exact_sum - exact(value) } else { RBig::ZERO };
+            self.0.insert(contact, (value, Interval::around_ratio(&error).magnitude()));
+        }
+    }
+
+    /// Adds the one of a contact whose exact value takes too much work, within bounds.
+    fn enclose(&mut self, correspondence: &Correspondence, contact: usize, exact: &mut ExactUnknowns<'_>) {
+        if let Some(bounds) = exact.enclosed_sum(contact, &correspondence.shifts()) {
+            let middle = bounds.middle();
+            self.0.insert(contact, (middle, (bounds - Interval::point(middle)).magnitude()));
+        }
+    }
+
+    /// The sum of a contact.
+    pub(super) fn value(&self, contact: usize) -> Option<f64> {
+        self.0.get(&contact).map(|(value, _)| *value)
+    }
+
+    /// The greatest rounding error of those within the range of floating-point numbers.
+    pub(super) fn error(&self) -> f64 {
+        self.0.values().filter(|(value, _)| in_range(*value)).fold(0.0, |most, (_, error)| most.max(*error))
+    }
 }

@@ -69,14 +69,18 @@ impl Faces {
         Self { to_support: true, ..self }
     }
 
-    /// A vector in integers that proves that a node has no solution, if one is found.
+    /// A vector in integers that proves that a node has no solution, if one is found; for a proof, whatever the length of
+    /// its integers.
     pub(super) fn excluding(
         &self,
         states: &[StateSet],
         proceed: &mut dyn FnMut() -> bool,
     ) -> Option<Vec<IBig>> {
         let columns: Vec<usize> = self.allowed(states).iter().collect();
-        separate(&self.system, (&columns, &[]), Separated::Infeasible, proceed)
+        match separate(&self.system, (&columns, &[]), Separated::Infeasible, proceed) {
+            None if self.to_support => self.system.farkas(&columns, proceed),
+            vector => vector,
+        }
     }
 
     /// A vector in integers that proves that only the unknowns of some columns, all of which are positive in

@@ -74,6 +74,7 @@ mod monotone;
 mod product;
 mod proof;
 mod proof_cells;
+mod proof_digest;
 mod proof_log;
 mod proof_low_rank;
 mod propagation;

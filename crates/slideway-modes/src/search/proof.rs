@@ -7,6 +7,7 @@ use super::leaf::Leaves;
 use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
 use super::monotone::pattern_of_all_solutions;
+use super::proof_digest::digest;
 use super::proof_log::ProofLog;
 use super::proof_low_rank::{HalfSpaces, Parts};
 use super::report::{Arguments, SearchOptions, StopReason};
@@ -34,8 +35,8 @@ pub enum NoProof {
     /// The search ended early.
     #[error("no proof: {0}")]
     Stopped(StopReason),
-    /// A step could not be put into integers, or a set has too many corners to be described.
-    #[error("no proof: a step of it could not be written in integers")]
+    /// A set of solutions has too many corners to be described.
+    #[error("no proof: a set of solutions has too many corners to be described")]
     Open,
 }
 
@@ -91,7 +92,7 @@ pub fn prove(
             &mut monitor,
         )?;
     }
-    proof.text = exponents.header(&parts) + &proof.text;
+    proof.text = exponents.header(&parts, digest(view)) + &proof.text;
     Ok(proof)
 }
 
@@ -163,9 +164,10 @@ impl Exponents {
     }
 
     /// The first lines of the file.
-    fn header(&self, parts: &[Vec<usize>]) -> String {
+    fn header(&self, parts: &[Vec<usize>], digest: u64) -> String {
         let mut text = "slideway proof 1\n".to_owned();
         let _ = writeln!(text, "problem {} {}", self.of_contact.len(), self.of_jump.len());
+        let _ = writeln!(text, "digest {digest}");
         let exponents = self.of_contact.iter().chain(self.of_jump.iter().map(|(_, exponent)| exponent));
         if exponents.clone().any(|&exponent| exponent != 0) {
             let exponents: Vec<String> = exponents.map(ToString::to_string).collect();

@@ -27,6 +27,14 @@ impl FaultyLine {
     }
 }
 
+impl FaultyLine {
+    /// A problem that ends in a fault of the program itself.
+    pub fn of_program(line: u64) -> Self {
+        let fault = "a fault of slideway, which should not happen: please report this problem".to_owned();
+        Self { schema: SCHEMA, line, faults: vec![fault] }
+    }
+}
+
 impl Report for FaultyLine {
     fn text(&self, _: Style) -> String {
         format!("line {}: {}\n", self.line, self.faults.join("; "))

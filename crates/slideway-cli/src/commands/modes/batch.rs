@@ -13,6 +13,7 @@ use slideway::Report;
 use slideway::progress::Progress;
 use slideway::raw_problem::{FaultyLine, RawFault, RawProblem, SIZE_LIMIT};
 use std::io::{self, BufRead, BufReader, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Bytes that are read at once: the lines in them are answered together, by all threads.
 const BUFFER: usize = 1 << 18;
@@ -56,9 +57,16 @@ fn answer_to(line: u64, text: Option<&[u8]>, arguments: &ModesArguments, alarm: 
         Some(text) => RawProblem::from_json(text),
         None => Err(RawFault::TooLarge { limit: SIZE_LIMIT }.into()),
     };
-    match problem {
-        Ok(problem) => (answer(&problem, arguments, &mut |_| alarm.flow()).json_line(), true),
-        Err(faults) => (FaultyLine::new(line, &faults).json_line(), false),
+    let problem = match problem {
+        Ok(problem) => problem,
+        Err(faults) => return (FaultyLine::new(line, &faults).json_line(), false),
+    };
+    // A fault of the program in one line must not cost the others their answers.
+    let answered =
+        catch_unwind(AssertUnwindSafe(|| answer(&problem, arguments, &mut |_| alarm.flow()).json_line()));
+    match answered {
+        Ok(text) => (text, true),
+        Err(_) => (FaultyLine::of_program(line).json_line(), false),
     }
 }
 

@@ -79,6 +79,30 @@ impl Dictionary {
         Ok(dictionary)
     }
 
+    /// Of equations without a solution `y >= 0`, columns whose products with a vector that proves this are zero: those of
+    /// all other basic unknowns than the one whose row has a negative value and no negative entry, or of all unknowns if
+    /// the equations contradict each other for any signs. `None` if there is a solution, or once `proceed` is `false`.
+    pub(super) fn contradiction(
+        columns: &[Vec<IBig>],
+        right: &[IBig],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<usize>> {
+        let mut dictionary = match Self::solved(columns, right, proceed) {
+            Ok(dictionary) => dictionary,
+            Err(Ended::Infeasible) => return Some((0..columns.len()).collect()),
+            Err(Ended::Interrupted) => return None,
+        };
+        if dictionary.make_feasible(proceed) != Err(Ended::Infeasible) {
+            return None;
+        }
+        let contradicts = |row: &usize| {
+            *dictionary.value(*row) < IBig::ZERO && dictionary.least_negative(*row, |_| true).is_none()
+        };
+        let row = (0..dictionary.rows.len()).find(contradicts)?;
+        let others = dictionary.basic.iter().enumerate().filter(|(at, _)| *at != row);
+        Some(others.map(|(_, &unknown)| unknown).collect())
+    }
+
     /// The independent equations, solved for as many unknowns.
     fn solved(
         columns: &[Vec<IBig>],

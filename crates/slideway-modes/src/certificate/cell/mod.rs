@@ -129,6 +129,16 @@ impl Cell {
     }
 }
 
+/// Of equations without a solution `y >= 0`, columns whose products with a vector that proves this are zero and which
+/// determine it; `None` if there is a solution, or once `proceed` is `false`.
+pub(super) fn contradiction(
+    columns: &[Vec<IBig>],
+    right: &[IBig],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Vec<usize>> {
+    Dictionary::contradiction(columns, right, proceed)
+}
+
 /// A basis of the null space of a symmetric matrix without negative eigenvalues, in integers; `None` if it has
 /// one, or once `proceed` is `false`.
 pub(super) fn null_space_of_semidefinite(
