@@ -159,14 +159,7 @@ pub fn search_telling<'a>(
 
 fn solve(problem: ProblemView<'_>, options: &SearchOptions, monitor: &mut Monitor<'_>) -> SearchResult {
     let problem = problem.without_zero_radii();
-    let Composition { product, reports: groups, abandoned_nodes, chain_proven, all_examined } =
+    let Composition { product, reports: groups, abandoned_nodes, completeness } =
         alternation::solve(problem, options, monitor);
-    let proven = chain_proven && groups.iter().all(|group| group.proven);
-    let completeness = match monitor.reason() {
-        Some(reason) => Completeness::Partial(reason),
-        None if !all_examined => Completeness::Unexamined,
-        None if proven => Completeness::Proven,
-        None => Completeness::NotProven,
-    };
     SearchResult { product, completeness, groups, abandoned_nodes, contacts: problem.contacts() }
 }
