@@ -299,3 +299,39 @@ fn uniqueness_for_every_q_depends_on_which_unknowns_have_bounds() {
     assert_eq!(answer(not_p.clone(), [free, free]), EveryAnswer::One);
     assert_eq!(answer(not_p, [boxed, fixed]), EveryAnswer::One);
 }
+
+/// How far `z` is from `z = median(l, z - w, u)` with `w = M z + q`, which exactly the solutions satisfy.
+fn natural_residual(
+    (m, q): (&DMatrix<f64>, &DVector<f64>),
+    (lower, upper): (&DVector<f64>, &DVector<f64>),
+    z: &[f64],
+) -> f64 {
+    let z = DVector::from_column_slice(z);
+    let moved = &z - (m * &z + q);
+    let clamped = moved.zip_zip_map(lower, upper, |value, lower, upper| value.max(lower).min(upper));
+    (z - clamped).amax()
+}
+
+/// `M_ij = 1 / (1 + |i - j|)`, positive definite, rounded, with bounds at which nothing is exact: from an independent
+/// review. It is monotone whatever the constants of its rows are, so that one pattern has its only solution.
+#[test]
+fn bounds_in_rounded_numbers_leave_a_problem_monotone() {
+    for size in [10, 24] {
+        let m = DMatrix::from_fn(size, size, |row, column| 1.0 / (1.0 + row.abs_diff(column) as f64));
+        let q = DVector::from_fn(size, |at, _| [0.3, -0.6, 0.899_999_999_999_999_9, -1.2][at % 4]);
+        let (lower, upper) = (DVector::repeat(size, -1.0), DVector::repeat(size, 1.0));
+        let problem = RawProblem::MixedComplementarity {
+            m: m.clone(),
+            q: q.clone(),
+            lower: lower.clone(),
+            upper: upper.clone(),
+        };
+        let report = solved(&problem);
+        assert_eq!((report.complete, report.status), (Proof::Proven, Status::One));
+        // One for each constant, and one for all else.
+        assert!(report.nodes <= 2 * size as u64 + 1, "{}", report.nodes);
+        let [solution] = report.solutions.as_slice() else { panic!("one solution") };
+        let Unknowns::Complementary { z, .. } = &solution.unknowns else { panic!("z and w") };
+        assert!(natural_residual((&m, &q), (&lower, &upper), z) < 1e-13);
+    }
+}
