@@ -335,3 +335,64 @@ fn bounds_in_rounded_numbers_leave_a_problem_monotone() {
         assert!(natural_residual((&m, &q), (&lower, &upper), z) < 1e-13);
     }
 }
+
+/// `A` is unimodular, so that `u = -A^-1 (C z + a)` leaves a linear complementarity problem in whole numbers: it has the
+/// same `z`, and free unknowns add hardly any nodes.
+#[test]
+fn free_unknowns_are_not_branched_on() {
+    let size = 9;
+    let mut nodes = [0, 0];
+    for seed in 0..12_u64 {
+        let mut random = crate::search_support::Random::new(seed);
+        let free = 3 + random.below(12);
+        let mut lower = DMatrix::<f64>::identity(free, free);
+        let mut upper = lower.clone();
+        for row in 0..free {
+            for column in 0..row {
+                lower[(row, column)] = random.integer(1);
+                upper[(column, row)] = random.integer(1);
+            }
+        }
+        let a = &lower * &upper;
+        let integers = |random: &mut crate::search_support::Random, rows: usize, columns: usize| {
+            DMatrix::from_fn(rows, columns, |_, _| random.integer(2))
+        };
+        let c = integers(&mut random, free, size);
+        let d = integers(&mut random, size, free);
+        let b = integers(&mut random, size, size);
+        let (first, second) = (integers(&mut random, free, 1), integers(&mut random, size, 1));
+        let mut m = DMatrix::zeros(free + size, free + size);
+        m.view_mut((0, 0), (free, free)).copy_from(&a);
+        m.view_mut((0, free), (free, size)).copy_from(&c);
+        m.view_mut((free, 0), (size, free)).copy_from(&d);
+        m.view_mut((free, free), (size, size)).copy_from(&b);
+        let q = DVector::from_iterator(free + size, first.iter().chain(second.iter()).copied());
+        let mixed = solved(&RawProblem::MixedLinearComplementarity { m, q, free });
+        // Substitution in whole numbers: L U x = right.
+        let solve_a = |right: &DMatrix<f64>| {
+            let forward = lower.solve_lower_triangular(right).expect("unit diagonal");
+            upper.solve_upper_triangular(&forward).expect("unit diagonal")
+        };
+        let reduced = RawProblem::LinearComplementarity {
+            m: &b - &d * solve_a(&c),
+            q: (&second - &d * solve_a(&first)).column(0).into_owned(),
+        };
+        let reduced = solved(&reduced);
+        assert_eq!((mixed.complete, reduced.complete), (Proof::Proven, Proof::Proven), "{seed}");
+        let counts = |report: &RawReport| (report.count.clone(), report.continuum_count.clone());
+        assert_eq!(counts(&mixed), counts(&reduced), "{seed}");
+        let z = |report: &RawReport| -> BTreeSet<Vec<i64>> {
+            let of = |unknowns: &Unknowns| match unknowns {
+                Unknowns::Complementary { z, .. } | Unknowns::Mixed { z, .. } => {
+                    z.iter().map(|value| (value * 1e8).round() as i64).collect()
+                }
+                other => panic!("{other:?}"),
+            };
+            report.solutions.iter().map(|solution| of(&solution.unknowns)).collect()
+        };
+        assert_eq!(z(&mixed), z(&reduced), "{seed}");
+        nodes[0] += mixed.nodes;
+        nodes[1] += reduced.nodes;
+    }
+    assert!(nodes[0] <= 2 * nodes[1], "{nodes:?}");
+}
