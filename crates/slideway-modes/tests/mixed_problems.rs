@@ -299,3 +299,100 @@ fn uniqueness_for_every_q_depends_on_which_unknowns_have_bounds() {
     assert_eq!(answer(not_p.clone(), [free, free]), EveryAnswer::One);
     assert_eq!(answer(not_p, [boxed, fixed]), EveryAnswer::One);
 }
+
+/// How far `z` is from `z = median(l, z - w, u)` with `w = M z + q`, which exactly the solutions satisfy.
+fn natural_residual(
+    (m, q): (&DMatrix<f64>, &DVector<f64>),
+    (lower, upper): (&DVector<f64>, &DVector<f64>),
+    z: &[f64],
+) -> f64 {
+    let z = DVector::from_column_slice(z);
+    let moved = &z - (m * &z + q);
+    let clamped = moved.zip_zip_map(lower, upper, |value, lower, upper| value.max(lower).min(upper));
+    (z - clamped).amax()
+}
+
+/// `M_ij = 1 / (1 + |i - j|)`, positive definite, rounded, with bounds at which nothing is exact: from an independent
+/// review. It is monotone whatever the constants of its rows are, so that one pattern has its only solution.
+#[test]
+fn bounds_in_rounded_numbers_leave_a_problem_monotone() {
+    for size in [10, 24] {
+        let m = DMatrix::from_fn(size, size, |row, column| 1.0 / (1.0 + row.abs_diff(column) as f64));
+        let q = DVector::from_fn(size, |at, _| [0.3, -0.6, 0.899_999_999_999_999_9, -1.2][at % 4]);
+        let (lower, upper) = (DVector::repeat(size, -1.0), DVector::repeat(size, 1.0));
+        let problem = RawProblem::MixedComplementarity {
+            m: m.clone(),
+            q: q.clone(),
+            lower: lower.clone(),
+            upper: upper.clone(),
+        };
+        let report = solved(&problem);
+        assert_eq!((report.complete, report.status), (Proof::Proven, Status::One));
+        // One for each constant, and one for all else.
+        assert!(report.nodes <= 2 * size as u64 + 1, "{}", report.nodes);
+        let [solution] = report.solutions.as_slice() else { panic!("one solution") };
+        let Unknowns::Complementary { z, .. } = &solution.unknowns else { panic!("z and w") };
+        assert!(natural_residual((&m, &q), (&lower, &upper), z) < 1e-13);
+    }
+}
+
+/// `A` is unimodular, so that `u = -A^-1 (C z + a)` leaves a linear complementarity problem in whole numbers: it has the
+/// same `z`, and free unknowns add hardly any nodes.
+#[test]
+fn free_unknowns_are_not_branched_on() {
+    let size = 9;
+    let mut nodes = [0, 0];
+    for seed in 0..12_u64 {
+        let mut random = crate::search_support::Random::new(seed);
+        let free = 3 + random.below(12);
+        let mut lower = DMatrix::<f64>::identity(free, free);
+        let mut upper = lower.clone();
+        for row in 0..free {
+            for column in 0..row {
+                lower[(row, column)] = random.integer(1);
+                upper[(column, row)] = random.integer(1);
+            }
+        }
+        let a = &lower * &upper;
+        let integers = |random: &mut crate::search_support::Random, rows: usize, columns: usize| {
+            DMatrix::from_fn(rows, columns, |_, _| random.integer(2))
+        };
+        let c = integers(&mut random, free, size);
+        let d = integers(&mut random, size, free);
+        let b = integers(&mut random, size, size);
+        let (first, second) = (integers(&mut random, free, 1), integers(&mut random, size, 1));
+        let mut m = DMatrix::zeros(free + size, free + size);
+        m.view_mut((0, 0), (free, free)).copy_from(&a);
+        m.view_mut((0, free), (free, size)).copy_from(&c);
+        m.view_mut((free, 0), (size, free)).copy_from(&d);
+        m.view_mut((free, free), (size, size)).copy_from(&b);
+        let q = DVector::from_iterator(free + size, first.iter().chain(second.iter()).copied());
+        let mixed = solved(&RawProblem::MixedLinearComplementarity { m, q, free });
+        // Substitution in whole numbers: L U x = right.
+        let solve_a = |right: &DMatrix<f64>| {
+            let forward = lower.solve_lower_triangular(right).expect("unit diagonal");
+            upper.solve_upper_triangular(&forward).expect("unit diagonal")
+        };
+        let reduced = RawProblem::LinearComplementarity {
+            m: &b - &d * solve_a(&c),
+            q: (&second - &d * solve_a(&first)).column(0).into_owned(),
+        };
+        let reduced = solved(&reduced);
+        assert_eq!((mixed.complete, reduced.complete), (Proof::Proven, Proof::Proven), "{seed}");
+        let counts = |report: &RawReport| (report.count.clone(), report.continuum_count.clone());
+        assert_eq!(counts(&mixed), counts(&reduced), "{seed}");
+        let z = |report: &RawReport| -> BTreeSet<Vec<i64>> {
+            let of = |unknowns: &Unknowns| match unknowns {
+                Unknowns::Complementary { z, .. } | Unknowns::Mixed { z, .. } => {
+                    z.iter().map(|value| (value * 1e8).round() as i64).collect()
+                }
+                other => panic!("{other:?}"),
+            };
+            report.solutions.iter().map(|solution| of(&solution.unknowns)).collect()
+        };
+        assert_eq!(z(&mixed), z(&reduced), "{seed}");
+        nodes[0] += mixed.nodes;
+        nodes[1] += reduced.nodes;
+    }
+    assert!(nodes[0] <= 2 * nodes[1], "{nodes:?}");
+}

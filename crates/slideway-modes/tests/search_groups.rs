@@ -3,7 +3,7 @@
 use crate::instances::structured::{subset_sum, subsets_with_sum, weights_with_subset};
 use crate::search_support::{Random, assert_same_as_enumeration, run};
 use nalgebra::{DMatrix, DVector};
-use slideway_modes::{Completeness, ModeProblem, SearchOptions, StopReason, search};
+use slideway_modes::{Arguments, Completeness, ModeProblem, SearchOptions, StopReason, search};
 use std::ops::ControlFlow;
 
 /// 2^14 combinations of which few have the sum: the number of these by adding one weight after the other.
@@ -93,4 +93,43 @@ fn a_search_can_be_ended_between_known_groups() {
     });
     assert_eq!((result.completeness, asked), (Completeness::Partial(StopReason::Cancelled), 2000));
     assert!(result.nodes() < 2000);
+}
+
+/// Where one group has no solution, a limit of solutions of the others leaves nothing open: a search for any solution
+/// finds one, or none exists. Groups beside each other, and behind others; the whole search tells which is the case.
+#[test]
+fn a_search_for_any_solution_finds_one_or_proves_that_there_is_none() {
+    let q = DVector::from_fn(7, |row, _| if row == 0 { -1.0 } else { 1.0 });
+    let zero = ModeProblem::from_linear_complementarity(&DMatrix::zeros(7, 7), q).expect("shapes fit");
+    let mut without = 0;
+    for seed in 0..400 {
+        let mut random = Random::new(seed);
+        let size = 7 + random.below(4);
+        let entry = |random: &mut Random| (random.below(5) as f64) - 2.0;
+        let m = DMatrix::from_fn(size, size, |row, column| {
+            let acts = row == column || (row > column && random.below(6) == 0);
+            if acts { entry(&mut random) } else { 0.0 }
+        });
+        let q = DVector::from_fn(size, |_, _| random.below(5) as f64 - 1.0);
+        let problem = ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit");
+        let problem = if seed == 0 { &zero } else { &problem };
+        let every_pattern = seed % 2 == 0;
+        let arguments = Arguments { every_pattern, ..Arguments::default() };
+        let all = run(problem, &SearchOptions { arguments, ..SearchOptions::default() });
+        assert_eq!(all.completeness, Completeness::Proven);
+        for most in [1, 2] {
+            let options = SearchOptions { arguments, ..SearchOptions::within(None, Some(most)) };
+            let some = run(problem, &options);
+            assert_eq!(
+                some.product.states().next().is_none(),
+                all.product.states().next().is_none(),
+                "{seed}, {most}"
+            );
+            if some.product.states().next().is_none() {
+                assert_eq!(some.completeness, Completeness::Proven, "{seed}, {most}");
+            }
+        }
+        without += u64::from(all.product.states().next().is_none());
+    }
+    assert!((50..350).contains(&without), "{without}");
 }

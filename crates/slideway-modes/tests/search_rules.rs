@@ -219,3 +219,23 @@ fn a_state_of_a_regular_and_of_a_singular_pattern_is_listed_as_that_of_the_regul
         assert!(matches!(lists.gaps[0].certificate, Certificate::Boundary { .. }));
     }
 }
+
+/// `M > 0` and `q >= 0`: only `z = 0`, since `w_k >= M_kk z_k`. The columns differ so little that linear programs in
+/// floating point cannot tell what is positive.
+#[test]
+fn signs_of_equations_decide_nearly_dependent_columns() -> Outcome {
+    for (size, spread) in [(30, 1e-6), (30, 1e-12), (60, 1e-6)] {
+        let mut random = Random::new(30);
+        let m = random.matrix(size, size).map(|value| 1.0 + spread * value);
+        for q in [DVector::zeros(size), DVector::from_fn(size, |row, _| (row % 3) as f64)] {
+            let problem = ModeProblem::from_linear_complementarity(&m, q.clone())?;
+            let result = run(&problem, &SearchOptions::default());
+            assert_eq!(result.completeness, Completeness::Proven);
+            assert!(result.nodes() <= 2, "{}", result.nodes());
+            let states: Vec<_> = result.product.states().collect();
+            let [state] = states.as_slice() else { panic!("one solution") };
+            assert_eq!(state.normal_force(size).expect("a point"), -q);
+        }
+    }
+    Ok(())
+}

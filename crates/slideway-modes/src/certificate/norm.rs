@@ -82,6 +82,15 @@ fn gram(matrix: &IntervalMatrix) -> (DMatrix<f64>, DMatrix<f64>) {
     (centre * centre.transpose(), bound)
 }
 
+/// Whether every symmetric matrix is positive definite whose entries differ from these by at most 2^-52 of their size,
+/// unless they underflowed.
+pub(super) fn is_positive_definite(matrix: DMatrix<f64>) -> bool {
+    let size = matrix.nrows();
+    // |error|_2 <= the largest row sum of a symmetric bound.
+    let largest = matrix.abs().column_sum().amax() * f64::EPSILON * (1.0 + 2.0 * rounding(size));
+    exceeds(matrix, largest + size as f64 * f64::MIN_POSITIVE)
+}
+
 /// Whether all eigenvalues of every symmetric matrix within `spread` (in the spectral norm) of
 /// `matrix` are positive. Only the lower triangle of `matrix` is used.
 ///

@@ -20,7 +20,7 @@ use super::groups::Groups;
 use super::load::Load;
 use super::monitor::Monitor;
 use super::product::SolutionProduct;
-use super::report::{GroupReport, SearchOptions};
+use super::report::{Completeness, GroupReport, SearchOptions, StopReason};
 use crate::problem::{ProblemView, patterns_of};
 
 /// A problem with at most this many patterns is not split into groups, so that the outcome of each pattern is
@@ -38,12 +38,13 @@ pub(super) struct Composition {
     pub(super) reports: Vec<GroupReport>,
     /// Nodes of attempts that were given up.
     pub(super) abandoned_nodes: u64,
-    /// Whether every solution that other groups depend on is enclosed by proof.
-    pub(super) chain_proven: bool,
-    pub(super) all_examined: bool,
+    pub(super) completeness: Completeness,
 }
 
 /// All solutions of the problem.
+///
+/// The solutions are combinations of those of parts that do not depend on each other. If a part has none, there are none,
+/// whatever is left open in the others.
 pub(super) fn solve(
     problem: ProblemView<'_>,
     options: &SearchOptions,
@@ -56,28 +57,34 @@ pub(super) fn solve(
         product: SolutionProduct::default(),
         reports: Vec::new(),
         abandoned_nodes: 0,
-        chain_proven: true,
-        all_examined: true,
+        completeness: Completeness::Proven,
     };
     if groups.members.len() > 1 {
         monitor.tell_no_states();
     }
     let load = Load::of(problem);
     let mut done = 0.0;
+    let mut parts: Vec<(bool, Completeness)> = Vec::new();
     for part in groups.independent_parts(&(0..groups.members.len()).collect::<Vec<_>>()) {
         let groups = groups.restricted(&part);
         let contacts: usize = groups.members.iter().map(Vec::len).sum();
         let share = contacts as f64 / problem.contacts() as f64;
         let work = Piece { done, share };
+        let enough_before = monitor.take_enough();
         let alternation = Alternation { problem, options, load: &load, work, monitor, partial: None };
         let (attempt, abandoned) = alternation.solve(&groups);
+        let completeness = attempt.completeness(monitor.reason());
+        monitor.add_enough(enough_before);
+        parts.push((attempt.product.is_empty(), completeness));
         whole.product.factors.extend(attempt.product.factors);
         whole.reports.extend(attempt.reports);
         whole.abandoned_nodes += abandoned;
-        whole.chain_proven &= attempt.chain_proven;
-        whole.all_examined &= attempt.all_examined;
         done += share;
     }
+    let empty = parts.iter().filter(|(is_empty, _)| *is_empty).map(|(_, own)| *own);
+    let all = parts.iter().map(|(_, own)| *own);
+    let worst = all.max_by_key(|own| own.severity());
+    whole.completeness = empty.min_by_key(|own| own.severity()).or(worst).unwrap_or(Completeness::Proven);
     whole
 }
 
@@ -90,6 +97,20 @@ struct Attempt {
     nodes: u64,
     /// The first contacts of barren groups, if it was given up.
     given_up: Option<Vec<usize>>,
+}
+
+impl Attempt {
+    /// Whether its list is complete, given why the search ended early if it did.
+    fn completeness(&self, reason: Option<StopReason>) -> Completeness {
+        match reason {
+            Some(reason) => Completeness::Partial(reason),
+            None if !self.all_examined => Completeness::Unexamined,
+            None if self.chain_proven && self.reports.iter().all(|group| group.proven) => {
+                Completeness::Proven
+            }
+            None => Completeness::NotProven,
+        }
+    }
 }
 
 /// Alternates between groups of a connected part of the contacts.

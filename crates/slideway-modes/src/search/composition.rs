@@ -86,11 +86,18 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             })
             .collect();
         let mut product = SolutionProduct::default();
-        let mut done = work.done;
+        let (mut done, mut is_barren, mut enough) = (work.done, false, false);
+        let enough_before = self.monitor.take_enough();
         for (part, share) in parts {
-            product.factors.push(self.solve_part(&part, load, Piece { done, share }));
+            let factor = self.solve_part(&part, load, Piece { done, share });
+            let ended_early = self.monitor.take_enough();
+            is_barren |= factor.alternatives.is_empty() && !ended_early;
+            enough |= ended_early;
+            product.factors.push(factor);
             done += share;
         }
+        // If one part has no solution, none is missing in the others.
+        self.monitor.add_enough(enough_before || (enough && !is_barren));
         product
     }
 

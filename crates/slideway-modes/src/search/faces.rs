@@ -10,9 +10,13 @@ use std::sync::Arc;
 use dashu_int::IBig;
 use nalgebra::DVector;
 
+use super::leaf::Leaves;
+use super::monitor::Monitor;
 use super::separation::{Separated, separate};
+use super::signs::RowSigns;
 use super::states::StateSet;
-use crate::certificate::LiftedSystem;
+use crate::certificate::{Decision, LiftedSystem};
+use crate::dense::Lu;
 use crate::problem::{ContactState, ProblemView, ScaledProblem};
 use crate::solutions::ContactSet;
 
@@ -20,6 +24,9 @@ use crate::solutions::ContactSet;
 #[derive(Clone)]
 pub(super) struct Faces {
     system: Arc<LiftedSystem>,
+    signs: Arc<RowSigns>,
+    /// Contacts whose columns are opposite, without jumps: `y^+ - y^-` may have any sign.
+    free: Arc<Vec<bool>>,
     /// The patterns that are examined, with the columns that a node may have to be settled by them.
     known: Vec<(ContactSet, Vec<ContactState>)>,
     /// Whether nodes are settled with the columns of the positive unknowns, not with all of a pattern, if
@@ -55,18 +62,44 @@ pub(super) struct Settled {
     pub(super) is_known: bool,
     /// Proves that the unknowns of all other columns than those left vanish; empty if there are no others.
     pub(super) vector: Vec<IBig>,
-    /// Columns of the pattern that contain all its solutions in the node.
+    /// Columns of the pattern that contain all its solutions in the node, besides those of free contacts.
     pub(super) left: ContactSet,
+    /// What the pattern admits, if that is known.
+    pub(super) decision: Option<Decision>,
 }
 
 impl Faces {
     pub(super) fn new(problem: ProblemView<'_>) -> Self {
-        Self { system: Arc::new(LiftedSystem::new(problem)), known: Vec::new(), to_support: false }
+        let system = LiftedSystem::new(problem);
+        let opposite = |contact: usize| {
+            let [one, other] = [contact, system.contacts() + contact].map(|column| system.column(column));
+            !problem.has_jump(contact) && one.iter().zip(other).all(|(one, other)| *one == -other)
+        };
+        let free = Arc::new((0..system.contacts()).map(opposite).collect());
+        let signs = Arc::new(RowSigns::new(&system));
+        Self { system: Arc::new(system), signs, free, known: Vec::new(), to_support: false }
     }
 
     /// The same, with nodes settled by as few columns as possible, for the cells of a proof.
     pub(super) fn with_supports(self) -> Self {
         Self { to_support: true, ..self }
+    }
+
+    /// The signs of the equations.
+    pub(super) fn signs(&self) -> &RowSigns {
+        &self.signs
+    }
+
+    /// The contacts whose columns are opposite: they have the sides of the solution that the others determine.
+    pub(super) fn free(&self) -> &[bool] {
+        &self.free
+    }
+
+    /// The free contacts that are open when a node is settled. A cell of a proof has one side of each contact, so that a
+    /// proof branches on them.
+    pub(super) fn open_free(&self, states: &[StateSet]) -> Vec<usize> {
+        let is_open = |&contact: &usize| self.free[contact] && states[contact].decided().is_none();
+        if self.to_support { Vec::new() } else { (0..states.len()).filter(is_open).collect() }
     }
 
     /// A vector in integers that proves that a node has no solution, if one is found; for a proof, whatever the length of
@@ -100,34 +133,45 @@ impl Faces {
     }
 
     /// The pattern that has all solutions of a node, given the unknowns that are positive inside the face of
-    /// its relaxation, all of which belong to one state of each contact; `None` if that could not be proven.
+    /// its relaxation, all of which belong to one state of each contact that is not free; `None` if that could not be
+    /// proven.
     pub(super) fn settle(
         &mut self,
         problem: &ScaledProblem,
-        states: &[StateSet],
-        positive: &[Positive],
-        proceed: &mut dyn FnMut() -> bool,
+        (states, positive): (&[StateSet], &[Positive]),
+        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
     ) -> Option<Settled> {
+        let proceed = &mut || monitor.goes_on();
         let support = self.support(positive);
         let allowed = self.allowed(states);
         let known = self.known.iter().find(|(columns, _)| support.is_within(columns));
         if let Some((columns, pattern)) = known
             && let Some(vector) = self.vanish(&allowed, &support, columns, proceed)
         {
-            let left = columns.clone();
-            return Some(Settled { pattern: pattern.clone(), is_known: true, vector, left });
+            let (pattern, left) = (pattern.clone(), columns.clone());
+            return Some(Settled { pattern, is_known: true, vector, left, decision: None });
         }
-        let pattern = independent_pattern(problem, states, positive)?;
+        let free = self.open_free(states);
+        let mut pattern = independent_pattern(problem, states, positive, &free)?;
         let reduced = if self.to_support { self.reducing(&allowed, &support, proceed) } else { None };
         let (vector, left) = if let Some(vector) = reduced {
             (vector, support)
         } else {
             let own: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-            let own = self.allowed(&own);
+            let mut own = self.allowed(&own);
+            for side in ContactState::PRESSED {
+                let columns = free.iter().flat_map(|&contact| self.system.columns_of(contact, side));
+                columns.for_each(|column| own.insert(column));
+            }
             (self.vanish(&allowed, &support, &own, proceed)?, own)
         };
+        let decision = if free.is_empty() {
+            None
+        } else {
+            Some(with_sides_of_free(&mut pattern, &free, problem, (leaves, monitor))?)
+        };
         self.known.push((left.clone(), pattern.clone()));
-        Some(Settled { pattern, is_known: false, vector, left })
+        Some(Settled { pattern, is_known: false, vector, left, decision })
     }
 
     /// A vector which proves that, in all solutions with the allowed columns, the unknowns of all others than
@@ -174,16 +218,49 @@ impl Faces {
     }
 }
 
+/// Gives the free contacts of a pattern the sides of its only solution, if its matrix is regular, which does not depend on
+/// these sides; returns what the pattern then admits. `None` if there is no such solution, or if it is not found.
+fn with_sides_of_free(
+    pattern: &mut [ContactState],
+    free: &[usize],
+    problem: &ScaledProblem,
+    (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
+) -> Option<Decision> {
+    let (matrix, right_hand_side) = problem.system(pattern);
+    let y = Lu::new(matrix, &mut || monitor.goes_on())?.solve(&right_hand_side)?;
+    free.iter().filter(|&&contact| y[contact] < 0.0).for_each(|&contact| turn(&mut pattern[contact]));
+    // Rounding may have given an unknown near zero the wrong sign.
+    for _ in 0..=free.len() {
+        match leaves.decide(pattern, monitor).ok()? {
+            Decision::NoSolution { contact } if free.contains(&contact) => turn(&mut pattern[contact]),
+            decision @ (Decision::Solution { .. } | Decision::Boundary { .. }) => return Some(decision),
+            _ => return None,
+        }
+    }
+    None
+}
+
+/// To the other side.
+fn turn(side: &mut ContactState) {
+    *side = match side {
+        ContactState::Positive => ContactState::Negative,
+        _ => ContactState::Positive,
+    };
+}
+
 /// A pattern of a node that agrees with the positive unknowns, and whose columns are independent if that is
 /// easily possible: where several states agree, it is the one whose column is furthest from the span of those
-/// chosen before. `None` if no state of some contact agrees.
+/// chosen before. `None` if no state of some contact agrees. With free contacts, any side agrees.
 fn independent_pattern(
     problem: &ScaledProblem,
     states: &[StateSet],
     positive: &[Positive],
+    free: &[usize],
 ) -> Option<Vec<ContactState>> {
-    let choices: Vec<Vec<ContactState>> =
-        states.iter().zip(positive).map(|(set, at)| agreeing(*set, *at)).collect();
+    let choices = states.iter().zip(positive).enumerate().map(|(contact, (set, at))| {
+        if free.contains(&contact) { vec![ContactState::Positive] } else { agreeing(*set, *at) }
+    });
+    let choices: Vec<Vec<ContactState>> = choices.collect();
     let mut order: Vec<usize> = (0..states.len()).collect();
     order.sort_by_key(|&contact| choices[contact].len());
     let mut pattern: Vec<ContactState> =

@@ -119,7 +119,7 @@ fn by_monotonicity(
     let pattern = if strictly {
         monotone::only_pattern(scaled, solved, &mut || monitor.goes_on())?
     } else {
-        monotone::pattern_of_all_solutions(loaded.view(), scaled, &mut || monitor.goes_on())?
+        monotone::pattern_of_all_solutions((loaded, scaled), leaves, monitor)?
     };
     let shares = if monitor.visit(0.0, 0) {
         let certain = if strictly {

@@ -13,7 +13,8 @@
 //!    is subdivided until each part is excluded or has few patterns.
 //! 5. Otherwise, branch and bound over the states of the contacts. A node is excluded by interval propagation
 //!    or by an infeasible linear relaxation (section 4 (a), (b)); a node with all contacts decided is a
-//!    pattern to decide. If the numbers are exact, a node is also settled if all its solutions are those of one
+//!    pattern to decide. If the numbers are exact, the signs of single equations leave some contacts only one side, and
+//!    a contact whose columns are opposite, a free unknown, is not branched on where the others determine it. If the numbers are exact, a node is also settled if all its solutions are those of one
 //!    pattern, a face of the relaxation (section 4, "Faces"): degenerate solutions and continua are met once.
 //!    The next contact to branch on is the one for which forbidding either side costs
 //!    most, as estimated from one dual step.
@@ -56,6 +57,7 @@
 //! mode) are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
 
 mod alternation;
+mod branching;
 mod cells;
 mod composition;
 mod count;
@@ -85,6 +87,7 @@ mod separation;
 mod share_entries;
 mod short_vector;
 mod sieve;
+mod signs;
 mod states;
 mod subtrees;
 #[cfg(test)]
@@ -160,14 +163,7 @@ pub fn search_telling<'a>(
 
 fn solve(problem: ProblemView<'_>, options: &SearchOptions, monitor: &mut Monitor<'_>) -> SearchResult {
     let problem = problem.without_zero_radii();
-    let Composition { product, reports: groups, abandoned_nodes, chain_proven, all_examined } =
+    let Composition { product, reports: groups, abandoned_nodes, completeness } =
         alternation::solve(problem, options, monitor);
-    let proven = chain_proven && groups.iter().all(|group| group.proven);
-    let completeness = match monitor.reason() {
-        Some(reason) => Completeness::Partial(reason),
-        None if !all_examined => Completeness::Unexamined,
-        None if proven => Completeness::Proven,
-        None => Completeness::NotProven,
-    };
     SearchResult { product, completeness, groups, abandoned_nodes, contacts: problem.contacts() }
 }

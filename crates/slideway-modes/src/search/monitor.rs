@@ -152,6 +152,17 @@ impl<'a> Monitor<'a> {
         self.enough.current = false;
     }
 
+    /// Whether the search of some group ended because it had enough, from now on as if none had: what that left open
+    /// matters only if all parts beside the group have solutions.
+    pub(super) fn take_enough(&mut self) -> bool {
+        std::mem::take(&mut self.enough.some)
+    }
+
+    /// Puts back what [`take_enough`](Self::take_enough) returned.
+    pub(super) fn add_enough(&mut self, taken: bool) {
+        self.enough.some |= taken;
+    }
+
     /// Not every combination of solutions is looked for, since there are as many as are wanted.
     pub(super) fn have_enough(&mut self) {
         self.enough.some = true;

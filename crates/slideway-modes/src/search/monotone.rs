@@ -21,11 +21,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::leaf::Leaves;
 use super::lemke::lemke;
+use super::load::LoadedProblem;
+use super::monitor::Monitor;
 use super::propagation::SolvedForm;
-use crate::certificate::{Decision, Monotone, decide_while};
+use crate::certificate::{Decision, Monotone};
 use crate::dense::{Lu, Pace, has_cholesky_factor, product};
-use crate::problem::{ContactState, ProblemView, ScaledProblem};
+use crate::problem::{ContactState, ScaledProblem};
 
 /// Singular values are compared with 1 minus this.
 const MARGIN: f64 = 1e-8;
@@ -33,9 +36,6 @@ const MARGIN: f64 = 1e-8;
 const CONTRACTIONS: usize = 60;
 /// Maximum number of steps of Newton's method.
 const NEWTON_STEPS: usize = 60;
-/// The exact test is tried for up to so many contacts: dense forms of rank below their size take
-/// about a second for so many.
-const EXACT_CONTACTS: usize = 100;
 /// A form with an eigenvalue below minus this, compared with `|C^+| |C^-|`, is not tested exactly.
 const HOPELESS: f64 = 1e-9;
 
@@ -50,23 +50,25 @@ pub(super) fn is_strict(
         && (solved.is_contraction() || singular_values_below_one(solved, proceed) == Some(true))
 }
 
-/// A pattern that has all solutions of an exact problem, proven; `None` if the problem is not monotone, if it has no
-/// solution, if floating point found no pattern that has one, or once `proceed` is `false`.
+/// A pattern that has all solutions of a problem with exact columns, proven; `None` if the problem is not monotone, if it
+/// has no solution, if floating point found no pattern that has one, or once the monitor stops the search.
 pub(super) fn pattern_of_all_solutions(
-    problem: ProblemView<'_>,
-    scaled: &ScaledProblem,
-    proceed: &mut dyn FnMut() -> bool,
+    (loaded, scaled): (&LoadedProblem<'_>, &ScaledProblem),
+    leaves: &mut Leaves<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Option<Vec<ContactState>> {
-    let is_candidate = problem.exact
-        && problem.contacts() <= EXACT_CONTACTS
+    let is_candidate = loaded.is_part_of_exact_problem()
         && !scaled.has_jump.contains(&true)
-        && may_be_semidefinite(scaled, proceed)?;
-    let monotone = is_candidate.then(|| Monotone::prove(problem.centre, proceed))??;
-    let pattern = lemke(scaled, proceed)?;
-    match decide_while(problem, &pattern, proceed)?.decision {
+        && may_be_semidefinite(scaled, &mut || monitor.goes_on())?;
+    let columns = loaded.view().centre;
+    let monotone = is_candidate.then(|| Monotone::prove(columns, &mut || monitor.goes_on()))??;
+    let pattern = lemke(scaled, &mut || monitor.goes_on())?;
+    match leaves.decide(&pattern, monitor).ok()? {
         // All unknowns are positive: their partners vanish in all solutions.
         Decision::Solution { .. } => Some(pattern),
-        Decision::Boundary { .. } => monotone.pattern_of_all_solutions(&pattern, proceed),
+        Decision::Boundary { zero, .. } => {
+            monotone.pattern_of_all_solutions(&pattern, &zero, &mut || monitor.goes_on())
+        }
         _ => None,
     }
 }

@@ -110,7 +110,7 @@ fn prove_part(
     let rows = exponents.add(&scaled, contacts, half_spaces.as_ref().map_or(0, |spaces| spaces.exponent));
     let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), true);
     let mut log = ProofLog::new(LiftedSystem::new(loaded.view()), rows);
-    let all_solutions = pattern_of_all_solutions(loaded.view(), &scaled, &mut || monitor.goes_on());
+    let all_solutions = pattern_of_all_solutions((loaded, &scaled), &mut leaves, monitor);
     let left = all_solutions.and_then(|pattern| {
         let decision = leaves.decide(&pattern, monitor).ok()?;
         log.monotone(&pattern, &decision)

@@ -142,6 +142,11 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
+    /// The most numbers that a basis holds.
+    pub(super) fn size_of_basis(&self) -> usize {
+        self.load.len() * self.program.columns()
+    }
+
     /// Solves the relaxation of a node from the basis of its parent, and returns the basis with which its children
     /// begin. The result is undecided once `proceed` is `false`.
     pub(super) fn solve(

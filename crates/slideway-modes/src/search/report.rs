@@ -306,6 +306,18 @@ pub enum Completeness {
     Unexamined,
 }
 
+impl Completeness {
+    /// Greater for lists of which less is known.
+    pub(super) fn severity(self) -> u8 {
+        match self {
+            Self::Proven => 0,
+            Self::NotProven => 1,
+            Self::Unexamined => 2,
+            Self::Partial(_) => 3,
+        }
+    }
+}
+
 impl fmt::Display for Completeness {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -14,7 +14,7 @@ use std::sync::mpsc::{Sender, channel};
 use super::leaf::Leaves;
 use super::monitor::Monitor;
 use super::report::StopReason;
-use super::tree::{Node, Tree};
+use super::tree::{BASES_OF_WAITING, Node, Tree};
 use crate::progress::Progress;
 
 /// Nodes that are visited before a tree is divided: in less time, threads are not worth starting.
@@ -142,6 +142,7 @@ impl Subtree<'_, '_> {
         };
         let mut monitor = Monitor::new(u64::MAX, &mut callback);
         self.tree.work(&mut self.open, most, (&mut self.leaves, &mut monitor));
+        self.tree.drop_bases(&mut self.open, BASES_OF_WAITING);
         // A stop of the whole search is known to its own monitor.
         self.stopped = monitor.stopped().filter(|reason| *reason != StopReason::Cancelled);
     }

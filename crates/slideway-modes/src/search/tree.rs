@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
+use super::branching::{branching, candidates};
 use super::faces::{Faces, Positive, Settled};
 use super::leaf::Leaves;
 use super::load::LoadedProblem;
@@ -21,14 +22,16 @@ use crate::solutions::ContactSet;
 /// Relaxed solutions that violate complementarity by at most this fraction of the largest unknown (or of 1)
 /// are examined as solutions.
 const COMPLEMENTARY: f64 = 1e-9;
-/// Costs of forbidding a side are limited to this range for comparison.
-const LEAST_COST: f64 = 1e-6;
-const MOST_COST: f64 = 1e9;
 
-/// A waiting node, with the basis of its parent.
+/// The bases of waiting nodes hold up to so many numbers (16 MB), unless those of a few nodes are larger, ...
+const BASES: usize = 1 << 21;
+/// ... and up to so many (1 MB) while a subtree waits for its next round.
+pub(super) const BASES_OF_WAITING: usize = 1 << 17;
+
+/// A waiting node, with the basis of its parent: `None` if it was dropped to save memory.
 pub(super) struct Node {
     pub(super) states: Vec<StateSet>,
-    basis: Arc<Basis>,
+    basis: Option<Arc<Basis>>,
 }
 
 /// What a tree search did.
@@ -122,7 +125,7 @@ impl<'a> Tree<'a> {
         states: Vec<StateSet>,
         (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
     ) -> (TreeReport, Option<ProofLog>) {
-        let root = Node { states, basis: Arc::new(self.relaxation.first_basis()) };
+        let root = Node { states, basis: None };
         let mut open = vec![root];
         let alone = if self.log.is_some() { u64::MAX } else { subtrees::ALONE };
         self.work(&mut open, alone, (leaves, monitor));
@@ -185,7 +188,17 @@ impl<'a> Tree<'a> {
         if let Err(reason) = self.visit(node, open, leaves, monitor) {
             monitor.stop(reason);
         }
+        self.drop_bases(open, BASES);
         true
+    }
+
+    /// Drops the bases of the nodes that wait longest, so that the others hold up to so many numbers. Programs are then
+    /// solved from the beginning, which rarely happens: those nodes come last.
+    pub(super) fn drop_bases(&self, open: &mut [Node], numbers: usize) {
+        let kept = (numbers / self.relaxation.size_of_basis().max(1)).max(1);
+        let waiting = open.len().saturating_sub(kept);
+        let with_basis = open[..waiting].iter_mut().rev().take_while(|node| node.basis.is_some());
+        with_basis.for_each(|node| node.basis = None);
     }
 
     /// The same tree before its first node, with what is known so far.
@@ -217,8 +230,13 @@ impl<'a> Tree<'a> {
         if !self.propagate(&mut node.states, &mut || monitor.goes_on()) {
             return Ok(());
         }
+        if let Some(left) = self.force_sides(&mut node.states) {
+            open.push(Node { states: node.states, basis: node.basis.clone() });
+            open.push(Node { states: left, basis: node.basis });
+            return Ok(());
+        }
         let (pivots, proceed) = (&mut self.report.pivots, &mut || monitor.goes_on());
-        let parent = Arc::unwrap_or_clone(node.basis);
+        let parent = node.basis.map_or_else(|| self.relaxation.first_basis(), Arc::unwrap_or_clone);
         let (relaxed, basis) = self.relaxation.solve(&node.states, parent, pivots, proceed);
         let relaxed = match relaxed {
             Relaxed::Excluded(farkas) if self.log_excluded(&node.states, &farkas, &basis, monitor) => {
@@ -244,15 +262,18 @@ impl<'a> Tree<'a> {
             }
             _ => None,
         };
-        if let Some(inside) = &inside
-            && contradictions(&node.states, inside).next().is_none()
-            && let Some(settled) = self.settle(&node.states, inside, monitor)
-        {
-            return self.close_settled(&settled, leaves, monitor);
-        }
         let contradicting: Option<Vec<usize>> =
-            inside.map(|inside| contradictions(&node.states, &inside).collect());
-        let (contact, preferred) = branching(&node.states, relaxed.as_deref(), contradicting.as_deref());
+            inside.as_deref().map(|inside| contradictions(&node.states, inside).collect());
+        let open_free = self.faces.as_ref().map_or_else(Vec::new, |faces| faces.open_free(&node.states));
+        if let (Some(inside), Some(contradicting)) = (&inside, &contradicting)
+            && contradicting.iter().all(|contact| open_free.contains(contact))
+            && let Some(settled) = self.settle(&node.states, inside, (leaves, monitor))
+        {
+            return self.close_settled(settled, leaves, monitor);
+        }
+        let free = self.faces.as_ref().map_or(&[][..], Faces::free);
+        let candidates = candidates(&node.states, contradicting.as_deref(), free);
+        let (contact, preferred) = branching(&node.states, relaxed.as_deref(), &candidates);
         let basis = Arc::new(basis);
         let mut children: Vec<ContactState> = node.states[contact].iter().collect();
         // The last one is visited first.
@@ -264,7 +285,7 @@ impl<'a> Tree<'a> {
         for state in children {
             let mut states = node.states.clone();
             states[contact] = StateSet::only(state);
-            open.push(Node { states, basis: Arc::clone(&basis) });
+            open.push(Node { states, basis: Some(Arc::clone(&basis)) });
         }
         Ok(())
     }
@@ -311,17 +332,21 @@ impl<'a> Tree<'a> {
     /// Examines the pattern that has all solutions of a node, and writes why it has them all.
     fn close_settled(
         &mut self,
-        settled: &Settled,
+        settled: Settled,
         leaves: &mut Leaves<'_>,
         monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
-        let Settled { pattern, is_known, vector, left } = settled;
+        let Settled { pattern, is_known, vector, left, decision } = settled;
         if let (Some(log), Some(faces)) = (&mut self.log, &self.faces)
-            && (vector.is_empty() || log.remove(faces.system(), vector))
+            && (vector.is_empty() || log.remove(faces.system(), &vector))
         {
-            return self.decide_and_write(pattern, left, leaves, monitor);
+            return self.decide_and_write(&pattern, &left, leaves, monitor);
         }
-        if *is_known { Ok(()) } else { leaves.examine(pattern, monitor) }
+        match decision {
+            _ if is_known => Ok(()),
+            Some(decision) => leaves.examine_decided(&pattern, decision, monitor),
+            None => leaves.examine(&pattern, monitor),
+        }
     }
 
     /// Examines a pattern unless it has a cell already, and closes a node that allows only some of its columns.
@@ -358,10 +383,10 @@ impl<'a> Tree<'a> {
         &mut self,
         states: &[StateSet],
         inside: &[Positive],
-        monitor: &mut Monitor<'_>,
+        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
     ) -> Option<Settled> {
         let faces = self.faces.as_mut()?;
-        let settled = faces.settle(self.problem, states, inside, &mut || monitor.goes_on())?;
+        let settled = faces.settle(self.problem, (states, inside), (leaves, monitor))?;
         self.report.shares.faces += fraction_of_patterns(self.problem, states);
         Some(settled)
     }
@@ -378,6 +403,29 @@ impl<'a> Tree<'a> {
         }
         self.report.shares.propagation += all - fraction_of_patterns(self.problem, states);
         true
+    }
+
+    /// Decides contacts of which the signs of an equation leave only one side. Where steps are written and both unknowns
+    /// of such a contact vanish with the other side, returns what is left there, which the proof has to visit first.
+    fn force_sides(&mut self, states: &mut [StateSet]) -> Option<Vec<StateSet>> {
+        let faces = self.faces.as_ref()?;
+        let before = fraction_of_patterns(self.problem, states);
+        let mut left = None;
+        while left.is_none()
+            && let Some(forced) = faces.signs().forced(states, &faces.allowed(states))
+        {
+            if let Some(log) = &mut self.log {
+                let other = usize::from(forced.side == ContactState::Positive);
+                log.branch(forced.contact, &[ContactState::PRESSED[other], forced.side]);
+                let vector = faces.signs().vector(&forced);
+                if log.remove(faces.system(), &vector) {
+                    left = Some(faces.signs().left(&forced, states));
+                }
+            }
+            states[forced.contact] = StateSet::only(forced.side);
+        }
+        self.report.shares.propagation += before - fraction_of_patterns(self.problem, states);
+        left
     }
 
     fn examine(
@@ -429,34 +477,4 @@ fn is_complementary(states: &[StateSet], relaxed: &[RelaxedContact]) -> bool {
 fn contradictions<'s>(states: &'s [StateSet], inside: &'s [Positive]) -> impl Iterator<Item = usize> + 's {
     (0..states.len())
         .filter(|&contact| !states[contact].iter().any(|state| inside[contact].agrees_with(state)))
-}
-
-/// The contact to branch on and the state to examine first. Among the contacts that press on both sides, it
-/// is the one for which forbidding either side costs most, as a product; if there are none, the one that
-/// presses most, because its other states are furthest from the present solution: among those that contradict
-/// inside the face of all relaxed solutions, if they are known.
-fn branching(
-    states: &[StateSet],
-    relaxed: Option<&[RelaxedContact]>,
-    contradicting: Option<&[usize]>,
-) -> (usize, ContactState) {
-    let undecided = (0..states.len()).filter(|&contact| states[contact].decided().is_none());
-    let Some(relaxed) = relaxed else {
-        return (undecided.min().unwrap_or(0), ContactState::Positive);
-    };
-    let wanted = |contact: &usize| contradicting.is_none_or(|all| all.is_empty() || all.contains(contact));
-    let mut best: Option<(usize, (f64, f64))> = None;
-    for contact in undecided.filter(wanted) {
-        let RelaxedContact { positive, negative, cost_without, .. } = relaxed[contact];
-        let cost: f64 = cost_without.iter().map(|cost| cost.clamp(LEAST_COST, MOST_COST)).product();
-        let violation = relaxed[contact].violation(states[contact]);
-        let score = (if violation > 0.0 { cost } else { 0.0 }, positive.max(negative));
-        if best.is_none_or(|(_, most)| score > most) {
-            best = Some((contact, score));
-        }
-    }
-    let contact = best.map_or(0, |(contact, _)| contact);
-    let at = relaxed[contact];
-    let preferred = if at.positive >= at.negative { ContactState::Positive } else { ContactState::Negative };
-    (contact, preferred)
 }
