@@ -58,7 +58,8 @@ pub(crate) fn quantities(
     state: &[CoordinateSummary],
 ) -> Result<Vec<Quantity>, Faults> {
     let values = model.parameter_values(&model.constants()?);
-    let values_in_file = file.constants().map_or_else(|_| values.clone(), |known| file.parameter_values(&known));
+    let values_in_file =
+        file.constants().map_or_else(|_| values.clone(), |known| file.parameter_values(&known));
     let parameters = file.parameters.iter().zip(values_in_file.into_iter().zip(values)).take(MOST);
     let mut all: Vec<Quantity> =
         parameters.map(|(parameter, values)| of_parameter(file, text, parameter, values)).collect();
