@@ -381,10 +381,10 @@ fn free_unknowns_are_not_branched_on() {
         assert_eq!((mixed.complete, reduced.complete), (Proof::Proven, Proof::Proven), "{seed}");
         let counts = |report: &RawReport| (report.count.clone(), report.continuum_count.clone());
         assert_eq!(counts(&mixed), counts(&reduced), "{seed}");
-        let z = |report: &RawReport| -> BTreeSet<Vec<i64>> {
+        let z = |report: &RawReport| -> BTreeSet<Vec<String>> {
             let of = |unknowns: &Unknowns| match unknowns {
                 Unknowns::Complementary { z, .. } | Unknowns::Mixed { z, .. } => {
-                    z.iter().map(|value| (value * 1e8).round() as i64).collect()
+                    z.iter().map(|value| format!("{value:.8}")).collect()
                 }
                 other => panic!("{other:?}"),
             };
