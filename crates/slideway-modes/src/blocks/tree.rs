@@ -19,6 +19,10 @@ const DECIDE_CONTACTS: f64 = 0.25;
 const LOOK_FOR_CURVES: f64 = 0.01;
 /// Sectors of this half angle are not divided further; a relaxation of them is as near as numbers are.
 const SMALLEST: f64 = 1e-7;
+/// As many pieces of the smallest size are more than points leave open. Each time as many again are left, as on a curve,
+/// that size is raised by this factor: else a curve would fall into millions of pieces.
+const OF_POINTS: usize = 64;
+const COARSER: f64 = 10.0;
 /// Reactions below this share of the largest have no direction that is worth dividing.
 const UNLOADED: f64 = 1e-9;
 
@@ -49,6 +53,8 @@ pub(super) struct Tree<'a, 'c> {
     progress: &'a mut Callback<'c>,
     manner: Manner,
     smallest: f64,
+    /// How many pieces were too small to divide.
+    left: usize,
     pivots: u64,
     found: Found,
 }
@@ -71,7 +77,7 @@ impl<'a, 'c> Tree<'a, 'c> {
         // A relaxation is off by the square of the half angle.
         let smallest = SMALLEST.max(0.1 * problem.relative_radius().sqrt());
         let found = Found { zeros: Vec::new(), undecided: Vec::new(), stopped: None, nodes: 0 };
-        Self { problem, options, progress, manner, smallest, pivots: 0, found }
+        Self { problem, options, progress, manner, smallest, left: 0, pivots: 0, found }
     }
 
     /// Searches the tree below a piece.
@@ -88,11 +94,20 @@ impl<'a, 'c> Tree<'a, 'c> {
             if let Decision::Open(relaxed) = self.decide(&piece) {
                 match self.parts(&piece, relaxed.as_ref()) {
                     Some(parts) => stack.extend(parts.into_iter().rev()),
-                    None => self.found.undecided.push(Undecided::new(self.problem, piece, relaxed)),
+                    None => self.leave(piece, relaxed),
                 }
             }
         }
         self.found
+    }
+
+    /// Leaves a piece that is too small to divide.
+    fn leave(&mut self, piece: Piece, relaxed: Option<RelaxedPoint>) {
+        self.found.undecided.push(Undecided::new(self.problem, piece, relaxed));
+        self.left += 1;
+        if self.left.is_multiple_of(OF_POINTS) {
+            self.smallest *= COARSER;
+        }
     }
 
     /// Counts a node; why the search must end before it, if so.

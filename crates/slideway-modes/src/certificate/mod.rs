@@ -38,7 +38,7 @@ pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModePro
 pub use cell::{Cell, CellPart};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
-pub use enclosure::{LinearEnclosure, enclose_solution, proven_determinant_sign};
+pub use enclosure::{LinearEnclosure, enclose_solution, enclose_solution_while, proven_determinant_sign};
 pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub use exclusion::proves_empty;

@@ -5,8 +5,9 @@
 
 use rstest::rstest;
 use slideway::report::{Report, Style};
-use slideway::standstill::{HoldOptions, HoldReport, HoldVerdict, Range, hold};
+use slideway::standstill::{HoldOptions, HoldReport, HoldVerdict, Range, hold, hold_with};
 use slideway::{Model, Settings, gallery};
+use std::ops::ControlFlow;
 
 fn held(text: &str, options: &HoldOptions) -> HoldReport {
     let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
@@ -168,4 +169,22 @@ fn a_bar_is_held_in_a_range_of_forces(#[case] friction: &str, #[case] reference:
          [coordinates.x]\nslide = \"lower\"\n"
     );
     assert_ranges(&factors(&text, "P"), &[reference.map(Some)]);
+}
+
+/// A mechanism of an independent review, of which `hold` took more than three minutes without looking at its callback: the
+/// states in which its hinge begins to turn are sought in few nodes, each of which is told.
+#[test]
+fn nodes_of_the_search_for_states_that_begin_to_turn_are_told_and_few() {
+    let model = Model::parse(include_str!("../findings/hold_with_a_curve.toml")).unwrap();
+    let mut nodes = 0;
+    let report = hold_with(&model, &HoldOptions::default(), &mut |progress| {
+        nodes += usize::from(progress.counted == "nodes");
+        ControlFlow::Continue(())
+    });
+    assert!(report.unwrap().is_some());
+    assert!((50..50_000).contains(&nodes), "{nodes}");
+    let ended = hold_with(&model, &HoldOptions::default(), &mut |progress| {
+        if progress.counted == "nodes" { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(ended.unwrap().is_none());
 }
