@@ -23,6 +23,8 @@ use crate::problem::{ContactState, ProblemView};
 const INFLATIONS: usize = 16;
 /// The factor by which it is enlarged beyond what is needed.
 const INFLATION: f64 = 1.1;
+/// Products with a square matrix that each column of an enclosure takes, about.
+const PRODUCTS_OF_COLUMN: usize = 16;
 
 /// An approximate inverse `R = X_U X_L P` of an interval matrix, with bounds on `|I - R A|`.
 pub(super) struct ApproximateInverse {
@@ -179,13 +181,26 @@ pub fn enclose_solution(
     matrix: &IntervalMatrix,
     right_hand_side: &IntervalMatrix,
 ) -> Option<LinearEnclosure> {
+    enclose_solution_while(matrix, right_hand_side, &mut || true)
+}
+
+/// [`enclose_solution`]; `None`, too, once `proceed` is `false`, which is called every few million multiplications.
+pub fn enclose_solution_while(
+    matrix: &IntervalMatrix,
+    right_hand_side: &IntervalMatrix,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<LinearEnclosure> {
     let (size, columns) = right_hand_side.shape();
     if matrix.shape() != (size, size) {
         return None;
     }
-    let inverse = ApproximateInverse::new(matrix, &mut || true)?;
+    let inverse = ApproximateInverse::new(matrix, proceed)?;
+    let mut pace = Pace::new(proceed);
     let mut entries = DMatrix::from_element(size, columns, Interval::ZERO);
     for column in 0..columns {
+        if !pace.allows(PRODUCTS_OF_COLUMN * size * size) {
+            return None;
+        }
         let right = right_hand_side.centre().column(column).into_owned();
         let spread = right_hand_side.radius().column(column).into_owned();
         if right.amax() == 0.0 && spread.amax() == 0.0 {

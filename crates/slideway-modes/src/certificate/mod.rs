@@ -39,7 +39,7 @@ pub use cell::{Cell, CellPart};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
 pub(super) use elimination::mantissa_and_exponent;
-pub use enclosure::{LinearEnclosure, enclose_solution, proven_determinant_sign};
+pub use enclosure::{LinearEnclosure, enclose_solution, enclose_solution_while, proven_determinant_sign};
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub(super) use exact::{determinant_sign, enclose_sums};
 pub use exclusion::proves_empty;

@@ -6,7 +6,7 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::certificate::{
     Decision, ExactOutcome, ExactSet, Interval, IntervalMatrix, IntervalModeProblem, Precision, Sign, decide,
-    enclose_solution, solve_exactly,
+    enclose_solution, enclose_solution_while, solve_exactly,
 };
 use slideway_modes::{
     BySide, ContactState, InfluenceCoefficients, Limits, ModeProblem, Side, SolutionSet, enumerate,
@@ -306,6 +306,29 @@ fn enclosure_of_a_hilbert_system_holds_the_exact_solution() {
         enclose_solution(&IntervalMatrix::exact(m), &IntervalMatrix::exact(DMatrix::zeros(3, 1))),
         None
     );
+}
+
+/// A system of 300 unknowns takes some 10^8 multiplications: wherever it is told to end, it does, and asks no more.
+#[test]
+fn an_enclosure_ends_where_it_is_told_to() {
+    let matrix = IntervalMatrix::exact(DMatrix::from_fn(300, 300, |row, column| {
+        if row == column { 2.0 } else { 1.0 / (1.0 + row.abs_diff(column) as f64).powi(2) }
+    }));
+    let right = IntervalMatrix::exact(DMatrix::repeat(300, 1, 1.0));
+    let asked = |most: usize| {
+        let mut calls = 0;
+        let mut proceed = || {
+            calls += 1;
+            calls < most
+        };
+        let ended = enclose_solution_while(&matrix, &right, &mut proceed).is_none();
+        (calls, ended)
+    };
+    let (all, ended) = asked(usize::MAX);
+    assert!(all >= 5 && !ended, "{all}");
+    for most in 1..=all {
+        assert_eq!(asked(most), (most, true));
+    }
 }
 
 #[test]

@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::modes::BySide;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
+use crate::progress::Work;
 use nalgebra::{DMatrix, DVector};
 
 /// A hinge with friction that turns.
@@ -116,12 +117,13 @@ impl<T: Real> BlockCoefficients<T> {
 pub(crate) fn enclosed_block_problem(
     model: &Model,
     uncertain: &UncertainParameters,
-    (mechanism, configuration): (&Mechanism, &Configuration),
+    state: (&Mechanism, &Configuration),
     hinges: &[TurningHinge],
+    work: Work<'_>,
 ) -> Result<EnclosedBlockProblem, NotEnclosed> {
-    with_coefficients(model, uncertain, mechanism, configuration, |coefficients| {
+    with_coefficients(model, uncertain, state, work, |coefficients| {
         let rubbing = coefficients.rubbing(hinges)?;
-        let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
+        let unknowns = coefficients.unknowns(work).ok_or(NotEnclosed::Equations)?;
         let influence = coefficients.influence(&unknowns)?;
         let numbers = coefficients.block_coefficients(&unknowns, &influence, (hinges, &rubbing))?;
         let bounded =

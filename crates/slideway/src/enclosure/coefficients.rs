@@ -10,6 +10,7 @@ use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::{self, JointKind, Model, PreloadLine, SliderKind};
 use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
+use crate::progress::Work;
 use crate::sharing::NO_STRESS;
 use nalgebra::{DMatrix, DVector};
 
@@ -54,7 +55,7 @@ impl Coefficients<'_> {
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
     /// face that is pressed when its normal force is positive, then what a unit normal force of each cut contact
     /// adds, then a unit couple of each friction circle; none if the equations are not proven to be regular.
-    pub(super) fn unknowns(&self) -> Option<DMatrix<Interval>> {
+    pub(super) fn unknowns(&self, work: Work<'_>) -> Option<DMatrix<Interval>> {
         let Assembled { layout, matrix, load, friction, couples, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
         let units = layout.cut_units();
@@ -66,7 +67,7 @@ impl Coefficients<'_> {
         let right = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             sides[column][row] * Interval::point(rows[row])
         });
-        let solution = solution(&scaled(matrix, &rows, &columns), &right)?;
+        let solution = solution(&scaled(matrix, &rows, &columns), &right, work)?;
         Some(DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             solution.entry(row, column) * Interval::point(columns[row])
         }))

@@ -45,9 +45,10 @@ use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
 use crate::modes::certificate::{
-    IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
+    IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution_while,
 };
 use crate::modes::{OpenContacts, SharedLoad};
+use crate::progress::{Callback, Progress, Work, undisturbed, watched};
 use crate::sharing::shared_load;
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
@@ -229,7 +230,13 @@ pub enum NotEnclosed {
     /// A number of the mode problem has no finite bounds.
     #[error("the mode problem could not be enclosed: {0}")]
     Problem(#[from] IntervalModeProblemError),
+    /// The work was ended before.
+    #[error("the work was ended before the equations were enclosed")]
+    Ended,
 }
+
+/// What is told while equations are enclosed.
+const BEFORE_SEARCH: Progress = Progress { counted: "nodes", done: 0, fraction: None, found: None };
 
 /// Bounds of the mode problem of the mechanism that `model` describes, for all values of the parameters in
 /// `uncertain`.
@@ -246,8 +253,32 @@ pub fn enclosure(
     mechanism: &Mechanism,
     configuration: &Configuration,
 ) -> Result<EnclosedModeProblem, NotEnclosed> {
-    with_coefficients(model, uncertain, mechanism, configuration, |coefficients| {
-        let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
+    undisturbed(|work| enclosure_within(model, uncertain, (mechanism, configuration), work))
+}
+
+/// What is enclosed before a search, unless a callback breaks meanwhile.
+///
+/// # Errors
+/// Those of the enclosure; [`NotEnclosed::Ended`].
+pub(crate) fn enclosed_while<T>(
+    progress: &mut Callback<'_>,
+    enclose: impl FnOnce(Work<'_>) -> Result<T, NotEnclosed>,
+) -> Result<T, NotEnclosed> {
+    watched(&mut |_| progress(&BEFORE_SEARCH), enclose)?.ok_or(NotEnclosed::Ended)
+}
+
+/// [`enclosure`] as long as the work goes on.
+///
+/// # Errors
+/// As [`enclosure`]; any once the work is to end.
+pub(crate) fn enclosure_within(
+    model: &Model,
+    uncertain: &UncertainParameters,
+    state: (&Mechanism, &Configuration),
+    work: Work<'_>,
+) -> Result<EnclosedModeProblem, NotEnclosed> {
+    with_coefficients(model, uncertain, state, work, |coefficients| {
+        let unknowns = coefficients.unknowns(work).ok_or(NotEnclosed::Equations)?;
         let influence = coefficients.influence(&unknowns)?;
         let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
         let stresses = coefficients.self_stresses(&unknowns);
@@ -269,14 +300,14 @@ pub fn enclosure(
 fn with_coefficients<T>(
     model: &Model,
     uncertain: &UncertainParameters,
-    mechanism: &Mechanism,
-    configuration: &Configuration,
+    (mechanism, configuration): (&Mechanism, &Configuration),
+    work: Work<'_>,
     make: impl FnOnce(&Coefficients<'_>) -> Result<T, NotEnclosed>,
 ) -> Result<T, NotEnclosed> {
     let given = uncertain.of(model)?;
     let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
     uncertain.put_coordinates(&mut mechanism)?;
-    let configuration = motion::enclosed(&mechanism, configuration)?;
+    let configuration = motion::enclosed(&mechanism, configuration, work)?;
     uncertain.put_friction(&mut mechanism, &configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
     make(&Coefficients {
@@ -288,9 +319,14 @@ fn with_coefficients<T>(
     })
 }
 
-/// Bounds of the solutions of a linear system; none if it is not proven to be regular.
-fn solution(matrix: &DMatrix<Interval>, right_hand_side: &DMatrix<Interval>) -> Option<IntervalMatrix> {
+/// Bounds of the solutions of a linear system; none if it is not proven to be regular, or once the work is to end.
+fn solution(
+    matrix: &DMatrix<Interval>,
+    right_hand_side: &DMatrix<Interval>,
+    work: Work<'_>,
+) -> Option<IntervalMatrix> {
     let matrix = IntervalMatrix::from_intervals(matrix)?;
     let right_hand_side = IntervalMatrix::from_intervals(right_hand_side)?;
-    Some(enclose_solution(&matrix, &right_hand_side)?.solution)
+    let mut proceed = || !work.is_over();
+    Some(enclose_solution_while(&matrix, &right_hand_side, &mut proceed)?.solution)
 }

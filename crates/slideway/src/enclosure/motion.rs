@@ -4,6 +4,7 @@ use super::{NotEnclosed, solution};
 use crate::configuration::{Configuration, JointEquations, Pose, Velocity, advance};
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
+use crate::progress::Work;
 use nalgebra::{DMatrix, DVector, Vector2};
 
 /// How often a trial box is enlarged.
@@ -21,11 +22,12 @@ const REFINEMENTS: usize = 3;
 pub(super) fn enclosed(
     mechanism: &Mechanism<Interval>,
     computed: &Configuration,
+    work: Work<'_>,
 ) -> Result<Configuration<Interval>, NotEnclosed> {
     let coordinates: Vec<Interval> =
         mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
-    let poses = positions(mechanism, computed, &coordinates).ok_or(NotEnclosed::Positions)?;
-    let velocities = velocities(mechanism, &poses, &coordinates).ok_or(NotEnclosed::Velocities)?;
+    let poses = positions(mechanism, computed, &coordinates, work).ok_or(NotEnclosed::Positions)?;
+    let velocities = velocities(mechanism, &poses, &coordinates, work).ok_or(NotEnclosed::Velocities)?;
     let rates = mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect();
     let (time, steps) = (mechanism.time, computed.steps);
     Ok(Configuration { poses, velocities, coordinates, rates, time, steps, pieces: None })
@@ -45,8 +47,10 @@ fn positions(
     mechanism: &Mechanism<Interval>,
     computed: &Configuration,
     coordinates: &[Interval],
+    work: Work<'_>,
 ) -> Option<Vec<Pose<Interval>>> {
-    let newton = Newton { mechanism, centre: computed.poses.iter().map(exact).collect(), coordinates };
+    let centre = computed.poses.iter().map(exact).collect();
+    let newton = Newton { mechanism, centre, coordinates, work };
     let residual = newton.equations(&newton.centre).residual;
     let mut steps = newton.image(&DVector::zeros(residual.len()), &residual)?;
     for _ in 0..TRIALS {
@@ -73,6 +77,7 @@ struct Newton<'a> {
     mechanism: &'a Mechanism<Interval>,
     centre: Vec<Pose<Interval>>,
     coordinates: &'a [Interval],
+    work: Work<'a>,
 }
 
 impl Newton<'_> {
@@ -94,7 +99,7 @@ impl Newton<'_> {
         let way = steps.map(|step| step.hull(Interval::ZERO));
         let jacobian = self.equations(&self.moved(&way)).jacobian;
         let right = DMatrix::from_fn(residual.len(), 1, |row, _| -residual[row]);
-        let solution = solution(&jacobian, &right)?;
+        let solution = solution(&jacobian, &right, self.work)?;
         Some(DVector::from_fn(residual.len(), |row, _| solution.entry(row, 0)))
     }
 
@@ -116,6 +121,7 @@ fn velocities(
     mechanism: &Mechanism<Interval>,
     poses: &[Pose<Interval>],
     coordinates: &[Interval],
+    work: Work<'_>,
 ) -> Option<Vec<Velocity<Interval>>> {
     let equations = JointEquations::with_coordinates(mechanism, poses, coordinates);
     let size = Interval::point(mechanism.size);
@@ -126,7 +132,7 @@ fn velocities(
         rates[(first + index, 0)] =
             if coordinate.kind.is_angle() { coordinate.rate } else { coordinate.rate / size };
     }
-    let solution = solution(&equations.jacobian, &rates)?;
+    let solution = solution(&equations.jacobian, &rates, work)?;
     let component = |row: usize| solution.entry(row, 0);
     let velocity = |body: usize| Velocity {
         linear: Vector2::new(component(3 * body), component(3 * body + 1)) * size,

@@ -2,7 +2,7 @@
 
 use super::vary::Vary;
 use crate::configuration::Follower;
-use crate::enclosure::{TurningHinge, UncertainParameters, enclosed_block_problem, enclosure};
+use crate::enclosure::{TurningHinge, UncertainParameters, enclosed_block_problem, enclosure_within};
 use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
@@ -200,7 +200,7 @@ impl Varied {
         work: Work<'_>,
     ) -> (Option<[usize; 2]>, u64) {
         let enclosed = self.enclosed([from, to], |model, uncertain, stages| {
-            enclosure(model, uncertain, &stages.mechanism, &stages.configuration).ok()
+            enclosure_within(model, uncertain, (&stages.mechanism, &stages.configuration), work).ok()
         });
         let Some(enclosed) = enclosed else { return (None, 1) };
         let mut goes_on = |_: &Progress| work.flow();
@@ -222,7 +222,7 @@ impl Varied {
         let problem = self.enclosed(bounds, |model, uncertain, stages| {
             let hinges = turning_hinges(stages, circles).ok()?;
             let state = (&stages.mechanism, &stages.configuration);
-            Some(enclosed_block_problem(model, uncertain, state, &hinges).ok()?.problem)
+            Some(enclosed_block_problem(model, uncertain, state, &hinges, work).ok()?.problem)
         });
         let Some(problem) = problem else { return (None, 1) };
         let unique = blocks::unique_for_every_load(&problem);

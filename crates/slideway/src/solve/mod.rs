@@ -67,7 +67,9 @@ pub use words::mode_in_words;
 pub(crate) use words::sliding_in_words;
 
 use crate::configuration::Configuration;
-use crate::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};
+use crate::enclosure::{
+    EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosed_while, enclosure_within,
+};
 use crate::fault::Faults;
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
@@ -158,7 +160,9 @@ pub fn solve_with(
         return finite(report);
     }
     let Stages { mechanism, configuration, influence, velocity_signs, .. } = &stages;
-    let enclosed = enclosure(model, &middle(&ranges), mechanism, configuration);
+    let enclosed = enclosed_while(progress, |work| {
+        enclosure_within(model, &middle(&ranges), (mechanism, configuration), work)
+    });
     let (result, jumps) = searched(&enclosed, stages.data(), &options.search, progress)?;
     let answer = answer::Answer {
         mechanism,

@@ -7,7 +7,7 @@
 use super::SolveOptions;
 use super::answer::Answer;
 use super::state::{pattern, pressed, signs};
-use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosure};
+use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosed_while, enclosure_within};
 use crate::interval::{Interval, Real};
 use crate::model::{Model, ParameterRange};
 use crate::modes::{Certificate, Completeness, ContactState, SearchResult, StateLists, search};
@@ -64,7 +64,8 @@ impl Answer<'_> {
         progress: &mut Callback<'_>,
     ) -> Option<report::Uncertainty> {
         self.uncertainty_over(ranges, &mut |uncertain: &UncertainParameters| {
-            let enclosed = enclosure(model, uncertain, self.mechanism, self.configuration)
+            let state = (self.mechanism, self.configuration);
+            let enclosed = enclosed_while(progress, |work| enclosure_within(model, uncertain, state, work))
                 .map_err(|reason| reason.to_string())?;
             let result = search(&enclosed.problem, &options.search, progress);
             self.presences(&enclosed, &result, options)

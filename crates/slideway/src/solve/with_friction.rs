@@ -5,7 +5,7 @@ use super::found::SearchFound;
 use super::hinges;
 use super::stages::{ProblemData, RougherStages, Stages, rougher};
 use super::{SolveOptions, searched};
-use crate::enclosure::{UncertainParameters, enclosure};
+use crate::enclosure::{UncertainParameters, enclosed_while, enclosure_within};
 use crate::fault::Faults;
 use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
@@ -36,7 +36,9 @@ pub(crate) fn solve_with_friction(
     let mechanism = rougher(&stages.mechanism, &|_| factor);
     let equations = KineticEquations::new(&mechanism, configuration)?;
     let uncertain = UncertainParameters::default().with_friction(Interval::point(factor));
-    let enclosed = enclosure(model, &uncertain, &stages.mechanism, configuration);
+    let enclosed = enclosed_while(progress, |work| {
+        enclosure_within(model, &uncertain, (&stages.mechanism, configuration), work)
+    });
     let data = ProblemData { mechanism: &mechanism, ..stages.data() };
     let (result, jumps) = searched(&enclosed, data, &options.search, progress)?;
     let answer = Answer {

@@ -10,7 +10,9 @@ use super::turning::turning_states;
 use super::{MOST_STATES, held_motions};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::pattern::{AffineExpression, ContactPhase, JointPhase, Region, Unsolved};
+use crate::progress::Progress;
 use nalgebra::DMatrix;
+use std::ops::ControlFlow;
 
 /// A state in which a mechanism that moves can go on.
 pub(crate) struct MotionState {
@@ -42,7 +44,11 @@ pub(crate) fn motion_states(setup: &Setup) -> Result<(Vec<MotionState>, usize), 
     };
     for signs in directions(setup, &motions, true) {
         if signs.hinges.iter().any(|hinge| *hinge != JointPhase::Sticking) {
-            note(turning_states(setup, &signs, &motions).map(|states| (states.list, states.decided)));
+            let mut undisturbed = |_: &Progress| ControlFlow::Continue(());
+            note(
+                turning_states(setup, &signs, &motions, &mut undisturbed)
+                    .map(|states| (states.list, states.decided)),
+            );
             continue;
         }
         for sides in &sides {

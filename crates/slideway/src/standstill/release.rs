@@ -36,7 +36,7 @@ pub(super) fn releases(
             continue;
         }
         let work = work.part(index, all);
-        if let Some(states) = isolated(setup, signs, &motions) {
+        if let Some(states) = isolated(setup, signs, &motions, work) {
             over.undecided += usize::from(!states.decided);
             for state in until_over(states.list, work) {
                 over.note(setup, turned(setup, &state).map(Vec::from_iter));
@@ -61,9 +61,11 @@ impl Over<Vec<Release>> {
 
 /// The states with these signs if hinges turn in them and the friction of what sticks is determined, so that their forces
 /// are isolated: then the search of the block mode problem finds all of them, or says that it does not.
-fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Option<TurningStates> {
-    let turns = signs.hinges.iter().any(|hinge| *hinge != JointPhase::Sticking);
-    let states = if turns { turning_states(setup, signs, motions)? } else { return None };
+fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'_>) -> Option<TurningStates> {
+    if signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking) {
+        return None;
+    }
+    let states = turning_states(setup, signs, motions, &mut |told| work.tell(told))?;
     states.determinate.then_some(states)
 }
 

@@ -11,9 +11,9 @@ use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
 use crate::modes::{ContactState, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
+use crate::progress::Callback;
 use crate::solve::{friction_of_contacts, preload_columns, without_rounding};
 use nalgebra::{DMatrix, DVector, RowDVector};
-use std::ops::ControlFlow;
 
 /// Normal forces below this part of the greatest force may be on either side.
 const ON_BOUNDARY: f64 = 1e-8;
@@ -30,16 +30,18 @@ pub(super) struct TurningStates {
     pub(super) determinate: bool,
 }
 
-/// The states with these signs of all joints and hinges; nothing where the equations are singular.
+/// The states with these signs of all joints and hinges; nothing where the equations are singular. Once the callback breaks
+/// they are not decided.
 pub(super) fn turning_states(
     setup: &Setup,
     signs: &Pattern,
     motions: &DMatrix<f64>,
+    progress: &mut Callback<'_>,
 ) -> Option<TurningStates> {
     let held = Held::new(setup, signs, motions);
     let blocks = Blocks::new(&held, signs);
     let problem = blocks.problem()?;
-    let result = blocks::search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
+    let result = blocks::search(&problem, &SearchOptions::default(), progress);
     Some(TurningStates {
         list: result.solutions.iter().flat_map(|solution| blocks.states(solution)).collect(),
         decided: result.open.is_empty() && result.stopped.is_none(),

@@ -5,8 +5,9 @@
 
 use rstest::rstest;
 use slideway::report::{Report, Style};
-use slideway::standstill::{HoldOptions, HoldReport, HoldVerdict, Range, hold};
+use slideway::standstill::{HoldOptions, HoldReport, HoldVerdict, Range, hold, hold_with};
 use slideway::{Model, Settings, gallery};
+use std::ops::ControlFlow;
 
 fn held(text: &str, options: &HoldOptions) -> HoldReport {
     let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
@@ -168,4 +169,18 @@ fn a_bar_is_held_in_a_range_of_forces(#[case] friction: &str, #[case] reference:
          [coordinates.x]\nslide = \"lower\"\n"
     );
     assert_ranges(&factors(&text, "P"), &[reference.map(Some)]);
+}
+
+/// A mechanism of an independent review, of which `hold` takes minutes: the search for the states in which its hinge begins to
+/// turn looks at the callback, and ends where that says so.
+#[test]
+fn the_search_for_states_that_begin_to_turn_ends_where_it_is_told_to() {
+    let model = Model::parse(include_str!("../findings/hold_with_a_curve.toml")).unwrap();
+    let mut looks = 0;
+    let ended = hold_with(&model, &HoldOptions::default(), &mut |progress| {
+        looks += usize::from(progress.counted == "nodes");
+        if looks > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(ended.unwrap().is_none());
+    assert!((1..100).contains(&looks), "{looks}");
 }

@@ -19,7 +19,10 @@ use slideway::model::Model;
 use slideway::modes::ContactState::{self, Negative, Positive};
 use slideway::modes::certificate::IntervalMatrix;
 use slideway::modes::certificate::{Decision, decide};
+use slideway::solve::{SolveOptions, solve_with};
 use std::cell::Cell;
+use std::fmt::Write;
+use std::ops::ControlFlow;
 
 /// Widths relative to the greatest entry of a column that count as narrow.
 const WIDTH: f64 = 3e-12;
@@ -292,5 +295,47 @@ fn random_mechanisms_lie_within_the_bounds() {
         "{} of {}",
         enclosed.get(),
         tried.get()
+    );
+}
+
+/// A cart on a rail with so many bars on it, one hanging from the other.
+fn chain(bars: usize) -> String {
+    let mut points = String::from("gravity = 9.81\n[points]\np0 = [0, 0]\n");
+    let mut rest = String::from(
+        "[bodies.b0]\npoints = [\"p0\"]\nmass = 1\nmoment_of_inertia = 0.01\ncentre_of_mass = \"p0\"\n\
+         [joints.s]\ntype = \"block_slider\"\nblock = \"b0\"\nat = \"p0\"\nalong = 0\nlength = 0.1\nmu = 0.2\n\
+         [coordinates.x]\nslide = \"s\"\nrate = 1\n",
+    );
+    for bar in 1..=bars {
+        let above = bar - 1;
+        writeln!(points, "p{bar} = [{}, 0]", 0.1 * bar as f64).unwrap();
+        write!(
+            rest,
+            "[bodies.b{bar}]\npoints = [\"p{above}\", \"p{bar}\"]\nmass = 1\nmoment_of_inertia = 0.01\n\
+             centre_of_mass = \"p{bar}\"\n[joints.h{bar}]\ntype = \"hinge\"\n\
+             between = [\"b{bar}.p{above}\", \"b{above}.p{above}\"]\n[coordinates.q{bar}]\nrotation = \"b{bar}\"\n\
+             rate = 0.1\n",
+        )
+        .unwrap();
+    }
+    points + &rest
+}
+
+/// Bounds of the equations of 50 bodies take some 10^8 multiplications before the search begins: a callback that breaks ends
+/// them, and is called no more than once by each stage.
+#[test]
+fn bounds_of_many_bodies_are_given_up_when_the_work_is_to_end() {
+    let model = Model::parse(&chain(50)).unwrap();
+    let mut calls = 0;
+    let report = solve_with(&model, &SolveOptions::default(), &mut |_| {
+        calls += 1;
+        ControlFlow::Break(())
+    })
+    .unwrap();
+    assert!(report.partial && calls <= 4, "{calls} calls");
+    assert!(
+        report.open.iter().any(|reason| reason.contains("the work was ended before")),
+        "{:?}",
+        report.open
     );
 }

@@ -10,7 +10,7 @@ use crate::modes::SearchOptions;
 use crate::modes::blocks::{self, BlockSolution, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
-use crate::progress::Work;
+use crate::progress::{Callback, Progress, Work};
 use crate::report::{ModeEndCause, ModeMargin, Proof};
 use std::ops::ControlFlow;
 
@@ -80,14 +80,16 @@ impl<'a> Growth<'a> {
 
     /// Whether it is proven that there is no solution just beyond an end.
     fn nothing_is_left(&self, end: &ModeEnd) -> bool {
-        self.solutions(end.at + BEYOND).is_some_and(|solutions| solutions.is_empty())
+        self.solutions(end.at + BEYOND, &mut undisturbed).is_some_and(|solutions| solutions.is_empty())
     }
 
-    /// All solutions with this logarithm of the factor; none if their list is not proven complete.
-    fn solutions(&self, logarithm: f64) -> Option<Vec<BlockSolution>> {
+    /// All solutions with this logarithm of the factor; none if their list is not proven complete, or once the callback
+    /// breaks.
+    fn solutions(&self, logarithm: f64, progress: &mut Callback<'_>) -> Option<Vec<BlockSolution>> {
         let options = SearchOptions { nodes: NODES, ..SearchOptions::default() };
-        let instance = self.at(logarithm).ok()?;
-        let result = blocks::search(&instance.problem, &options, &mut |_| ControlFlow::Continue(()));
+        let problem = &self.at(logarithm).ok()?.problem;
+        let unique = unique_for_every_load(problem);
+        let result = blocks::search_all_or_nothing(problem, unique, &options, progress);
         (result.complete == Proof::Proven).then_some(result.solutions)
     }
 
@@ -98,7 +100,7 @@ impl<'a> Growth<'a> {
     }
 
     fn number_at(&self, logarithm: f64) -> Option<Number> {
-        let mut solutions = self.solutions(logarithm)?;
+        let mut solutions = self.solutions(logarithm, &mut undisturbed)?;
         let instance = self.at(logarithm).ok()?;
         solutions.retain(|solution| solution.gaps.is_empty() && keeps_bounds(&instance, solution));
         let last = solutions.pop().filter(|_| solutions.is_empty());
@@ -172,7 +174,7 @@ impl<'a> Growth<'a> {
     fn locking(&self, work: Work<'_>) -> Option<f64> {
         let (mut at, mut end) = (0.0, None);
         for _ in 0..BRANCHES {
-            let solutions = self.solutions(at)?;
+            let solutions = self.solutions(at, &mut |_| work.flow())?;
             let ends = solutions
                 .iter()
                 .map(|solution| Some(end_of(&|at| self.at(at), (solution, at), INFINITY.ln(), PART)?.end.at));
@@ -202,6 +204,11 @@ impl<'a> Growth<'a> {
         let found = branches(&family, &options, work).branches;
         found.iter().map(|branch| branch.to.end.at).fold(0.0, f64::max)
     }
+}
+
+/// Goes on.
+fn undisturbed(_: &Progress) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }
 
 /// A number of at least 1, rounded down to four significant digits, or to a whole number.

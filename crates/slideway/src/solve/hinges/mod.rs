@@ -19,7 +19,9 @@ use super::answer::Answer;
 use super::mode_problem::{overflow, preload_columns, without_rounding};
 use super::stages::Stages;
 use crate::configuration::Configuration;
-use crate::enclosure::{BlockCoefficients, TurningHinge, UncertainParameters, enclosed_block_problem};
+use crate::enclosure::{
+    BlockCoefficients, TurningHinge, UncertainParameters, enclosed_block_problem, enclosed_while,
+};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::influence::Influence;
@@ -75,7 +77,9 @@ pub(super) fn solve(
         return Ok(report);
     }
     let problem = block_problem(stages.hinged(), &turning)?;
-    let enclosed = enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning);
+    let enclosed = enclosed_while(progress, |work| {
+        enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning, work)
+    });
     answer.enclosed = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);

@@ -6,7 +6,9 @@ use crate::enclosure::TurningHinge;
 use crate::fault::Faults;
 use crate::influence::HingeState;
 use crate::kinetics::Accuracy;
-use crate::modes::blocks::{BlockProblem, BlockSolution, only_solution, search};
+use crate::modes::blocks::{
+    BlockProblem, BlockSolution, only_solution, search_all_or_nothing, unique_for_every_load,
+};
 use crate::modes::certificate::Sign;
 use crate::modes::screen::SLACK;
 use crate::modes::{ContactState, Proof, SearchOptions, Side};
@@ -56,7 +58,8 @@ pub(crate) fn hinged_states(
         last.0 = only.point;
         return Ok(state.map(|state| vec![state]));
     }
-    let found = search(&problem, &SearchOptions::default(), progress);
+    let unique = unique_for_every_load(&problem);
+    let found = search_all_or_nothing(&problem, unique, &SearchOptions::default(), progress);
     if found.complete != Proof::Proven {
         return Ok(None);
     }

@@ -3,7 +3,9 @@
 use super::super::SolveOptions;
 use super::super::uncertainty::{Presence, Searched};
 use super::found::HingedAnswer;
-use crate::enclosure::{EnclosedBlockProblem, Tipping, UncertainParameters, enclosed_block_problem};
+use crate::enclosure::{
+    EnclosedBlockProblem, Tipping, UncertainParameters, enclosed_block_problem, enclosed_while,
+};
 use crate::interval::{Interval, Real};
 use crate::model::{Model, ParameterRange};
 use crate::modes::blocks::{
@@ -28,8 +30,10 @@ impl HingedAnswer<'_> {
     ) -> Option<Uncertainty> {
         let state = (self.answer.mechanism, self.answer.configuration);
         self.answer.uncertainty_over(ranges, &mut |uncertain: &UncertainParameters| {
-            let enclosed = enclosed_block_problem(model, uncertain, state, self.hinges)
-                .map_err(|reason| reason.to_string())?;
+            let enclosed = enclosed_while(progress, |work| {
+                enclosed_block_problem(model, uncertain, state, self.hinges, work)
+            })
+            .map_err(|reason| reason.to_string())?;
             presences(&enclosed, &located(&enclosed.problem, &options.search, progress)?)
         })
     }
