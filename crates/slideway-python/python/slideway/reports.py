@@ -2271,8 +2271,8 @@ class RawContinuum(Record):
     `BeyondRange`; its sign is that of the pattern."""
 
     pattern: str
-    """"+", "-" or "0" for every unknown, as the `signs` of a solution; "0" is also an unknown in its gap, and
-    "*" a free unknown that has both signs."""
+    """"+", "-" or "0" for every unknown, as the `signs` of a solution inside the set: "0" is zero throughout, or
+    in its gap, and "*" a free unknown that has both signs."""
     parts: tuple[ContinuumPart, ...]
     """Its parts: unknowns that vary together and, last, those that are fixed, if any."""
 
@@ -2366,13 +2366,14 @@ class RawSolution(Record):
     """One solution, or one state with an unknown in its gap."""
 
     signs: tuple[int, ...]
-    """Sign of every `z_k - w_k`, `x_k` (of blocks, too: component by component) or `N_k`; 0 where it vanishes.
-    With two bounds: -1 where `z_k = l_k`, 1 where `z_k = u_k`, 0 between, and for free and fixed `z_k`. Of a
-    mixed problem, the signs of `u` come first. Of a game: for the pure strategies of both players, 1 if it is
-    played, 0 if it is another best response, -1 if not."""
+    """Sign of every `z_k - w_k`, `x_k` (of blocks, too: component by component, and 0 where the sign is not
+    certain) or `N_k`; 0 where it vanishes. With two bounds: -1 where `z_k = l_k`, 1 where `z_k = u_k`, 0
+    between, and for free and fixed `z_k`. Of a mixed problem, the signs of `u` come first. Of a game: for the
+    pure strategies of both players, 1 if it is played, 0 if it is another best response, -1 if not."""
     on_boundary: bool
-    """Whether some sign outside a gap is 0: the solution is on the boundary between patterns. Of blocks: whether
-    some block may be zero."""
+    """Whether the solution is on the boundary between patterns: both unknowns of a pair vanish, or an unknown
+    whose coefficients depend on its sign, outside a gap. A free unknown that is zero is on no boundary. Of
+    blocks: whether some block may be zero."""
     enclosure_radius: float | None = None
     """Maximum distance of the unknowns that have a number from the exact solution for the given numbers; absent
     if it was not determined."""
