@@ -38,9 +38,7 @@ pub(super) fn direction(
         efforts(&report, frictionless(&stages), &velocities(&stages));
     // What tips now, or just beyond the factor.
     let tips = match &report.margins {
-        _ if !report.rejected.is_empty() => {
-            report.rejected.iter().map(|rejection| rejection.joint.clone()).collect()
-        }
+        _ if !report.rejected.is_empty() => report.tipping_joints(),
         Some(margins) => margins.tips.clone(),
         None => Vec::new(),
     };

@@ -79,11 +79,10 @@ impl Analysis {
 /// Of each range without a solution what tips at three values within it.
 fn tipping(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Option<Tipping>> {
     let at = |value: f64| -> Vec<String> {
-        let rejected = varied.solved(value, work).map_or_else(|_| Vec::new(), |report| report.rejected);
-        rejected.into_iter().map(|rejection| rejection.joint).collect()
+        varied.solved(value, work).map_or_else(|_| Vec::new(), |report| report.tipping_joints())
     };
     let within = |count: &CountInterval| {
-        let is_asked = count.solutions + count.gap_states == 0 && varied.model().has_guided_sliders();
+        let is_asked = count.is_empty() && varied.model().has_guided_sliders();
         let shares: &[f64] = if is_asked { &[0.125, 0.5, 0.875] } else { &[] };
         let places = shares.iter().map(|share| count.from + share * (count.to - count.from));
         Tipping::of(places.filter(|_| !work.is_over()).map(at))

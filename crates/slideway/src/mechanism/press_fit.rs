@@ -35,14 +35,15 @@ impl<T> Slider<T> {
 }
 
 impl<T> Mechanism<T> {
-    /// The names of the guided sliders with these numbers, which follow the order of the joints.
+    /// The names of the guided sliders with these numbers, which follow the order of the joints, each once.
     pub(crate) fn guided_sliders(&self, numbers: &[usize]) -> Vec<String> {
         let guided = self.joints.iter().filter(|joint| match &joint.kind {
             JointKind::Slider(slider) => slider.is_guided(),
             JointKind::Hinge(_) => false,
         });
         let names: Vec<&str> = guided.map(|joint| &*joint.name).collect();
-        numbers.iter().filter_map(|&number| names.get(number)).map(|name| (*name).to_owned()).collect()
+        let is_meant = |(number, _): &(usize, &&str)| numbers.contains(number);
+        names.iter().enumerate().filter(is_meant).map(|(_, name)| (*name).to_owned()).collect()
     }
 
     /// One contact for each place: of a press fit the positive face.

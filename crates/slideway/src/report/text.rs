@@ -46,6 +46,14 @@ impl Report for SolveReport {
 }
 
 impl SolveReport {
+    /// The guided sliders that tip in what is no solution for that reason, each once.
+    pub(crate) fn tipping_joints(&self) -> Vec<String> {
+        let mut joints: Vec<String> = self.rejected.iter().map(|rejection| rejection.joint.clone()).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
+    }
+
     /// What there is, in one sentence.
     pub fn verdict_in_words(&self) -> String {
         match self.status {

@@ -94,12 +94,12 @@ fn state_of(setup: &Setup, pattern: &Pattern) -> Result<Option<MotionState>, Uns
 /// contacts that stick: the greatest least slack, in units of the setup; nothing where they cannot, or where that is not
 /// decided. The forces of the hinges that turn are taken in these directions.
 pub(crate) fn whole_slack(setup: &Setup, pattern: &Pattern, directions: &[[f64; 2]]) -> Option<f64> {
-    greatest_slack(setup, (pattern, directions), |state, friction| state.region(friction))
+    greatest_slack(setup, (pattern, directions), State::region)
 }
 
 /// The same within the bounds of what sticks alone, and of what is shared out with it.
 pub(crate) fn sticking_slack(setup: &Setup, pattern: &Pattern, directions: &[[f64; 2]]) -> Option<f64> {
-    greatest_slack(setup, (pattern, directions), |state, friction| state.sticking_region(friction))
+    greatest_slack(setup, (pattern, directions), State::sticking_region)
 }
 
 fn greatest_slack(

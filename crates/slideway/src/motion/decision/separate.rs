@@ -138,17 +138,13 @@ pub(super) fn continuations(
     let mut found = Continuations::default();
     let mut lists: Vec<Vec<Continuation>> = Vec::with_capacity(parts.len());
     for (part, undisturbed) in parts.iter().zip(undisturbed) {
-        lists.push(match event.previous.filter(|_| undisturbed && !nothing_happens) {
-            Some(previous) => vec![Continuation {
-                phase: part.phase(previous),
-                verdict: Verdict::NotComputed,
-                continues: true,
-            }],
-            None => {
-                let Continuations { list, left_out } = part.at(event, &mut decide)?;
-                found.left_out |= left_out;
-                list
-            }
+        let goes_on = event.previous.filter(|_| undisturbed && !nothing_happens);
+        lists.push(if let Some(previous) = goes_on {
+            vec![Continuation { phase: part.phase(previous), verdict: Verdict::NotComputed, continues: true }]
+        } else {
+            let Continuations { list, left_out } = part.at(event, &mut decide)?;
+            found.left_out |= left_out;
+            list
         });
     }
     let states = lists.iter().fold(1_usize, |product, list| product.saturating_mul(list.len()));
