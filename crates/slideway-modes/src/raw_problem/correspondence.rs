@@ -196,9 +196,14 @@ impl Correspondence {
         }
     }
 
-    /// The bounds of all contacts and the signs of their unknowns in the sums; zero and one where there is no bound.
+    /// The bounds of all contacts and the signs of their unknowns in the sums; zero and one where there is no bound. The
+    /// distance from an upper bound makes the same sum as that from the lower one.
     pub(super) fn shifts(&self) -> Vec<(f64, f64)> {
-        (0..self.roles.len()).map(|contact| self.shift(contact).unwrap_or((0.0, 1.0))).collect()
+        let shift = |contact: usize| match self.roles[contact] {
+            Role::Ceiling(_, bound) => (bound, -1.0),
+            _ => self.shift(contact).unwrap_or((0.0, 1.0)),
+        };
+        (0..self.roles.len()).map(shift).collect()
     }
 
     /// Whether the sum of a bound and this value may be off by more than its own rounding: it is smaller than the value,
