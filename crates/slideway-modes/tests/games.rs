@@ -256,3 +256,12 @@ fn equal_payoffs_make_one_product_of_simplices() {
         );
     }
 }
+
+/// What a strategy that is not played falls short by depends on the other player's strategy: of two equilibria that differ in
+/// the row player's strategy (by enumeration of vertices), each has its own payoff.
+#[test]
+fn ends_of_sets_have_their_own_payoffs() {
+    check(&dmatrix![2.0, 0.0, 0.0; 2.0, 0.0, 0.0], &dmatrix![0.0, 1.0, -1.0; 2.0, 0.0, 2.0]);
+    let a = dmatrix![-1.0, 0.0, 0.0; -1.0, 1.0, 0.0; 1.0, 0.0, -1.0];
+    check(&a, &dmatrix![2.0, -1.0, 1.0; -1.0, 2.0, -1.0; 0.0, 1.0, 1.0]);
+}

@@ -153,10 +153,12 @@ fn points_of_singular_patterns_have_a_radius() {
         .flat_map(|vertex| vertex.named()[0].1.to_vec())
         .collect();
     assert_eq!(ends.iter().filter(|end| **end == 1.0 / 3.0).count(), 2, "{ends:?}");
-    // z_1 + z_2 = 0 admits zero only, though its columns depend on each other; z_3 = 1/3.
-    let problem = json!({"type": "lcp", "M": [[-1, -1, 0], [-1, -1, 0], [0, 0, 3]], "q": [0, 0, -1]});
+    // w_1 + w_2 = -z_1 - z_2, so that all four are zero, and z_3 = 1/3. The row of w_3 is zero: every pattern with z_3 > 0
+    // is singular. The nearest number to 1/3 is at most half of 2^-54 away.
+    let problem = json!({"type": "lcp", "M": [[-1, 0, 3], [0, -1, -3], [0, 0, 0]], "q": [-1, 1, 0]});
     let point = only_solution(&problem);
-    assert!(point["enclosure_radius"].as_f64().is_some_and(|radius| radius <= 2.0_f64.powi(-54)), "{point}");
+    assert_eq!(point["z"], json!([0.0, 0.0, 1.0 / 3.0]));
+    assert!(point["enclosure_radius"].as_f64().is_some_and(|radius| radius <= 2.0_f64.powi(-55)), "{point}");
 }
 
 /// A fraction is rounded once, also one of integers that no number holds.

@@ -237,8 +237,11 @@ impl<'a> Teller<'a> {
         let exactly = singular || is_degenerate || !beyond_range.is_empty();
         let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
             && (!exactly || size <= EXACT_UNKNOWNS);
+        // Where sums lose digits, so do bounds on what they are computed with.
+        let is_exact = singular || !values.sums.is_empty();
         let radius = |exact_unknowns: &mut ExactUnknowns<'_>| {
-            if singular { self.exact_radius(exact_unknowns, &values) } else { self.radius(&pattern, &values) }
+            let exact = is_exact.then(|| self.exact_radius(exact_unknowns, &values)).flatten();
+            exact.or_else(|| (!singular).then(|| self.radius(&pattern, &values)).flatten())
         };
         let enclosure_radius = (affordable && values.gaps.is_empty())
             .then(|| radius(&mut exact_unknowns))
@@ -277,7 +280,7 @@ impl<'a> Teller<'a> {
         radius.is_finite().then_some(radius)
     }
 
-    /// The same for a point of a singular pattern, which is known exactly.
+    /// The same for a point that is known exactly.
     fn exact_radius(&self, exact_unknowns: &mut ExactUnknowns<'_>, values: &Values) -> Option<f64> {
         let mut distance = |at: usize| {
             let error = exact_unknowns.of(at)? - exact(values.signed[at].abs());

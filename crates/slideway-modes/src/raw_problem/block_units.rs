@@ -42,9 +42,12 @@ pub(super) fn in_own_units(problem: BlockProblem) -> (Vec<i32>, BlockProblem) {
 /// Exponents of the units of all blocks.
 fn units(problem: &BlockProblem) -> Vec<i32> {
     let blocks = problem.blocks();
+    // A number that may be zero, within its error, has no size.
     let size = |part: &IntervalMatrix, block: usize, column: usize| {
-        let bound = |row: usize| part.centre()[(row, column)].abs().max(part.radius()[(row, column)]);
-        problem.rows_of(block).map(bound).fold(0.0, f64::max).log2()
+        let entry = |row: usize| (part.centre()[(row, column)].abs(), part.radius()[(row, column)]);
+        let certain = |(centre, radius): &(f64, f64)| centre > radius;
+        let sizes = problem.rows_of(block).map(entry).filter(certain).map(|(centre, _)| centre);
+        sizes.fold(0.0, f64::max).log2()
     };
     let response = problem.response(Side::Positive);
     let sizes = DMatrix::from_fn(blocks, blocks, |block, column| size(response, block, column));
@@ -114,6 +117,18 @@ mod tests {
         assert_eq!(units, [1002, 2]);
         assert_eq!(scaled.response(Side::Positive).centre(), &dmatrix![0.5, 1.0; 0.0, 0.25]);
         assert_eq!(scaled.response(Side::Positive).radius().amax(), 0.0);
+    }
+
+    /// What blocks do to one another is zero but for rounding errors: their loads alone are their units.
+    #[test]
+    fn errors_of_zeros_have_no_size() {
+        let none = BySide::same(IntervalMatrix::exact(DMatrix::zeros(2, 2)));
+        let rounded =
+            IntervalMatrix::around(dmatrix![0.5, 1e-17; -1e-17, 2.0], dmatrix![0.0, 2e-17; 1e-17, 0.0]);
+        let response = BySide::same(rounded.expect("finite"));
+        let load = IntervalMatrix::exact(dmatrix![0.5; -1.0]);
+        let problem = BlockProblem::within_bounds(response, none, load).expect("finite");
+        assert_eq!(units(&problem), [-1, 0]);
     }
 
     #[test]

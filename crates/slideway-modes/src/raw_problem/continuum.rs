@@ -66,8 +66,14 @@ impl Points<'_> {
     fn told(&self, contacts: &[usize], values: &[f64]) -> Unknowns {
         let mut signed = self.rest.clone();
         contacts.iter().zip(values).for_each(|(&contact, &value)| signed[contact] = value);
-        let exact = ExactUnknowns::new(self.problem, self.pattern, &signed);
-        self.correspondence.point(contacts, values, &Sums::of_point(self.correspondence, &signed, exact))
+        self.told_of(contacts, &signed)
+    }
+
+    /// The same from the values of all unknowns.
+    fn told_of(&self, contacts: &[usize], signed: &[f64]) -> Unknowns {
+        let values: Vec<f64> = contacts.iter().map(|&contact| signed[contact]).collect();
+        let exact = ExactUnknowns::new(self.problem, self.pattern, signed);
+        self.correspondence.point(contacts, &values, &Sums::of_point(self.correspondence, signed, exact))
     }
 }
 
@@ -145,11 +151,9 @@ fn strategies(
             other => corners.extend(other.normal_force().cloned()),
         }
     }
-    let own = |point: DVector<f64>| {
-        let values: Vec<f64> = contacts.iter().map(|&contact| point[contact]).collect();
-        points.told(contacts, &values)
-    };
-    let mut vertices = distinct(corners.into_iter().map(own));
+    // What strategies of the other player that are not played fall short by varies with this player's strategy, so that a
+    // corner keeps all its values.
+    let mut vertices = distinct(corners.iter().map(|point| points.told_of(contacts, point.as_slice())));
     let vertex_count = vertices.len();
     vertices.truncate(most);
     let indices = points.correspondence.indices(contacts);

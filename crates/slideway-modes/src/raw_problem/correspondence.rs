@@ -24,8 +24,8 @@ pub(super) enum Role {
     Ceiling(usize, f64),
     /// `z = bound`, `w = N`.
     Fixed(usize, f64),
-    /// A known number.
-    Constant,
+    /// `N` is this number.
+    Constant(f64),
     /// The payoff `constant + y+` of a player, 0 or 1.
     Payoff(usize, f64),
 }
@@ -106,7 +106,7 @@ impl Correspondence {
             | Role::Below(index, _)
             | Role::Ceiling(index, _)
             | Role::Fixed(index, _) => Some(index),
-            Role::Constant | Role::Payoff(..) => None,
+            Role::Constant(_) | Role::Payoff(..) => None,
         });
         indices.collect::<BTreeSet<usize>>().into_iter().collect()
     }
@@ -150,7 +150,7 @@ impl Correspondence {
                     set(index, (value <= 0.0 && !direction).then_some(bound), -below);
                 }
                 Role::Fixed(index, bound) => set(index, Some(from(bound)), value),
-                Role::Constant => {}
+                Role::Constant(_) => {}
                 Role::Payoff(player, least) => told.payoffs[player] = Some(sum(least, above)),
             }
         }
@@ -196,9 +196,14 @@ impl Correspondence {
         }
     }
 
-    /// The bounds of all contacts and the signs of their unknowns in the sums; zero and one where there is no bound.
+    /// The bounds of all contacts and the signs of their unknowns in the sums; zero and one where there is no bound. The
+    /// distance from an upper bound makes the same sum as that from the lower one, and a known number makes zero.
     pub(super) fn shifts(&self) -> Vec<(f64, f64)> {
-        (0..self.roles.len()).map(|contact| self.shift(contact).unwrap_or((0.0, 1.0))).collect()
+        let shift = |contact: usize| match self.roles[contact] {
+            Role::Ceiling(_, number) | Role::Constant(number) => (number, -1.0),
+            _ => self.shift(contact).unwrap_or((0.0, 1.0)),
+        };
+        (0..self.roles.len()).map(shift).collect()
     }
 
     /// Whether the sum of a bound and this value may be off by more than its own rounding: it is smaller than the value,
@@ -243,7 +248,7 @@ impl Correspondence {
                 one(RawUnknown::Z, index - self.first, 1.0, bound)
             }
             (Role::Below(index, bound), _) if signed > 0.0 => one(RawUnknown::Z, index, -1.0, bound),
-            (Role::Above(_, _), RawKind::Game) | (Role::Constant, _) => Vec::new(),
+            (Role::Above(_, _), RawKind::Game) | (Role::Constant(_), _) => Vec::new(),
             (Role::Above(index, _), _) => one(RawUnknown::W, index - self.first, 1.0, 0.0),
             (Role::Ceiling(..), _) if signed > 0.0 => Vec::new(),
             (Role::Below(index, _) | Role::Ceiling(index, _), _) => one(RawUnknown::W, index, -1.0, 0.0),

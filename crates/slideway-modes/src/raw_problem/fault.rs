@@ -260,9 +260,10 @@ impl RawFault {
                 "every entry must be a finite number; in `l` and `u` of type mcp, null means no bound"
                     .to_owned(),
             ),
-            Self::NotANumber { found: "a text", .. } => {
-                Some(r#"a fraction is a text of two integers, such as "-2/3""#.to_owned())
-            }
+            Self::NotANumber { found: "a text", .. } => Some(
+                r#"write numbers without quotation marks, or as a fraction of two integers, such as "-2/3""#
+                    .to_owned(),
+            ),
             Self::NotFinite { key, value, .. }
                 if value.is_infinite() && matches!(key.as_str(), "l" | "u") =>
             {

@@ -93,7 +93,9 @@ impl Bounds {
         let Layout { boxed, shifted, .. } = self.layout(m, q);
         let own = (0..q.len()).map(|at| self.role(at));
         let ceilings = boxed.into_iter().map(|at| Role::Ceiling(at, self.upper[at]));
-        own.chain(ceilings).chain(shifted.into_iter().map(|_| Role::Constant)).collect()
+        own.chain(ceilings)
+            .chain(shifted.into_iter().map(|at| Role::Constant(self.start(at).abs())))
+            .collect()
     }
 
     /// The number of unknowns of the mode problem.

@@ -164,6 +164,10 @@ impl Sums {
         }
     }
 
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The sum of a contact.
     pub(super) fn value(&self, contact: usize) -> Option<f64> {
         self.0.get(&contact).map(|(value, _)| *value)
