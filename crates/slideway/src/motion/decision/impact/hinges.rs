@@ -147,7 +147,7 @@ impl Hinged<'_> {
         let sign = (velocity != 0.0).then(|| velocity.signum());
         match targets.iter().find(|(pushed, _)| *pushed == joint) {
             Some((_, target)) => KnownMotion {
-                sign: Some(sign.unwrap_or_else(|| target.signum())),
+                sign: sign.or(Some(if *target == 0.0 { -self.setup.stops[joint] } else { target.signum() })),
                 acceleration: velocity - target,
                 pushed: true,
             },

@@ -57,10 +57,10 @@ pub struct Blow {
 /// sliding or angular velocity reaches zero. Where no impulse of the stop is possible friction wedges the mechanism, as in
 /// a [`jam`](super::jam()), and what comes to rest so is not thrown back.
 ///
-/// Stops that are reached together act together: the velocities `v_i` towards them fall to zero in proportion, then
-/// change to `-e_i v_i` in proportion. A stop may also exert no impulse, if the others move its joint away from it at least
-/// as fast: `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau); where the
-/// impact is over earlier, with as much of `e_i` as the others have reached.
+/// Stops that are reached together act together: the velocities `v_i` towards them change to `-e_i v_i` in
+/// proportion. A stop may also exert no impulse, if the others move its joint away from it at least as fast:
+/// `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau). Where they would return
+/// more work than they have taken, all `e_i` are reduced in proportion until they return as much.
 /// Without friction this is a linear complementarity problem with a unique outcome, which removes a kinetic
 /// energy of `sum_i P_i (1 - e_i) v_i/2`. All choices of the stops that push are tried.
 ///
@@ -118,7 +118,7 @@ struct AfterImpact {
     jumps: DVector<f64>,
     /// Of the stops (N s).
     impulses: Vec<f64>,
-    /// Work of the stops (J).
+    /// Work of the stops (J): negative while they have taken more than they have returned.
     work: f64,
 }
 
@@ -234,30 +234,61 @@ impl Collision<'_> {
 
     /// The outcome of the impact; `None` unless exactly these stops can push.
     fn outcome(&self, pushed: &dyn Pushed, unsolved: &mut usize) -> Result<Option<AfterImpact>, Faults> {
+        let undecided = *unsolved;
+        let whole = self.course(pushed, 1.0, unsolved)?;
+        let bounded = match whole {
+            Some(course) if course.work <= 0.0 => Some((1.0, course)),
+            None if !self.wedges || *unsolved > undecided => None,
+            _ => self.greatest(pushed, unsolved)?,
+        };
+        let is_left = |hit: &Hit, part: f64, course: &AfterImpact| {
+            let leaves = -self.velocities[hit.joint].signum() * course.velocities[hit.joint];
+            leaves >= part * hit.restitution * self.velocities[hit.joint].abs() - self.rounding()
+        };
+        let all_leave =
+            |(part, course): &(f64, AfterImpact)| self.hits.iter().all(|hit| is_left(hit, *part, course));
+        Ok(bounded.filter(all_leave).map(|(_, course)| course))
+    }
+
+    /// The greatest part of all restitutions with which the impact has a course in which the stops return no more work than
+    /// they have taken, and that course. Without restitution they return none.
+    fn greatest(
+        &self,
+        pushed: &dyn Pushed,
+        unsolved: &mut usize,
+    ) -> Result<Option<(f64, AfterImpact)>, Faults> {
+        let Some(dead) = self.course(pushed, 0.0, unsolved)? else { return Ok(None) };
+        let (mut best, mut beyond) = ((0.0, dead), 1.0);
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = f64::midpoint(best.0, beyond);
+            match self.course(pushed, middle, unsolved)? {
+                Some(course) if course.work <= 0.0 => best = (middle, course),
+                _ => beyond = middle,
+            }
+        }
+        Ok(Some(best))
+    }
+
+    /// The course of the impact until the velocities of the joints that are pushed have this part of their restitution, in
+    /// proportion; `None` if there is none.
+    fn course(
+        &self,
+        pushed: &dyn Pushed,
+        part: f64,
+        unsolved: &mut usize,
+    ) -> Result<Option<AfterImpact>, Faults> {
         let mut course = AfterImpact {
             velocities: self.velocities.to_vec(),
             jumps: DVector::zeros(self.size),
             impulses: vec![0.0; self.hits.len()],
             work: 0.0,
         };
-        let targets = |part: f64| -> Vec<(usize, f64)> {
-            let target = |hit: &Hit| (hit.joint, -part * hit.restitution * self.velocities[hit.joint]);
-            self.pushing().map(|(_, hit)| target(hit)).collect()
+        let target = |(_, hit): (usize, &Hit)| {
+            let target = -part * hit.restitution * self.velocities[hit.joint];
+            (hit.joint, self.without_rounding(target))
         };
-        if !self.follow(pushed, &mut course, &targets(0.0), unsolved)? {
-            return Ok(None);
-        }
-        let undecided = *unsolved;
-        let returns = self.follow(pushed, &mut course, &targets(1.0), unsolved)?;
-        if !returns && (!self.wedges || *unsolved > undecided) {
-            return Ok(None);
-        }
-        let leaves = |hit: &Hit| -self.velocities[hit.joint].signum() * course.velocities[hit.joint];
-        let wanted = |hit: &Hit| hit.restitution * self.velocities[hit.joint].abs();
-        let bounces = self.pushing().map(|(_, hit)| hit).filter(|hit| wanted(hit) > 0.0);
-        let reached = bounces.map(|hit| leaves(hit) / wanted(hit)).fold(1.0_f64, f64::min).max(0.0);
-        let is_left = |hit: &Hit| leaves(hit) >= reached * wanted(hit) - self.rounding();
-        Ok(self.hits.iter().all(is_left).then_some(course))
+        let targets: Vec<(usize, f64)> = self.pushing().map(target).collect();
+        Ok(self.follow(pushed, &mut course, &targets, unsolved)?.then_some(course))
     }
 
     /// The stops that push, each with its number.
@@ -265,9 +296,8 @@ impl Collision<'_> {
         self.hits.iter().enumerate().filter(|(hit, _)| self.pushes[*hit])
     }
 
-    /// Follows an impact until the joints have reached their velocities, in proportion, or the stops have returned the work
-    /// that they have taken; `false` if no impulse leads there. Every part except the last brings another joint or hinge to
-    /// rest.
+    /// Follows an impact until the joints have reached their velocities, in proportion; `false` if no impulse leads there.
+    /// Every part except the last brings another joint or hinge to rest.
     fn follow(
         &self,
         pushed: &dyn Pushed,
@@ -276,23 +306,20 @@ impl Collision<'_> {
         unsolved: &mut usize,
     ) -> Result<bool, Faults> {
         for _ in 0..4 * course.velocities.len() + 2 {
+            course.velocities.iter_mut().for_each(|velocity| *velocity = self.without_rounding(*velocity));
             if targets.iter().all(|(joint, target)| course.velocities[*joint] == *target) {
                 return Ok(true);
             }
-            course.velocities.iter_mut().for_each(|velocity| *velocity = self.without_rounding(*velocity));
             let Some((change, reaches)) = self.change(pushed, course, targets, unsolved)? else {
                 return Ok(false);
             };
             let ends: (f64, &[(usize, f64)]) = if reaches { (1.0, targets) } else { (f64::INFINITY, &[]) };
             let (part, stops) = until_one_stops(pushed, &course.velocities, &change.velocities, ends);
-            let returned = self.returned(course, (&change, part));
-            let part = returned.unwrap_or(part);
             if !part.is_finite() {
                 return Ok(false);
             }
             self.go_on(course, (&change, part));
             match stops {
-                _ if returned.is_some() => return Ok(true),
                 Some(other) => course.velocities[other] = 0.0,
                 None => targets.iter().for_each(|(joint, target)| course.velocities[*joint] = *target),
             }
@@ -329,43 +356,17 @@ impl Collision<'_> {
         Ok(pushed.wedged(course)?.map(|change| (change, false)))
     }
 
-    /// A part of a change.
+    /// A part of a change. The stops do the work `sum_i -d_i P_i (v_i + c_i/2)`, with the sense `d_i` in which their joints
+    /// reach them.
     fn go_on(&self, course: &mut AfterImpact, (change, part): (&Change, f64)) {
-        course.work = self.work(course, (change, part));
+        for ((number, hit), impulse) in self.pushing().zip(&change.impulses) {
+            let mean = course.velocities[hit.joint] + part * change.velocities[hit.joint] / 2.0;
+            course.work -= self.velocities[hit.joint].signum() * part * impulse * mean;
+            course.impulses[number] += part * impulse;
+        }
         let velocities = course.velocities.iter_mut().zip(&change.velocities);
         velocities.for_each(|(velocity, change)| *velocity += part * change);
         course.jumps += &change.jumps * part;
-        for ((hit, _), impulse) in self.pushing().zip(&change.impulses) {
-            course.impulses[hit] += part * impulse;
-        }
-    }
-
-    /// `sum_i -d_i P_i (v_i + c_i/2)` of the stops that push, with the sense `d_i` in which their joints reach them: what they
-    /// have done before, and the linear and the quadratic term of a part of a change.
-    fn works(&self, course: &AfterImpact, change: &Change) -> [f64; 3] {
-        let terms = self.pushing().zip(&change.impulses).map(|((_, hit), impulse)| {
-            let push = -self.velocities[hit.joint].signum() * impulse;
-            [push * course.velocities[hit.joint], push * change.velocities[hit.joint] / 2.0]
-        });
-        terms.fold([course.work, 0.0, 0.0], |[before, linear, square], [one, other]| {
-            [before, linear + one, square + other]
-        })
-    }
-
-    fn work(&self, course: &AfterImpact, (change, part): (&Change, f64)) -> f64 {
-        let [before, linear, square] = self.works(course, change);
-        before + part * (linear + part * square)
-    }
-
-    /// The part of a change after which the stops have returned the work that they have taken; nothing if that is later.
-    fn returned(&self, course: &AfterImpact, (change, part): (&Change, f64)) -> Option<f64> {
-        let impulse: f64 = change.impulses.iter().map(|impulse| part * impulse).sum();
-        let is_over = self.work(course, (change, part)) > impulse * self.rounding();
-        let [before, linear, square] = self.works(course, change);
-        let root = (linear * linear - 4.0 * square * before).max(0.0).sqrt();
-        is_over.then(|| {
-            if linear > 0.0 { -2.0 * before / (linear + root) } else { (root - linear) / (2.0 * square) }
-        })
     }
 }
 

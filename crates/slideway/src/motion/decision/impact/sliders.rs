@@ -133,7 +133,9 @@ impl Sliders<'_> {
             (0..velocities.len()).map(|joint| self.impulses.options(joint, velocities[joint])).collect();
         for &(joint, target) in targets {
             jumps[joint] = target - velocities[joint];
-            let sign = if stopped[joint] { jumps[joint].signum() } else { velocities[joint].signum() };
+            let away = -self.impulses.instant.joints[joint].stop;
+            let moves = [velocities[joint], jumps[joint]].into_iter().find(|change| *change != 0.0);
+            let sign = moves.unwrap_or(away).signum();
             options[joint] = vec![JointPhase::Sliding(sign)];
         }
         let mut question = self.impulses.question(&jumps, &stopped);
