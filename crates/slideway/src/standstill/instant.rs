@@ -93,13 +93,15 @@ fn state_of(setup: &Setup, pattern: &Pattern) -> Result<Option<MotionState>, Uns
 /// By how much the forces of a pattern in which joints or hinges stick stay within all bounds, over the sides of the
 /// contacts that stick: the greatest least slack, in units of the setup; nothing where they cannot, or where that is not
 /// decided. The forces of the hinges that turn are taken in these directions.
+#[expect(clippy::redundant_closure_for_method_calls, reason = "the method holds for one lifetime only")]
 pub(crate) fn whole_slack(setup: &Setup, pattern: &Pattern, directions: &[[f64; 2]]) -> Option<f64> {
-    greatest_slack(setup, (pattern, directions), State::region)
+    greatest_slack(setup, (pattern, directions), |state, friction| state.region(friction))
 }
 
 /// The same within the bounds of what sticks alone, and of what is shared out with it.
+#[expect(clippy::redundant_closure_for_method_calls, reason = "the method holds for one lifetime only")]
 pub(crate) fn sticking_slack(setup: &Setup, pattern: &Pattern, directions: &[[f64; 2]]) -> Option<f64> {
-    greatest_slack(setup, (pattern, directions), State::sticking_region)
+    greatest_slack(setup, (pattern, directions), |state, friction| state.sticking_region(friction))
 }
 
 fn greatest_slack(
