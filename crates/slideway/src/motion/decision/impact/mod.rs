@@ -238,8 +238,10 @@ impl Collision<'_> {
         let whole = self.course(pushed, 1.0, unsolved)?;
         let bounded = match whole {
             Some(course) if course.work <= 0.0 => Some((1.0, course)),
+            Some(_) => self.greatest(pushed, unsolved)?,
             None if !self.wedges || *unsolved > undecided => None,
-            _ => self.greatest(pushed, unsolved)?,
+            // There is no way back.
+            None => self.course(pushed, 0.0, unsolved)?.map(|dead| (0.0, dead)),
         };
         let is_left = |hit: &Hit, part: f64, course: &AfterImpact| {
             let leaves = -self.velocities[hit.joint].signum() * course.velocities[hit.joint];
