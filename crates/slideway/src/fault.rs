@@ -159,20 +159,14 @@ impl Faults {
         self.list.is_empty()
     }
 
-    /// The faults in the order of their places, each once: those of the file, of settings, of other arguments in the order
-    /// in which these have been read; faults without a place come last.
+    /// The faults in the order of their places, each once: those of the file, of settings, of other arguments; faults
+    /// without a place come last.
     pub fn sorted(&self) -> Vec<&Fault> {
         let mut sorted: Vec<&Fault> = self.list.iter().collect();
-        let read = |source: &Source| {
-            let found = |fault: &Fault| fault.place.as_ref().is_some_and(|place| place.source == *source);
-            self.list.iter().position(found).unwrap_or_default()
-        };
         sorted.sort_by_key(|fault| match &fault.place {
-            Some(place) => match &place.source {
-                Source::Model => (0, 0, place.span.start),
-                Source::Setting(index) => (1, *index, place.span.start),
-                source @ Source::Argument(_) => (2, read(source), place.span.start),
-            },
+            Some(Place { source: Source::Model, span }) => (0, 0, span.start),
+            Some(Place { source: Source::Setting(index), span }) => (1, *index, span.start),
+            Some(Place { source: Source::Argument(_), span }) => (2, 0, span.start),
             None => (3, 0, 0),
         });
         // What is written once for two contacts may be found at each of them.
