@@ -83,9 +83,12 @@ fn payoffs_are_those_of_what_is_played() {
     }
     // From an independent review.
     let game = json!({"type": "game", "A": [[1, -1, -3]],
-        "B": [[3.458764513820541e18, 1.152921504606847e18, -1e308]]});
+        "B": [[3.458_764_513_820_541e18, 1.152_921_504_606_847e18, -1e308]]});
     let solution = only_solution(&game);
-    assert_eq!((&solution["payoff_1"], &solution["payoff_2"]), (&json!(1.0), &json!(3.458764513820541e18)));
+    assert_eq!(
+        (&solution["payoff_1"], &solution["payoff_2"]),
+        (&json!(1.0), &json!(3.458_764_513_820_541e18))
+    );
 }
 
 /// x_1 + |x| < 0 and x_2 = 0 has no solution: x_1 >= -|x|. Neither has x_3 = 1, x_2 = -2, x_1 = |(x_1, x_2)| + 1e300 - 1:
