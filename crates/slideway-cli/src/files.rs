@@ -56,7 +56,7 @@ impl<'o> Files<'o> {
     /// If it is one of the files that are read, or another one that is written.
     pub(crate) fn standard(&mut self) -> Result<Output, Failure> {
         self.write(Path::new("standard output"), Place::of_stream(&io::stdout()))?;
-        Ok(Output::standard(self.output.color()))
+        Ok(Output::standard(self.output.look()))
     }
 
     /// A further file that is written.
@@ -70,7 +70,7 @@ impl<'o> Files<'o> {
         if !self.destination.force && is_regular(path) {
             return Err(Failure::OutputExists { path: path.to_owned() });
         }
-        Ok(Output::file(self.output.color(), path, self.destination.force))
+        Ok(Output::file(self.output.look(), path, self.destination.force))
     }
 
     /// A further file that is read.

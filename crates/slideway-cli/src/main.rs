@@ -23,7 +23,7 @@ use clap::builder::Styles;
 use clap::{CommandFactory, Parser};
 use failure::Failure;
 use outcome::Outcome;
-use output::{Output, complain};
+use output::{Look, Output, complain};
 use slideway::printable;
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| explain(&error));
     let color = arguments.color.into();
     threads::bound(color);
-    let outcome = run(&arguments.command, &Output::standard(color));
+    let outcome = run(&arguments.command, &Output::standard(Look { color, verbose: arguments.verbose }));
     outcome.unwrap_or_else(|failure| refuse(&failure, color)).into()
 }
 
@@ -70,7 +70,9 @@ fn explain(error: &clap::Error) -> ! {
         |word: std::ffi::OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
     if !error.use_stderr() {
         let printed = error.print().and_then(|()| io::stdout().flush());
-        let told = Output::standard(ColorChoice::Auto).told(printed).map(|()| Outcome::Done);
+        let told = Output::standard(Look { color: ColorChoice::Auto, verbose: false })
+            .told(printed)
+            .map(|()| Outcome::Done);
         let outcome = told.unwrap_or_else(|failure| refuse(&failure, ColorChoice::Auto));
         std::process::exit(i32::from(outcome as u8));
     }

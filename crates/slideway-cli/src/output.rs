@@ -10,12 +10,22 @@ use slideway_tables::{PARTIAL, beside};
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use terminal_size::{Width, terminal_size_of};
 
 /// Where the answer of a command goes.
 #[derive(Debug)]
 pub(crate) struct Output {
-    color: ColorChoice,
+    look: Look,
     file: Option<OutputFile>,
+}
+
+/// How text looks, as it was asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Look {
+    /// When to use colours.
+    pub(crate) color: ColorChoice,
+    /// Whether to show the details.
+    pub(crate) verbose: bool,
 }
 
 #[derive(Debug)]
@@ -31,15 +41,15 @@ struct OutputFile {
 
 impl Output {
     /// Standard output.
-    pub(crate) fn standard(color: ColorChoice) -> Self {
-        Self { color, file: None }
+    pub(crate) fn standard(look: Look) -> Self {
+        Self { look, file: None }
     }
 
     /// A file. [`crate::files::Files`] sees to it that it may be written.
-    pub(crate) fn file(color: ColorChoice, path: &Path, overwrite: bool) -> Self {
+    pub(crate) fn file(look: Look, path: &Path, overwrite: bool) -> Self {
         let is_stream = path.exists() && !is_regular(path);
         Self {
-            color,
+            look,
             file: Some(OutputFile { path: path.to_owned(), target: followed(path), overwrite, is_stream }),
         }
     }
@@ -60,12 +70,17 @@ impl Output {
 
     /// When to use colours.
     pub(crate) fn color(&self) -> ColorChoice {
-        self.color
+        self.look.color
+    }
+
+    /// How text looks.
+    pub(crate) fn look(&self) -> Look {
+        self.look
     }
 
     /// Whether text that accompanies the answer, on a standard stream, may use colours.
     pub(crate) fn style_of_text(&self) -> Style {
-        Self::standard(self.color).style()
+        Self::standard(self.look).style()
     }
 
     /// Standard output, or a device or pipe, for an answer that is written bit by bit.
@@ -97,13 +112,19 @@ impl Output {
         }
     }
 
-    /// Whether text that goes there may use colours.
+    /// How text that goes there looks: as wide as the terminal is, elsewhere 100 columns.
     pub(crate) fn style(&self) -> Style {
-        let choice = match self.color {
+        let choice = match self.look.color {
             ColorChoice::Auto => AutoStream::choice(&io::stdout()),
             choice => choice,
         };
-        if self.file.is_none() && choice != ColorChoice::Never { Style::Colour } else { Style::Plain }
+        let style = Style::PLAIN.verbose(self.look.verbose);
+        if self.file.is_some() {
+            return style;
+        }
+        let columns =
+            terminal_size_of(io::stdout()).map_or(style.width, |(Width(columns), _)| columns.into());
+        style.colour(choice != ColorChoice::Never).width(columns)
     }
 
     /// Writes an answer that is no text.
@@ -140,7 +161,7 @@ impl Output {
         if self.file.is_some() {
             return self.write_bytes(text.as_bytes());
         }
-        let mut stream = AutoStream::new(io::stdout(), self.color).lock();
+        let mut stream = AutoStream::new(io::stdout(), self.look.color).lock();
         self.told(stream.write_all(text.as_bytes()).and_then(|()| stream.flush()))
     }
 }

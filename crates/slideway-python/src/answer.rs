@@ -90,7 +90,7 @@ pub(crate) fn not_finite(error: NotFinite) -> PyErr {
 
 /// The style of a text, with colours for a terminal if wanted.
 pub(crate) fn style(color: bool) -> Style {
-    if color { Style::Colour } else { Style::Plain }
+    Style::PLAIN.colour(color)
 }
 
 /// The theme of this name.

@@ -52,7 +52,7 @@ struct Told {
 
 impl Told {
     fn of(report: &impl Report) -> Self {
-        Self { json: report.json(), text: report.text(Style::Plain), ..Self::default() }
+        Self { json: report.json(), text: report.text(Style::PLAIN), ..Self::default() }
     }
 }
 

@@ -234,8 +234,8 @@ fn pads_give_bearing_pressures() {
     assert_eq!(pressure(""), None);
 
     let [without, with] = ["", r#"pad = { width = "50 mm" }"#].map(guided);
-    assert!(!without.text(Style::Plain).contains("pressure in"));
-    assert!(with.text(Style::Plain).contains("pressure in Pa"), "{}", with.text(Style::Plain));
+    assert!(!without.text(Style::PLAIN).contains("pressure in"));
+    assert!(with.text(Style::PLAIN).contains("pressure in Pa"), "{}", with.text(Style::PLAIN));
     assert!(!without.csv().contains(",pressure,"));
     assert!(with.csv().contains(",contact,floor,pressure,10000,Pa\n"), "{}", with.csv());
     assert!(with.json().contains(r#""pressure": 10000.0"#), "{}", with.json());

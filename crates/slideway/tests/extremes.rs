@@ -191,7 +191,7 @@ fn forces_that_may_be_zero_are_told_as_zero() {
 fn told<R: Report>(answer: Result<Option<R>, Faults>) {
     match answer {
         Ok(Some(report)) => {
-            let text = report.text(Style::Plain);
+            let text = report.text(Style::PLAIN);
             assert!(!text.contains("NaN") && !text.contains(" inf"), "{text}");
         }
         Ok(None) => {}

@@ -108,7 +108,7 @@ proptest! {
                 let options = SolveOptions::default().search(search);
                 let report = solve::solve_with(&model, &options, &mut |_| ControlFlow::Continue(()));
                 if let Ok(report) = report {
-                    let text = report.text(report::Style::Plain);
+                    let text = report.text(report::Style::PLAIN);
                     prop_assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
                     // JSON knows no NaN: it would be null.
                     let json = report.json();
@@ -116,7 +116,7 @@ proptest! {
                     prop_assert!(!without_title.contains("null"), "{json}");
                 }
                 if let Ok(found) = check::check(&model) {
-                    prop_assert!(!found.text(report::Style::Plain).contains("NaN"));
+                    prop_assert!(!found.text(report::Style::PLAIN).contains("NaN"));
                 }
             }
         }

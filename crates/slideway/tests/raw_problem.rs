@@ -178,7 +178,7 @@ proptest! {
         prop_assert_eq!(report.solutions.len(), report.count.parse::<usize>().unwrap());
         prop_assert!(report.groups.iter().all(|group| (sum(&group.patterns) - 1.0).abs() <= 1e-12));
         prop_assert!(report.json().contains("slideway/modes/3"));
-        prop_assert!(report.text(Style::Plain).contains("complete: "));
+        prop_assert!(report.text(Style::PLAIN).contains("complete: "));
         prop_assert!(to_npz(&report).starts_with(b"PK"));
     }
 
@@ -203,7 +203,7 @@ proptest! {
         let solved = RawProblem::from_bytes(&bytes)
             .ok()
             .and_then(|problem| solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(())).ok());
-        prop_assert!(solved.is_none_or(|report| report.text(Style::Plain).contains("complete: ")));
+        prop_assert!(solved.is_none_or(|report| report.text(Style::PLAIN).contains("complete: ")));
     }
 }
 
@@ -259,7 +259,7 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
     let shares: Vec<(usize, f64)> = state.gaps.iter().map(|gap| (gap.index, gap.lambda)).collect();
     assert_eq!(shares, [(0, 0.875), (1, 0.75)]);
     assert!(state.shares_vary && state.residual == Some(0.0) && !state.on_boundary);
-    let told = report.text(Style::Plain);
+    let told = report.text(Style::PLAIN);
     assert!(told.contains("These shares are an example: others have the same values"), "{told}");
     assert!(report.json().contains("\"shares_vary\": true"));
 }
@@ -302,7 +302,7 @@ fn values_beyond_floating_point_numbers_are_told_as_text() {
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["solutions"][0]["z"], serde_json::json!([null, 1.0]));
     assert_eq!(json["solutions"][0]["w"], serde_json::json!([0.0, 0.0]));
-    assert!(report.text(Style::Plain).contains("9.9999999999999997e309"));
+    assert!(report.text(Style::PLAIN).contains("9.9999999999999997e309"));
     assert!(!to_npz(&report).is_empty());
 }
 
@@ -329,7 +329,7 @@ fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
         panic!("z and w")
     };
     assert!(z[0].is_nan() && z[1] == 0.0, "{z:?}");
-    assert!(report.text(Style::Plain).contains("beyond the range of numbers"));
+    assert!(report.text(Style::PLAIN).contains("beyond the range of numbers"));
 }
 
 /// A + B = 1e16 + 1 is no floating-point number; x = (1, 1) and (-1, -1).
@@ -389,7 +389,7 @@ fn an_orthant_of_many_unknowns_is_told_in_few_words() {
     let report = solved(&lcp(DMatrix::zeros(400, 400), &[0.0; 400]));
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
     assert_eq!(report.continua[0].parts.len(), 400);
-    assert!(report.json().len() < 500_000 && report.text(Style::Plain).len() < 5000);
+    assert!(report.json().len() < 500_000 && report.text(Style::PLAIN).len() < 5000);
 }
 
 /// Nobody's payoff depends on anything, so that every pair of strategies is an equilibrium: the product of two
@@ -403,7 +403,7 @@ fn patterns_settled_by_a_face_are_told() {
     let [group] = report.groups.as_slice() else { panic!("one group") };
     assert!(group.patterns.faces > 0.0, "{:?}", group.patterns);
     assert!((sum(&group.patterns) - 1.0).abs() <= 1e-12, "{:?}", group.patterns);
-    let told = report.text(Style::Plain);
+    let told = report.text(Style::PLAIN);
     assert!(told.contains(" % all of whose solutions are those of another pattern, "), "{told}");
 }
 
@@ -416,7 +416,7 @@ fn a_cube_of_many_corners_lists_those_that_were_asked_for() {
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
     let part = &report.continua[0].parts[0];
     assert_eq!((part.vertices.len(), part.vertex_count), (4, 9));
-    assert!(report.text(Style::Plain).contains("There are 5 ends and directions more"));
+    assert!(report.text(Style::PLAIN).contains("There are 5 ends and directions more"));
 }
 
 /// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and
@@ -484,7 +484,7 @@ fn a_pile_without_friction_has_a_solution_within_rounding() {
     // The same in exact numbers: J^T z is that of the z above, (0.5, -0.2).
     let forces = [0, 1].map(|at| (0..4).map(|row| j[row][at] * z[row]).sum::<f64>());
     assert!((forces[0] - 0.5).abs() < 1e-14 && (forces[1] + 0.2).abs() < 1e-14, "{forces:?}");
-    assert!(report.text(Style::Plain).contains("Hint: within rounding of the numbers (relative 1e-15)"));
+    assert!(report.text(Style::PLAIN).contains("Hint: within rounding of the numbers (relative 1e-15)"));
 }
 
 #[test]

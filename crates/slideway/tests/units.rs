@@ -31,7 +31,7 @@ fn with_key(key: &str) -> Model {
 }
 
 fn text<R: Report>(report: &R) -> String {
-    report.text(Style::Plain)
+    report.text(Style::PLAIN)
 }
 
 /// Whether a text has all of these parts and none of those.

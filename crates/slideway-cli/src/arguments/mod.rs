@@ -63,6 +63,10 @@ pub(crate) struct Arguments {
     /// Whether to colour the output; `auto` does so on terminals, and respects NO_COLOR and CLICOLOR_FORCE.
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN", display_order = 900)]
     pub(crate) color: Color,
+
+    /// Show the details, too: signs, determinants, residuals, how the answer was found
+    #[arg(long, short, global = true, display_order = 901)]
+    pub(crate) verbose: bool,
 }
 
 const AFTER_HELP: &str = "\

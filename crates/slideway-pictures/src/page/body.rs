@@ -4,6 +4,7 @@ use super::summary::summary;
 use super::{Figure, Page, all, text};
 use crate::drawing::svg::{self, Colours};
 use crate::drawing::{Sheet, number, quantity, signs};
+use slideway::Report;
 use slideway::limits::{LimitsReport, ModeLimits};
 use slideway::report::{JointMode, LoadSharing, Proof, Solution, SolveReport, followed, precise};
 use slideway::units::{Unit, Units};

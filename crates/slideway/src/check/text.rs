@@ -4,12 +4,22 @@ use super::{CheckReport, ContactFit, ContactSummary};
 use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{Report, Style, count, followed};
 use crate::units::Unit;
 use anstyle::AnsiColor;
 
 impl Report for CheckReport {
+    fn answer(&self) -> String {
+        match (self.sound, self.warnings.is_empty()) {
+            (true, true) => "Sound: it can be solved in this state.".to_owned(),
+            (true, false) => "It can be solved in this state, but look at the warnings.".to_owned(),
+            _ => {
+                let findings = count(self.findings.len(), "finding", "findings");
+                format!("It cannot be solved in this state: {findings}.")
+            }
+        }
+    }
+
     /// The verdict first, then what the model consists of.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -46,15 +56,12 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let (colour, verdict) = if report.sound && !report.warnings.is_empty() {
-            (AnsiColor::Yellow, "It can be solved in this state, but look at the warnings.".to_owned())
-        } else if report.sound {
-            (AnsiColor::Green, "Sound: it can be solved in this state.".to_owned())
-        } else {
-            let findings = count(report.findings.len(), "finding", "findings");
-            (AnsiColor::Red, format!("It cannot be solved in this state: {findings}."))
+        let colour = match (report.sound, report.warnings.is_empty()) {
+            (true, true) => AnsiColor::Green,
+            (true, false) => AnsiColor::Yellow,
+            _ => AnsiColor::Red,
         };
-        self.painted(colour.on_default().bold(), &verdict, "");
+        self.painted(colour.on_default().bold(), &report.answer(), "");
         for finding in &report.findings {
             self.line(&format!("  - {}", finding.message));
             if let Some(hint) = &finding.hint {
@@ -141,7 +148,7 @@ impl Text<'_> {
         header.extend(has_moved.then(|| length.title("moved from the drawing by")));
         header.extend(has_moved.then(|| angle.title("turned by")));
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        self.table(&header, &bodies.collect::<Vec<_>>(), 1);
+        self.rows(&header, &bodies.collect::<Vec<_>>());
         let joints = report.joints.iter().map(|joint| {
             vec![
                 joint.name.clone(),
@@ -154,11 +161,11 @@ impl Text<'_> {
         });
         let header =
             ["joint", "kind", "joins", "positive direction", "constraints", &length.title("overlap")];
-        self.table(&header, &joints.collect::<Vec<_>>(), 4);
+        self.rows(&header, &joints.collect::<Vec<_>>());
         let [force, speed] = ["N", "m/s"].map(|si| units.of(si));
         let contacts = report.contacts.iter().map(|contact| contact_row(contact, [&force, &speed]));
         let header = ["contact", "mu", "mu_static", &force.title("preload"), &speed.title("sliding")];
-        self.table(&header, &contacts.collect::<Vec<_>>(), 1);
+        self.rows(&header, &contacts.collect::<Vec<_>>());
         self.fits();
         self.speeds_and_stops();
         let coordinates = report.coordinates.iter().map(|coordinate| {
@@ -172,7 +179,7 @@ impl Text<'_> {
             ]
         });
         let header = ["coordinate", "kind", "positive direction", "drive", "value", "rate"];
-        self.table(&header, &coordinates.collect::<Vec<_>>(), 4);
+        self.rows(&header, &coordinates.collect::<Vec<_>>());
     }
 
     /// How contacts fit that share their load.
@@ -196,7 +203,7 @@ impl Text<'_> {
                 &length.title("misalignment"),
                 &stiffness.title("stiffness"),
             ];
-            self.table(&header, &rows, 1);
+            self.rows(&header, &rows);
         }
     }
 
@@ -242,10 +249,10 @@ impl Text<'_> {
         }
     }
 
-    fn table(&mut self, header: &[&str], rows: &[Vec<String>], words: usize) {
+    fn rows(&mut self, header: &[&str], rows: &[Vec<String>]) {
         if !rows.is_empty() {
             self.line("");
-            self.lines(&table(header, rows, words));
+            self.table(header, rows);
         }
     }
 }

@@ -8,11 +8,14 @@ use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{LOCKED, OpenRange, Report, Status, Style, Verdict, count, spaced, tips};
 use crate::units::Unit;
 
 impl Report for DriveReport {
+    fn answer(&self) -> String {
+        self.conclusion.join(" ")
+    }
+
     /// What it comes to, the efforts in the state, and those over what is varied.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -207,7 +210,7 @@ impl Page<'_, DriveReport> {
             rows.push(one);
         }
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        self.lines(&table(&header, &rows, 2));
+        self.table(&header, &rows);
     }
 
     fn effort_titles(&self) -> Vec<String> {
@@ -236,7 +239,7 @@ impl Page<'_, DriveReport> {
         for direction in &course.directions {
             self.line("");
             self.headline(&format!("{}, over {}", moving(direction.direction), course.vary.name));
-            self.lines(&self.course_table(course, direction));
+            self.course_table(course, direction);
             for blow_up in &direction.blow_ups {
                 let told = without_bound(self.report, blow_up);
                 let at = course.vary.shown_in.precise(blow_up.at);
@@ -255,7 +258,7 @@ impl Page<'_, DriveReport> {
         self.line(&course.guarantee);
     }
 
-    fn course_table(&self, course: &Course, direction: &CourseDirection) -> String {
+    fn course_table(&mut self, course: &Course, direction: &CourseDirection) {
         let mut header = vec![course.vary.shown_in.title(&course.vary.name), "signs".to_owned()];
         header.extend(self.effort_titles());
         header.extend(self.report.drives.iter().map(|drive| format!("{} without friction", drive.name)));
@@ -264,7 +267,7 @@ impl Page<'_, DriveReport> {
         let units = self.effort_units();
         let row = |row: &CourseRow| course_row(row, &course.vary.shown_in, &units);
         let rows: Vec<Vec<String>> = direction.rows.iter().map(row).collect();
-        table(&header, &rows, 0)
+        self.table(&header, &rows);
     }
 }
 

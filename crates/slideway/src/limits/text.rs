@@ -7,12 +7,15 @@ use super::report::{
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, spaced};
 use crate::standstill::CoordinateValue;
 use crate::units::Unit;
 
 impl Report for LimitsReport {
+    fn answer(&self) -> String {
+        self.conclusion.join(" ")
+    }
+
     /// What it comes to, the modes, the numbers of solutions.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -27,6 +30,10 @@ impl Report for LimitsReport {
 }
 
 impl Report for RestLimitsReport {
+    fn answer(&self) -> String {
+        self.spans.iter().map(|span| self.in_words(span)).collect::<Vec<_>>().join(" ")
+    }
+
     /// Each stretch in a sentence.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -42,22 +49,28 @@ impl Report for RestLimitsReport {
         let at = if at.is_empty() { String::new() } else { format!(" at {}", at.join(", ")) };
         text.line(&format!("At rest{at}, {range} (in the model {value})"));
         text.line("");
-        for SpanOfRest { from, to, holds, reason } in &self.spans {
-            let verdict = match (holds, reason) {
-                (_, Some(reason)) => format!("there is no answer: {reason}"),
-                (Some(true), _) => "it can stay at rest".to_owned(),
-                (Some(false), _) => "it does not hold".to_owned(),
-                (None, _) => "not decided".to_owned(),
-            };
-            let place = if from == to {
-                format!("{} = {}", vary.name, unit.precise(*from))
-            } else {
-                unit.range(&vary.name, [*from, *to])
-            };
-            text.headline(&format!("{place}: {verdict}."));
-        }
+        self.spans.iter().for_each(|span| text.headline(&self.in_words(span)));
         text.line(&self.guarantee);
         text.text()
+    }
+}
+
+impl RestLimitsReport {
+    /// "mu from 0.2 to 1: it can stay at rest."
+    fn in_words(&self, SpanOfRest { from, to, holds, reason }: &SpanOfRest) -> String {
+        let unit = &self.vary.shown_in;
+        let verdict = match (holds, reason) {
+            (_, Some(reason)) => format!("there is no answer: {reason}"),
+            (Some(true), _) => "it can stay at rest".to_owned(),
+            (Some(false), _) => "it does not hold".to_owned(),
+            (None, _) => "not decided".to_owned(),
+        };
+        let place = if from == to {
+            format!("{} = {}", self.vary.name, unit.precise(*from))
+        } else {
+            unit.range(&self.vary.name, [*from, *to])
+        };
+        format!("{place}: {verdict}.")
     }
 }
 
@@ -96,8 +109,7 @@ impl Page<'_, LimitsReport> {
             titles.insert(1, "orientation");
             rows.iter_mut().zip(modes).for_each(|(row, mode)| row.insert(1, orientation(mode).to_owned()));
         }
-        let left = titles.len() - 5;
-        self.lines(&table(&titles, &rows, left));
+        self.table(&titles, &rows);
         for mode in modes.iter().filter(|mode| !mode.speeds.is_empty()) {
             let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
             self.line(&format!("  {}: {}", name.trim(), speeds_in_words(&mode.speeds, unit)));
@@ -108,7 +120,7 @@ impl Page<'_, LimitsReport> {
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
         let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
-        self.lines(&table(&[&from, &to, "solutions", "preload gaps", "known"], &rows, 0));
+        self.table(&[&from, &to, "solutions", "preload gaps", "known"], &rows);
         for RangeWithoutProblem { from, to, reason } in gaps {
             self.line(&no_answer([*from, *to], unit, reason));
         }

@@ -9,7 +9,9 @@ use crate::model::Model;
 use crate::progress::Work;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Report, SpeedChange, Style, indented, locked, no_drive_prescribes, precise, spaced};
+use crate::report::{
+    Answered, Report, SpeedChange, Style, indented, locked, no_drive_prescribes, precise, spaced,
+};
 use crate::units::Unit;
 use serde::Serialize;
 
@@ -129,7 +131,7 @@ impl Report for MapReport {
     fn json(&self) -> String {
         let row = |row: &Vec<[usize; 2]>| serde_json::to_string(row).unwrap_or_default();
         let rows: Vec<String> = self.rows.iter().map(row).collect();
-        let empty = indented(&Self { rows: Vec::new(), ..self.clone() });
+        let empty = indented(&Answered::of(&Self { rows: Vec::new(), ..self.clone() }));
         empty.replace("\"rows\": []", &format!("\"rows\": [\n    {}\n  ]", rows.join(",\n    ")))
     }
 }

@@ -6,7 +6,6 @@ use super::{
 };
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{Report, Status, Style, count};
 
 /// Groups that are told one by one.
@@ -17,6 +16,41 @@ const PARTS: usize = 8;
 const SIGNS: usize = 64;
 
 impl Report for RawReport {
+    fn answer(&self) -> String {
+        let found = match self.open.is_empty() {
+            _ if self.partial => " found so far",
+            true => "",
+            false => " found",
+        };
+        let (one, more) = words(self.kind);
+        let single = match self.count.as_str() {
+            "0" => format!("No single {one}"),
+            "1" => format!("One {one}"),
+            count => format!("{count} {more}"),
+        };
+        let single = format!("{single}{found}");
+        match self.status {
+            Status::None => format!("No {one}."),
+            Status::Unknown if self.partial => {
+                "Nothing found, but not every sign pattern could be decided.".to_owned()
+            }
+            Status::Unknown => "Nothing found, but that is not proven.".to_owned(),
+            Status::Continuum => {
+                let continua = match self.continuum_count.as_str() {
+                    "1" => "one continuum".to_owned(),
+                    count => format!("{count} continua"),
+                };
+                let as_well = if self.count == "0" { String::new() } else { format!(" {single} as well.") };
+                format!("Infinitely many {more}: {continua}{found}.{as_well}")
+            }
+            Status::PreloadGap => {
+                let none = if self.open.is_empty() { "No solution" } else { "No solution found" };
+                format!("{none}, but a state with an unknown in its preload gap.")
+            }
+            Status::One | Status::Several => format!("{single}."),
+        }
+    }
+
     /// The verdict first, then the solutions, then how they were found.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -51,41 +85,7 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let found = match report.open.is_empty() {
-            _ if report.partial => " found so far",
-            true => "",
-            false => " found",
-        };
-        let (one, more) = words(report.kind);
-        let single = match report.count.as_str() {
-            "0" => format!("No single {one}"),
-            "1" => format!("One {one}"),
-            count => format!("{count} {more}"),
-        };
-        let single = format!("{single}{found}");
-        let verdict = match report.status {
-            Status::None => format!("No {one}."),
-            Status::Unknown if report.partial => {
-                "Nothing found, but not every sign pattern could be decided.".to_owned()
-            }
-            Status::Unknown => "Nothing found, but that is not proven.".to_owned(),
-            Status::Continuum => {
-                let continua = match report.continuum_count.as_str() {
-                    "1" => "one continuum".to_owned(),
-                    count => format!("{count} continua"),
-                };
-                format!("Infinitely many {more}: {continua}{found}.")
-            }
-            Status::PreloadGap => {
-                let none = if report.open.is_empty() { "No solution" } else { "No solution found" };
-                format!("{none}, but a state with an unknown in its preload gap.")
-            }
-            Status::One | Status::Several => format!("{single}."),
-        };
-        self.status(report.status, &verdict);
-        if report.status == Status::Continuum && report.count != "0" {
-            self.line(&format!("{single} as well."));
-        }
+        self.status(report.status, &report.answer());
         self.line(&format!("complete: {}", report.complete));
         for open in &report.open {
             self.line(&format!("  open: {open}"));
@@ -284,7 +284,8 @@ impl Text<'_> {
                 indices.iter().filter(|at| range.contains(at)).map(|at| at - range.start).collect();
             if !own.is_empty() {
                 let names: Vec<(usize, &str)> = same.iter().map(|(at, named)| (*at, named.name)).collect();
-                self.lines(&rows(&names, (&own, columns), labels, beyond_range));
+                let (header, rows) = rows(&names, (&own, columns), labels, beyond_range);
+                self.table(&header, &rows);
             }
         }
     }
@@ -391,7 +392,7 @@ fn rows(
     (indices, columns): (&[usize], &[&Unknowns]),
     labels: &[String],
     beyond_range: &[BeyondRange],
-) -> String {
+) -> (Vec<String>, Vec<Vec<String>>) {
     let mut header = vec!["k".to_owned()];
     for label in labels {
         let titles =
@@ -408,8 +409,8 @@ fn rows(
         }
         row
     };
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    table(&header, &indices.iter().enumerate().map(row).collect::<Vec<_>>(), 0)
+    let rows = indices.iter().enumerate().map(row).collect();
+    (header, rows)
 }
 
 /// What a person wants to see, with its place: of a mode problem the normal forces alone, whose sizes are the

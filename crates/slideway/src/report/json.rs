@@ -1,7 +1,23 @@
 //! A report as JSON.
 
+use super::Report;
 use crate::printable;
 use serde::Serialize;
+
+/// A report with its answer before it.
+#[derive(Serialize)]
+pub(crate) struct Answered<'r, R> {
+    #[serde(skip_serializing_if = "String::is_empty")]
+    answer: String,
+    #[serde(flatten)]
+    report: &'r R,
+}
+
+impl<'r, R: Report> Answered<'r, R> {
+    pub(crate) fn of(report: &'r R) -> Self {
+        Self { answer: report.answer(), report }
+    }
+}
 
 /// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped. All JSON is
 /// written here: a number that is not finite, for which there would be `null`, is refused.

@@ -11,7 +11,8 @@ mod json;
 pub(crate) mod page;
 mod sharing;
 mod speed;
-pub(crate) mod table;
+mod style;
+mod table;
 mod text;
 mod undetermined;
 
@@ -20,12 +21,13 @@ pub use crate::units::precise;
 pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
-pub(crate) use json::indented;
+pub(crate) use json::{Answered, indented};
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::no_drive_prescribes;
 pub use speed::{FromRest, SpeedChange, Stopping};
+pub use style::Style;
+pub use text::followed;
 pub(crate) use text::{LOCKED, count, locked, spaced, tips};
-pub use text::{Style, followed};
 pub use undetermined::{OpenRange, Undetermined};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
@@ -40,12 +42,18 @@ pub use slideway_modes::{Proof, Status};
 /// use slideway::{Model, Report, gallery, solve};
 ///
 /// let report = solve(&Model::parse(gallery::find("drawer").expect("in the gallery").text)?)?;
-/// assert!(report.text(Style::Plain).contains("One solution."));
+/// assert!(report.text(Style::PLAIN).contains("One solution."));
 /// assert!(report.json().contains("\"status\": \"one\""));
 /// # Ok::<(), slideway::Faults>(())
 /// ```
 pub trait Report: Serialize {
-    /// As text for people: words first, then aligned numbers.
+    /// The answer as one would say it to a colleague, in one or a few sentences: what the text begins with, and `answer`
+    /// of the JSON. Empty for what is only read by programs.
+    fn answer(&self) -> String {
+        String::new()
+    }
+
+    /// As text for people: the answer, what a designer needs, and with [`Style::verbose`] how it is known.
     fn text(&self, style: Style) -> String;
 
     /// As indented JSON, ending in a line end; the version of its layout is in `schema`.
@@ -57,7 +65,7 @@ pub trait Report: Serialize {
     where
         Self: Sized,
     {
-        json::indented(self)
+        json::indented(&json::Answered::of(self))
     }
 
     /// The same JSON in one line.
@@ -68,7 +76,7 @@ pub trait Report: Serialize {
     where
         Self: Sized,
     {
-        json::in_one_line(self)
+        json::in_one_line(&json::Answered::of(self))
     }
 }
 

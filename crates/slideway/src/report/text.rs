@@ -3,25 +3,18 @@
 use super::number::number;
 use super::page::Page;
 use super::speed::friction_takes_more;
-use super::table::table;
 use super::{
     CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
-    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, UncertainMode,
+    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, Style, UncertainMode,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
 
-/// Whether the text may use colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Style {
-    /// Plain text, for files and pipes.
-    #[default]
-    Plain,
-    /// ANSI colours, for terminals.
-    Colour,
-}
-
 impl Report for SolveReport {
+    fn answer(&self) -> String {
+        self.verdict_in_words()
+    }
+
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
         text.heading();
@@ -166,7 +159,7 @@ impl SolveReport {
 
     /// How far all friction may grow before the answer changes, in words; empty where there is nothing to tell.
     pub fn margins_in_words(&self) -> String {
-        let mut text = Page::new(self, Style::Plain);
+        let mut text = Page::new(self, Style::PLAIN);
         text.margins();
         text.text().trim().to_owned()
     }
@@ -267,12 +260,11 @@ impl Text<'_> {
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
         if !contacts.is_empty() {
-            let contacts = contact_table(contacts, &self.report.model.units);
-            self.lines(&contacts);
+            let (header, rows) = contact_table(contacts, &self.report.model.units);
+            self.table(&header, &rows);
             self.line("");
         }
-        let motion = motion_table(self.report, solution);
-        self.lines(&motion);
+        self.table(&["", "", "value", "unit"], &motion_rows(self.report, solution));
         self.line("");
         if let Some(margin) = &solution.margin {
             self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
@@ -386,7 +378,7 @@ impl Text<'_> {
         let rows: Vec<Vec<String>> =
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
         let forces = self.report.model.units.of("N").title("normal forces");
-        self.lines(&table(&["signs", "exists", &forces], &rows, 3));
+        self.table(&["signs", "exists", &forces], &rows);
         let nominal: Vec<String> = uncertainty
             .parameters
             .iter()
@@ -468,7 +460,7 @@ impl Text<'_> {
         let heading = "The modes closest to locking (friction locks a mode where its determinant is zero)";
         self.headline(heading);
         let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
-        self.lines(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
+        self.table(&["signs", "contact mode", "determinant", ""], &rows);
     }
 }
 
@@ -559,7 +551,7 @@ fn closest_row(mode: &ClosestMode) -> Vec<String> {
     vec![spaced(&mode.pattern), modes.join("; "), number(mode.determinant), verdict.to_owned()]
 }
 
-fn contact_table(contacts: &[Contact], units: &Units) -> String {
+fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<String>>) {
     let [force, speed, couple, pressure] = ["N", "m/s", "N m", "Pa"].map(|si| units.of(si));
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
@@ -576,7 +568,6 @@ fn contact_table(contacts: &[Contact], units: &Units) -> String {
     header.extend(has_pad.then(|| pressure.title("pressure")));
     header.extend(has_share.then(|| "preload share at +".to_owned()));
     header.extend(has_deflection.then(|| length.title("deflection")));
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let optional =
         |value: Option<f64>, unit: &Unit| value.map_or(String::new(), |value| unit.against(value, scale));
     let row = |contact: &Contact| {
@@ -596,11 +587,11 @@ fn contact_table(contacts: &[Contact], units: &Units) -> String {
         }));
         row
     };
-    table(&header, &contacts.iter().map(row).collect::<Vec<_>>(), 1)
+    (header, contacts.iter().map(row).collect())
 }
 
 /// Coordinates, drives, hinges and bodies: name, what, value, unit.
-fn motion_table(report: &SolveReport, solution: &Solution) -> String {
+fn motion_rows(report: &SolveReport, solution: &Solution) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     let mut row = |name: &str, what: &str, value: String, unit: &Unit| {
         rows.push(vec![name.to_owned(), what.to_owned(), value, unit.name().to_owned()]);
@@ -636,7 +627,7 @@ fn motion_table(report: &SolveReport, solution: &Solution) -> String {
             row(&body.name, "angular acceleration", value, &angular);
         }
     }
-    table(&["", "", "value", "unit"], &rows, 2)
+    rows
 }
 
 fn pair(components: [f64; 2], scale: f64, unit: &Unit) -> String {

@@ -4,10 +4,13 @@ use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::{level, subject};
 use crate::report::number::precise;
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{CoordinateState, Report, Style};
 
 impl Report for SizeReport {
+    fn answer(&self) -> String {
+        self.conclusion.join(" ")
+    }
+
     /// What it comes to, where the margin is met, and a table of margins.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -51,7 +54,7 @@ impl Page<'_, SizeReport> {
         self.headline(&format!("Where the {what} is {side} {limit}"));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
         let [from, to] = ["from", "to"].map(|end| report.vary.shown_in.title(end));
-        self.lines(&table(&[&from, &to, "begins with", "ends with"], &rows, 0));
+        self.table(&[&from, &to, "begins with", "ends with"], &rows);
     }
 
     fn margins(&mut self) {
@@ -71,7 +74,7 @@ impl Page<'_, SizeReport> {
         let header = report.limit_shown_in.title(&what);
         let row = |sample: &super::Sample| vec![unit.precise_number(sample.at), margin(sample)];
         let rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
-        self.lines(&table(&[&name, &header], &rows, 0));
+        self.table(&[&name, &header], &rows);
     }
 }
 

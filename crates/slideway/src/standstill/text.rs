@@ -3,13 +3,34 @@
 use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold, Wedging};
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{Report, Style, count, followed, spaced};
 use crate::units::Unit;
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
 impl Report for HoldReport {
+    /// Whether it stays at rest, in one sentence: "It holds: it stays at rest."
+    fn answer(&self) -> String {
+        let ways = count(self.releases.len(), "state", "states");
+        match self.verdict {
+            HoldVerdict::Holds => "It holds: it stays at rest.".to_owned(),
+            HoldVerdict::MayHold => "It holds: it can stay at rest.".to_owned(),
+            HoldVerdict::HoldsUntilPushed => {
+                format!(
+                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
+                )
+            }
+            HoldVerdict::HoldsOrSlips => {
+                format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest.")
+            }
+            HoldVerdict::Moves => format!("It does not hold: {ways} in which it begins to move."),
+            HoldVerdict::Neither => {
+                "It can neither stay at rest nor begin to move with finite accelerations.".to_owned()
+            }
+            HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
+        }
+    }
+
     /// The verdict first, then load, reactions and release.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -30,34 +51,12 @@ impl HoldReport {
     /// Which drives are taken as absent or hold, whether it stays at rest, and what is known of the load that
     /// is varied, in lines of words.
     pub fn verdict_in_words(&self) -> String {
-        let mut text = Page::new(self, Style::Plain);
+        let mut text = Page::new(self, Style::PLAIN);
         text.drives();
         text.verdict();
         text.wedging();
         text.load();
         text.text().trim().to_owned()
-    }
-
-    /// Whether it stays at rest, in one sentence: "It holds: it stays at rest."
-    pub fn answer(&self) -> String {
-        let ways = count(self.releases.len(), "state", "states");
-        match self.verdict {
-            HoldVerdict::Holds => "It holds: it stays at rest.".to_owned(),
-            HoldVerdict::MayHold => "It holds: it can stay at rest.".to_owned(),
-            HoldVerdict::HoldsUntilPushed => {
-                format!(
-                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
-                )
-            }
-            HoldVerdict::HoldsOrSlips => {
-                format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest.")
-            }
-            HoldVerdict::Moves => format!("It does not hold: {ways} in which it begins to move."),
-            HoldVerdict::Neither => {
-                "It can neither stay at rest nor begin to move with finite accelerations.".to_owned()
-            }
-            HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
-        }
     }
 }
 
@@ -192,7 +191,7 @@ impl Text<'_> {
                 vec![coordinate.name.clone(), "coordinate".to_owned(), value, unit.name().to_owned()]
             }))
             .collect();
-        self.lines(&table(&["", "", "acceleration", "unit"], &rows, 2));
+        self.table(&["", "", "acceleration", "unit"], &rows);
         self.reactions(&release.reactions);
     }
 
@@ -217,7 +216,7 @@ impl Text<'_> {
         });
         let rows: Vec<Vec<String>> = rows.collect();
         if !rows.is_empty() {
-            self.lines(&table(&header, &rows, 1));
+            self.table(&header, &rows);
         }
         let has_friction = reactions.hinges.iter().any(|hinge| hinge.couple.is_some());
         let hinges = reactions.hinges.iter().map(|hinge| {
@@ -232,7 +231,7 @@ impl Text<'_> {
             let mut header = vec![String::new(), String::new(), force.title("x"), force.title("y")];
             header.extend(has_friction.then(|| torque.title("friction couple")));
             let header: Vec<&str> = header.iter().map(String::as_str).collect();
-            self.lines(&table(&header, &rows, 2));
+            self.table(&header, &rows);
         }
         for drive in &reactions.drives {
             let unit = self.report.units.of(drive.unit);

@@ -62,7 +62,7 @@ fn check(report: &RawReport, truth: &Truth, context: &str) {
     assert_eq!(report.continuum_count != "0", truth.continuum, "{context}");
     let (gaps, points): (Vec<&State>, Vec<&State>) =
         truth.states.iter().partition(|state| state.is_gap_state());
-    assert!(!report.text(Style::Plain).contains("NaN"), "{context}");
+    assert!(!report.text(Style::PLAIN).contains("NaN"), "{context}");
     assert!(!report.json().contains("inf"), "{context}");
     if !truth.continuum {
         let status = match (points.len(), gaps.len()) {

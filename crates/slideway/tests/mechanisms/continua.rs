@@ -65,7 +65,7 @@ fn solve_tells_between_which_values_an_undetermined_share_lies() {
         // Every load has exactly one solution: not this one.
         assert!(report.margins.is_none());
     }
-    let text = solve(&with_friction(0.2)).unwrap().text(Style::Plain);
+    let text = solve(&with_friction(0.2)).unwrap().text(Style::PLAIN);
     assert!(
         text.contains("Infinitely many solutions: how left, right share the load is undetermined."),
         "{text}"
@@ -104,7 +104,7 @@ fn drive_tells_a_range_of_efforts() {
         "Moving as in the model: belt needs 25 to 50 N instead of 20 N without friction; efficiency 40 to 80 %; how \
          left, right share the load is undetermined."
     );
-    assert!(!report.text(Style::Plain).contains("lock"), "{}", report.text(Style::Plain));
+    assert!(!report.text(Style::PLAIN).contains("lock"), "{}", report.text(Style::PLAIN));
     let rows = &report.course.as_ref().unwrap().directions[0].rows;
     assert_eq!(rows.len(), 5);
     for row in rows {
@@ -126,7 +126,7 @@ fn limits_of_a_continuum_have_infinitely_many_solutions_and_its_corners() {
     assert_close(end("+-00"), 1.0);
     assert_close(end("00+-"), 0.25);
     assert_close(end("+00-"), 2.0 / 3.0);
-    let text = report.text(Style::Plain);
+    let text = report.text(Style::PLAIN);
     assert!(!text.contains("locks") && text.contains("it can move in both directions"), "{text}");
 }
 

@@ -443,7 +443,7 @@ fn limits_of_pressures_are_told_in_the_unit_in_which_they_were_typed() {
     let options = SizeOptions::new(Vary::usual("L"), 2e5)
         .against(Against::Pressure { contact: None })
         .typed_in(Unit::of_text("N/mm^2"));
-    let text = size(&drawer_with_pads(), &options).expect("sound").text(Style::Plain);
+    let text = size(&drawer_with_pads(), &options).expect("sound").text(Style::PLAIN);
     for sentence in [
         "For a greatest bearing pressure of 0.2 N/mm^2 at most: L at least 0.38 m (examined up to 2 m).",
         "In the model L = 0.4 m: the greatest bearing pressure is 0.18182 N/mm^2; the limit is kept.",
@@ -473,7 +473,7 @@ fn a_pressure_needs_a_pad() {
 fn limits_of_forces_are_told_as_forces() {
     use slideway::report::{Report, Style};
     let effort = Against::Effort { drive: Some("push".to_owned()) };
-    let text = sized(&model("drawer"), "L", 30.0, effort).text(Style::Plain);
+    let text = sized(&model("drawer"), "L", 30.0, effort).text(Style::PLAIN);
     for sentence in [
         "For a greatest effort of push of 30 N at most: L at least 0.54 m (examined up to 2 m).",
         "In the model L = 0.4 m: the greatest effort of push is 36.364 N; the limit is not kept.",
@@ -540,7 +540,7 @@ fn an_angle_is_sized_in_its_quarter_turn() {
 
 #[test]
 fn a_design_says_for_which_position_it_holds() {
-    let text = |report: &SizeReport| report.text(Style::Plain);
+    let text = |report: &SizeReport| report.text(Style::PLAIN);
     let moved = model("drawer").with(&Settings::default().position("x", "50 mm")).expect("within its guide");
     let report = against_locking(&moved, "a=0.1 m..0.5 m", 1.0);
     assert_eq!((report.state.len(), &*report.state[0].name), (1, "x"));
@@ -552,6 +552,6 @@ fn a_design_says_for_which_position_it_holds() {
     let held = sized(&model("bracket-on-pole"), "x=0.1 m..0.5 m", 1.0, to_hold("W"));
     assert!(text(&held).contains("\nAt rest at z = 0 mm\n"), "{}", text(&held));
     let options = LimitsOptions::new("mu=0..1".parse().expect("a range"));
-    let limits = limits(&moved, &options).expect("sound").text(Style::Plain);
+    let limits = limits(&moved, &options).expect("sound").text(Style::PLAIN);
     assert!(limits.contains("\nx = 0.05 m, rate "), "{limits}");
 }

@@ -116,7 +116,7 @@ fn a_couple_beyond_the_pressure_is_rejected_and_tips_the_block() {
     assert_close(rejection.couple, -10.0, 0.0, 1e-12);
     assert_close(rejection.limit, 3.924, 0.0, 1e-12);
     assert_close(rejection.normal_forces[0], 19.62, 0.0, 1e-12);
-    let text = guided.text(slideway::report::Style::Plain);
+    let text = guided.text(slideway::report::Style::PLAIN);
     assert!(text.contains("base") && text.contains("tip"), "{text}");
 
     // N_f + N_r = m g and (N_f - N_r) L/2 = -10 N m.
@@ -260,7 +260,7 @@ fn is_no_lock(text: &str) {
 #[test]
 fn a_slider_that_tips_is_not_told_as_locked() {
     let model = with_mu(PRESS, 1.3);
-    let solved = solve(&model).expect("an answer").text(Style::Plain);
+    let solved = solve(&model).expect("an answer").text(Style::PLAIN);
     let below = "It would move without tipping with less than 0.96154 times the friction (mu below 1.25).";
     assert!(solved.contains(below), "{solved}");
     is_no_lock(&solved);
@@ -269,7 +269,7 @@ fn a_slider_that_tips_is_not_told_as_locked() {
     let tips =
         "Moving as in the model: bed tips, which a guided slider cannot show (model it as a block slider).";
     assert_eq!(driven.conclusion[0], tips);
-    is_no_lock(&driven.text(Style::Plain));
+    is_no_lock(&driven.text(Style::PLAIN));
     let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 2.0))).expect("an answer");
     let [moves, tips] = limits.counts.as_slice() else { panic!("{:?}", limits.counts) };
     assert_eq!((moves.solutions, tips.solutions), (1, 0));

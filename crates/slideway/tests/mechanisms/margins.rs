@@ -30,7 +30,7 @@ fn a_drawer_has_the_textbook_s_margin() {
 fn a_boom_never_locks_so_every_load_has_one_solution() {
     let report = report("telescopic-boom", &[]);
     assert_eq!(margins(&report).uniqueness, None);
-    let told = report.text(Style::Plain);
+    let told = report.text(Style::PLAIN);
     assert!(!told.contains("every load"), "{told}");
     for factor in [1.0, 1e3, 1e5] {
         let mu = (0.1 * factor).to_string();
@@ -65,7 +65,7 @@ fn where_solutions_come_back_the_margin_says_just_beyond() {
         [1.0, jams * (1.0 - little), jams * (1.0 + little), again * (1.0 - little), again * (1.0 + little)];
     assert_eq!(around.map(moves), [true, true, false, false, true]);
     assert!((1..40).map(|step| jams + (again - jams) * f64::from(step) / 40.0).all(|factor| !moves(factor)));
-    let words = |report: &SolveReport| report.text(Style::Plain);
+    let words = |report: &SolveReport| report.text(Style::PLAIN);
     let told = words(&now);
     assert!(told.contains("there is no solution just beyond") && told.contains(", but again from"), "{told}");
     // The drawer never moves again: B / (2 x) = 2/3 is exceeded for good.
@@ -116,6 +116,6 @@ fn a_jammed_mechanism_is_told_what_would_free_it() {
     assert!((below.factor - 2.0 / 2.7).abs() < 1e-12);
     assert!((below.mu.expect("the same everywhere") - 2.0 / 3.0).abs() < 1e-12);
     let told = "It jams: it would move with less than 0.74074 times the friction (mu below 0.66667).";
-    assert!(report.text(Style::Plain).contains(told), "{}", report.text(Style::Plain));
+    assert!(report.text(Style::PLAIN).contains(told), "{}", report.text(Style::PLAIN));
     assert_eq!(margins(&crate::answers::report("drawer", &[])).moves_below, None);
 }

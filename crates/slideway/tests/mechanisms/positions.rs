@@ -333,10 +333,10 @@ fn every_report_says_that_a_state_was_followed() {
             along.guarantee
         );
         [
-            (checked.steps_from_drawing, checked.text(Style::Plain)),
-            (held.steps_from_drawing, held.text(Style::Plain)),
-            (simulated.steps_from_drawing, simulated.text(Style::Plain)),
-            (found.steps_from_drawing, found.text(Style::Plain)),
+            (checked.steps_from_drawing, checked.text(Style::PLAIN)),
+            (held.steps_from_drawing, held.text(Style::PLAIN)),
+            (simulated.steps_from_drawing, simulated.text(Style::PLAIN)),
+            (found.steps_from_drawing, found.text(Style::PLAIN)),
         ]
     };
     for (steps, text) in told(&moved) {

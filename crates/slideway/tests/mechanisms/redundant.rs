@@ -273,7 +273,7 @@ impl Case {
 }
 
 fn text(report: &SolveReport) -> String {
-    report.text(Style::Plain)
+    report.text(Style::PLAIN)
 }
 
 fn close(found: f64, expected: f64, scale: f64) -> bool {

@@ -23,7 +23,7 @@ fn a_bracket_holds_from_its_closed_form_on() {
         assert_eq!((slips.holds, holds.holds), (Some(false), Some(true)), "{vary}");
         assert_eq!((slips.to, slips.reason.as_ref()), (holds.from, None));
         assert_close(holds.from, expected, 0.0, 1e-8);
-        let text = report.text(Style::Plain);
+        let text = report.text(Style::PLAIN);
         assert!(text.contains("it does not hold.") && text.contains("it can stay at rest."), "{text}");
     }
 }
@@ -142,7 +142,7 @@ fn what_is_wedged_is_not_called_self_locking() {
         let bracket = bracket.with(&settings.parameter("mu_static", mu_static)).unwrap();
         let report = hold(&bracket, &HoldOptions::default().load("W")).unwrap();
         let wedging = report.at_rest.as_ref().map(|rest| rest.wedging.join(" "));
-        (report.holds, wedging, report.text(Style::Plain))
+        (report.holds, wedging, report.text(Style::PLAIN))
     };
     assert!(!told("0.5", "0 m").0);
     let (holds, wedging, text) = told("0.52", "0 m");
@@ -177,6 +177,6 @@ fn what_its_preloads_hold_says_so() {
 
 #[test]
 fn the_position_at_rest_is_told() {
-    let text = over(&model("bracket-on-pole"), "x=0.1 m..0.5 m").text(Style::Plain);
+    let text = over(&model("bracket-on-pole"), "x=0.1 m..0.5 m").text(Style::PLAIN);
     assert!(text.contains("At rest at z = 0 mm, x from 0.1 to 0.5 m"), "{text}");
 }

@@ -87,7 +87,7 @@ fn a_peg_that_slows_down_stops_and_stays() {
     assert_close(stop.time, 1e-3 / 2200.0, 0.0, 1e-12);
     assert_close(stop.distance, 1e-6 / 4400.0, 0.0, 1e-12);
     assert_eq!(report.from_rest, Some(FromRest::Rests));
-    let text = report.text(Style::Plain);
+    let text = report.text(Style::PLAIN);
     for sentence in [
         "One solution: it slows down.",
         "Friction takes more than the loads give. To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.",
@@ -186,7 +186,7 @@ fn a_block_that_moves_up_an_incline_stops_and_slides_back_or_stays(
 fn of_many_states_of_rest_it_is_told_that_they_are_not_examined() {
     let boom = crate::answers::report("telescopic-boom", &[("F", "0 N")]);
     assert_eq!(boom.from_rest, Some(FromRest::NotExamined));
-    let text = boom.text(Style::Plain);
+    let text = boom.text(Style::PLAIN);
     assert!(text.contains("only `slideway hold` examines all."), "{text}");
 }
 
@@ -204,7 +204,7 @@ fn a_rate_that_is_not_given_is_not_told_as_one() {
     let report = report_on(&block(0.0, "").replace("30 deg", "-30 deg"));
     assert_eq!(report.rates_not_given, ["s"]);
     assert_eq!(only(&report).coordinates[0].speed, Some(StartsForwards));
-    let text = report.text(Style::Plain);
+    let text = report.text(Style::PLAIN);
     assert!(text.contains("It starts forwards (the model gives no rate: it is taken as zero)."), "{text}");
 }
 
@@ -218,12 +218,12 @@ fn every_answer_on_a_load_says_how_to_ask_whether_it_jams() {
         let size = size(&model, &SizeOptions::new(Vary::usual("e"), 2.0)).unwrap();
         let map = |colour_by: ColourBy| {
             let axes = MapOptions::new(Vary::between("mu", 0.0, 0.5), Vary::between("e", 0.002, 0.02));
-            map(&model, &axes.size(16, 16).colour_by(colour_by)).unwrap().text(Style::Plain)
+            map(&model, &axes.size(16, 16).colour_by(colour_by)).unwrap().text(Style::PLAIN)
         };
         vec![
-            report_on(&peg("0.3", push)).text(Style::Plain),
-            limits.text(Style::Plain),
-            size.text(Style::Plain),
+            report_on(&peg("0.3", push)).text(Style::PLAIN),
+            limits.text(Style::PLAIN),
+            size.text(Style::PLAIN),
             map(ColourBy::Jam),
             map(ColourBy::Margin),
         ]
@@ -237,7 +237,7 @@ fn every_answer_on_a_load_says_how_to_ask_whether_it_jams() {
 fn a_load_that_friction_does_not_stop_needs_no_such_sentence() {
     let model = Model::parse(&peg("0.1", LOAD)).unwrap();
     let report = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 0.2))).unwrap();
-    assert!(!report.text(Style::Plain).contains("To ask whether it jams"), "{:?}", report.conclusion);
+    assert!(!report.text(Style::PLAIN).contains("To ask whether it jams"), "{:?}", report.conclusion);
 }
 
 /// A massless mechanism under loads has no accelerations: every analysis that asks for them says so, and what to ask

@@ -194,7 +194,7 @@ impl Work<'_> {
 
 /// Tells what a sweep has come to.
 fn tell(sweep: &Sweep, state: &SweepState, output: &Output) -> Result<Outcome, Failure> {
-    Output::standard(output.color()).write(&sweep.text(state, output.style_of_text()))?;
+    Output::standard(output.look()).write(&sweep.text(state, output.style_of_text()))?;
     Ok(Outcome::Done)
 }
 

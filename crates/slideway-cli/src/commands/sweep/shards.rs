@@ -45,7 +45,7 @@ pub(super) fn write(
         let file = path.display().to_string();
         let told =
             format!("Shard {shard} is there: `{}`, points: {points}, rows: {rows}\n", printable::line(&file));
-        Output::standard(output.color()).write(&told)?;
+        Output::standard(output.look()).write(&told)?;
         return Ok(Outcome::Done);
     }
     let mut watch = Watch::new(arguments.time.time_limit);

@@ -4,7 +4,6 @@ use super::report::{EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
 use crate::report::number::{against, number};
 use crate::report::page::Page;
-use crate::report::table::table;
 use crate::report::{Report, Style, Verdict, count, followed, spaced};
 use crate::units::Unit;
 
@@ -17,6 +16,10 @@ const LAST: usize = 10;
 
 /// The start, the events, the end, the energies. Of a long log, only the beginning and the end are shown.
 impl Report for SimulateReport {
+    fn answer(&self) -> String {
+        self.end.words.clone()
+    }
+
     fn text(&self, style: Style) -> String {
         page(self, style, false).text()
     }
@@ -44,6 +47,12 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
 
 /// How each motion ends, then the logs.
 impl Report for TreeReport {
+    fn answer(&self) -> String {
+        let number = count(self.histories.len(), "motion", "motions");
+        let completeness = if self.complete { "these are all" } else { "there are more" };
+        format!("{number}; {completeness}.")
+    }
+
     fn text(&self, style: Style) -> String {
         all_motions(self, style, false)
     }
@@ -58,9 +67,7 @@ impl TreeReport {
 
 fn all_motions(report: &TreeReport, style: Style, all_events: bool) -> String {
     let mut text = Page::new(report, style);
-    let number = count(report.histories.len(), "motion", "motions");
-    let completeness = if report.complete { "these are all" } else { "there are more" };
-    text.headline(&format!("{number}; {completeness}"));
+    text.headline(&report.answer());
     for (index, history) in report.histories.iter().enumerate() {
         text.line(&format!(
             "  {} ({}): {}",
@@ -194,7 +201,7 @@ impl Page<'_, SimulateReport> {
         if energy.impulses != 0.0 {
             rows.push(row("lost in impulses", vec![String::new(), unit.number(energy.impulses)]));
         }
-        self.lines(&table(&["", "start", "end"], &rows, 1));
+        self.table(&["", "start", "end"], &rows);
     }
 
     fn quality(&mut self) {
