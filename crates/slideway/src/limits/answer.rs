@@ -1,8 +1,8 @@
 //! From what was found to what is told.
 
-use super::conclusion::conclusion;
+use super::conclusion::{Conclusion, conclusion};
 use super::found::{Elsewhere, Knowledge, Method, ModesFound};
-use super::guarantee::guarantee;
+use super::guarantee::{guarantee, not_examined};
 use super::report::{
     CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
     RangeWithoutProblem, SCHEMA, SpeedLimits, Tipping, VariedQuantity,
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{CoordinateState, JointMode, ModeEndCause, no_drive_prescribes};
+use crate::report::{CoordinateState, JointMode, ModeEndCause, NO_DRIVE};
 use crate::solve::{joint_mode_in_words, pattern, signs};
 
 impl VariedQuantity {
@@ -236,10 +236,11 @@ pub(super) fn report(
     let (found, _) = forwards;
     let forwards = naming.direction(forwards);
     let reversed = reversed.map(|found| naming.direction(found));
-    let mut conclusion = conclusion((varied, found.method), &forwards, reversed.as_ref());
+    let Conclusion { summary, sentences: mut conclusion } =
+        conclusion((varied, found.method), &forwards, reversed.as_ref());
     let speeds = forwards.modes.iter().flat_map(|mode| &mode.speeds);
     if speeds.filter(|speed| speed.friction_exceeds_loads).count() > 0 {
-        conclusion.push(no_drive_prescribes());
+        conclusion.push(NO_DRIVE.to_owned());
     }
     let value = varied.present().unwrap_or_default();
     let mut guarantee = guarantee(found, &varied.shown_in);
@@ -265,6 +266,8 @@ pub(super) fn report(
         between_faces_at: forwards.between_faces_at,
         reversed,
         conclusion,
+        summary,
+        not_examined: not_examined(found),
     }
 }
 

@@ -4,14 +4,28 @@ use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
 
+/// That a mechanism with drives has one solution.
+const MOVES: &str = "it moves";
+/// That there is no solution, and no guided slider tips.
+const JAMS: &str = "it jams";
+
+/// What limits come to.
+pub(super) struct Conclusion {
+    /// The limit in one sentence, if there is one only: "It jams from mu = 0.6667 on (the model has 0.3)."
+    pub(super) summary: Option<String>,
+    /// A sentence for each stretch.
+    pub(super) sentences: Vec<String>,
+}
+
 /// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7).
 pub(super) fn conclusion(
     (varied, method): (&Varied, Method),
     forwards: &Direction,
     reversed: Option<&Direction>,
-) -> Vec<String> {
+) -> Conclusion {
+    let driven = !varied.model().drives.is_empty();
     let pieces = match reversed {
-        None => one_direction(forwards),
+        None => one_direction(forwards, driven),
         Some(reversed) => both_directions(&forwards.counts, &reversed.counts),
     };
     let mut joined: Vec<Piece> = Vec::new();
@@ -21,6 +35,7 @@ pub(super) fn conclusion(
             _ => joined.push(piece),
         }
     }
+    let summary = summary(&joined, varied);
     let pieces = joined.into_iter().map(|piece| piece.sentence(varied, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
         let sentence = |at: &f64| {
@@ -35,8 +50,41 @@ pub(super) fn conclusion(
     let other = reversed.map_or(Vec::new(), |reversed| {
         single(reversed, ", moving in the opposite direction with the same loads,")
     });
-    pieces.chain(single(forwards, "")).chain(other).collect()
+    let sentences: Vec<String> = pieces.chain(single(forwards, "")).chain(other).collect();
+    // Where a single value has a state of its own there is more to say.
+    let summary = summary.filter(|_| forwards.between_faces_at.is_empty());
+    Conclusion { summary, sentences }
 }
+
+/// The limit in one sentence, if the mechanism moves on one side of it and jams on the other.
+fn summary(pieces: &[Piece], varied: &Varied) -> Option<String> {
+    let now = varied
+        .present()
+        .ok()
+        .map_or_else(String::new, |now| format!(" (the model has {})", varied.shown_in.brief(now)));
+    let all = |piece: &Piece| {
+        let from = varied.shown_in.brief_number(piece.from);
+        format!("for {} from {from} to {}", varied.name, varied.shown_in.brief(piece.to))
+    };
+    let at = |piece: &Piece| format!("{} = {}", varied.name, varied.shown_in.brief(piece.from));
+    let is_certain = |piece: &Piece| piece.known != Known::Undecided;
+    match pieces {
+        pieces if !pieces.iter().all(is_certain) => None,
+        [only] if only.verdict == MOVES => Some(format!("It moves {}.", all(only))),
+        [only] if only.verdict == JAMS => Some(format!("It jams {}{now}.", all(only))),
+        [one, other] if one.to != other.from => None,
+        [one, other] if one.is_motion() && other.verdict == JAMS => {
+            Some(format!("It jams from {} on{now}.", at(other)))
+        }
+        [one, other] if one.verdict == JAMS && other.is_motion() => {
+            Some(format!("It jams below {}{now}.", at(other)))
+        }
+        _ => None,
+    }
+}
+
+/// That a mechanism without drives has one solution.
+const ONE_SOLUTION: &str = "one solution";
 
 /// A stretch with the same verdict.
 struct Piece {
@@ -54,6 +102,11 @@ impl Piece {
             && (self.known == other.known || is_certain(self.known) && is_certain(other.known))
     }
 
+    /// Whether it moves in a single way.
+    fn is_motion(&self) -> bool {
+        self.verdict == MOVES || self.verdict.starts_with(ONE_SOLUTION)
+    }
+
     fn sentence(&self, varied: &Varied, method: Method) -> String {
         let Self { from, to, ref verdict, known } = *self;
         let verdict = if known == Known::Undecided { "not decided" } else { verdict };
@@ -63,14 +116,15 @@ impl Piece {
     }
 }
 
-fn one_direction(direction: &Direction) -> Vec<Piece> {
+fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
-        let without = format!("no solution: {}", count.without_solution());
+        let without = count.without_solution();
         let verdict = match (count.solutions, count.preload_gap_states) {
             _ if count.continuum => "infinitely many solutions",
             (0, 0) => &without,
-            (0, _) => "no solution, but a state in a preload gap",
-            (1, _) => "one solution",
+            (0, _) => "it moves in a preload gap",
+            (1, _) if driven => MOVES,
+            (1, _) => ONE_SOLUTION,
             (2, _) => "two solutions",
             (3, _) => "three solutions",
             _ => "more than three solutions",

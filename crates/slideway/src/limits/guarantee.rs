@@ -42,22 +42,30 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
         }
         SingleValues::LeftOut => sentences.push(format!("{single} omitted.")),
     }
+    sentences.extend(not_examined(found));
+    sentences.join(" ")
+}
+
+/// What was left out, in words.
+pub(super) fn not_examined(found: &ModesFound) -> Vec<String> {
     let existence = &found.existence;
     let (rigid, singular): (Vec<_>, Vec<_>) =
         existence.singular_throughout.iter().partition(|pattern| existence.open.excess(pattern) > 0);
+    let mut sentences = Vec::new();
     if !rigid.is_empty() {
         sentences.push(format!(
-            "{} modes press more contacts than equilibrium determines: with rigid faces they exist only where all of these fit exactly, and are left out.",
+            "Not examined: {} states in which more contacts press than statics determines; with rigid faces they exist only \
+             where all of these fit exactly. Give `stiffness`.",
             rigid.len()
         ));
     }
     let left_out = singular.len() + existence.not_computed.len();
     if left_out > 0 {
         sentences.push(format!(
-            "{left_out} modes are omitted: their determinant vanishes throughout, or eigenvalues could not be computed."
+            "Not examined: {left_out} contact modes that are locked throughout, or too badly conditioned to be computed."
         ));
     }
-    sentences.join(" ")
+    sentences
 }
 
 /// How the numbers of solutions are known.

@@ -1,7 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::found::left_out;
-use crate::report::{CoordinateState, JointMode, LOCKED, ModeEndCause, SpeedChange, tips};
+use crate::report::{CoordinateState, JointMode, ModeEndCause, SpeedChange, tips};
 use crate::standstill::CoordinateValue;
 use crate::units::{Unit, Units};
 use serde::Serialize;
@@ -47,8 +47,14 @@ pub struct LimitsReport {
     /// The opposite direction, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reversed: Option<Direction>,
-    /// What it comes to, in words.
+    /// What it comes to, in words: a sentence for each stretch.
     pub conclusion: Vec<String>,
+    /// The limit in one sentence, if there is one only.
+    #[serde(skip)]
+    pub(super) summary: Option<String>,
+    /// What was left out, in words; absent if nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_examined: Vec<String>,
 }
 
 /// How the ends of modes were found.
@@ -259,9 +265,9 @@ impl CountLimits {
         let told =
             self.tipping.as_ref().and_then(|tipping| Some((tips(&tipping.joints)?, tipping.throughout)));
         match told {
-            None => LOCKED.to_owned(),
+            None => "it jams".to_owned(),
             Some((tips, true)) => tips,
-            Some((tips, false)) => format!("{LOCKED}, or {tips}"),
+            Some((tips, false)) => format!("it jams, or {tips}"),
         }
     }
 

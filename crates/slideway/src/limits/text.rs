@@ -1,8 +1,8 @@
 //! Limits as text for people.
 
 use super::report::{
-    CountLimits, EndHingeForce, EndReaction, Known, LimitsReport, ModeLimits, RangeWithoutProblem,
-    RestLimitsReport, SpanOfRest, SpeedLimits,
+    CountLimits, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
+    RangeWithoutProblem, RestLimitsReport, SpanOfRest, SpeedLimits,
 };
 use crate::report::count as count_of;
 use crate::report::number::number;
@@ -13,7 +13,7 @@ use crate::units::Unit;
 
 impl Report for LimitsReport {
     fn answer(&self) -> String {
-        self.conclusion.join(" ")
+        self.summary.clone().unwrap_or_else(|| self.conclusion.join(" "))
     }
 
     /// What it comes to, the modes, the numbers of solutions.
@@ -84,14 +84,22 @@ impl Page<'_, LimitsReport> {
         let range = vary.shown_in.range(&vary.name, [vary.from, vary.to]);
         self.line(&format!("{range} (in the model {})", vary.shown_in.precise(vary.value)));
         report.state.iter().for_each(|one: &CoordinateState| self.line(&one.in_words(&report.units)));
-        if let Some(steps) = report.steps_from_drawing {
+        if let Some(steps) = report.steps_from_drawing.filter(|_| self.is_verbose()) {
             self.line(&followed(steps));
         }
         self.line("");
-        for sentence in &report.conclusion {
-            self.headline(sentence);
+        if let Some(summary) = &report.summary {
+            self.headline(summary);
+            report.conclusion.iter().for_each(|sentence| self.line(sentence));
+        } else {
+            report.conclusion.iter().for_each(|sentence| self.headline(sentence));
         }
-        self.line(&report.guarantee);
+        if self.is_verbose() {
+            self.line(&report.guarantee);
+        } else {
+            self.line(&report.known_in_words());
+            report.not_examined.iter().for_each(|line| self.line(line));
+        }
     }
 
     fn direction(
@@ -103,27 +111,61 @@ impl Page<'_, LimitsReport> {
         self.headline(&format!("Contact modes{which}"));
         let unit = &self.report.vary.shown_in;
         let [from, to] = ["from", "to"].map(|end| unit.title(end));
-        let mut titles = vec!["signs", &from, &to, "begins with", "ends with", "contact mode"];
-        let mut rows: Vec<Vec<String>> = modes.iter().map(|mode| mode_row(mode, unit)).collect();
-        if modes.iter().any(|mode| mode.orientation.is_some()) {
-            titles.insert(1, "orientation");
-            rows.iter_mut().zip(modes).for_each(|(row, mode)| row.insert(1, orientation(mode).to_owned()));
+        let verbose = self.is_verbose();
+        let has_orientation = modes.iter().any(|mode| mode.orientation.is_some());
+        let mut titles = vec![from.as_str(), &to, "contact mode", "ends with"];
+        if verbose {
+            titles = vec!["signs", &from, &to, "contact mode", "begins with", "ends with"];
+            titles.extend(has_orientation.then_some("orientation"));
         }
+        let row = |mode: &ModeLimits| {
+            let mut row = mode_row(mode, unit, verbose);
+            row.extend((verbose && has_orientation).then(|| orientation(mode).to_owned()));
+            row
+        };
+        let rows: Vec<Vec<String>> = modes.iter().map(row).collect();
         self.table(&titles, &rows);
-        for mode in modes.iter().filter(|mode| !mode.speeds.is_empty()) {
+        for mode in modes.iter().filter(|mode| verbose && !mode.speeds.is_empty()) {
             let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
             self.line(&format!("  {}: {}", name.trim(), speeds_in_words(&mode.speeds, unit)));
         }
-        if modes.iter().any(|mode| mode.orientation == Some(-1)) {
-            self.line("  With slightly elastic joints the mechanism leaves solutions of negative orientation; with drives, if it is stable without friction, which `slideway solve` tells.");
+        if verbose && modes.iter().any(|mode| mode.orientation == Some(-1)) {
+            self.line("  With slightly elastic joints the mechanism leaves solutions of negative orientation; with drives, if it is stable without friction (see `slideway solve`).");
         }
-        self.line("");
-        self.headline(&format!("Number of solutions{which}"));
-        let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
-        self.table(&[&from, &to, "solutions", "preload gaps", "known"], &rows);
+        if verbose {
+            self.line("");
+            self.headline(&format!("Number of solutions{which}"));
+            let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
+            self.table(&[&from, &to, "solutions", "preload gaps", "known"], &rows);
+        }
         for RangeWithoutProblem { from, to, reason } in gaps {
             self.line(&no_answer([*from, *to], unit, reason));
         }
+    }
+}
+
+impl LimitsReport {
+    /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits."
+    fn known_in_words(&self) -> String {
+        let unit = &self.vary.shown_in;
+        let counts = || self.counts.iter().chain(self.reversed.iter().flat_map(|reversed| &reversed.counts));
+        let worst = counts().map(|count| count.known).max();
+        let known = match worst {
+            None => String::new(),
+            Some(Known::Proven) => {
+                let left_out = counts().map(CountLimits::left_out).fold(0.0, f64::max);
+                let except = format!("Proven, except within {} of the limits.", at_most(left_out, unit));
+                if left_out > 0.0 { except } else { "Proven.".to_owned() }
+            }
+            Some(Known::ClosedForm) => "Computed in closed form.".to_owned(),
+            Some(Known::Undecided) => "Not all of it is decided.".to_owned(),
+            Some(_) => {
+                let spacing = counts().filter_map(|count| count.spacing).fold(0.0, f64::max);
+                format!("Sampled: ranges narrower than {} could be missed.", at_most(spacing, unit))
+            }
+        };
+        let same = format!("It does not depend on {}. ", self.vary.name);
+        if self.method == LimitsMethod::Independent { same + &known } else { known }
     }
 }
 
@@ -136,7 +178,7 @@ pub(crate) fn no_answer([from, to]: [f64; 2], unit: &Unit, reason: &str) -> Stri
     format!("  {place} there is no answer, which does not count as locking: {reason}.")
 }
 
-fn mode_row(mode: &ModeLimits, unit: &Unit) -> Vec<String> {
+fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {
     let end = |at: Option<f64>| at.map_or("infinity".to_owned(), |at| unit.precise_number(at));
     let words: Vec<String> =
         mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
@@ -145,18 +187,18 @@ fn mode_row(mode: &ModeLimits, unit: &Unit) -> Vec<String> {
     let hinges = |grows: fn(&EndHingeForce) -> bool| {
         mode.hinge_forces.iter().map(move |one| (&*one.hinge, i8::from(grows(one))))
     };
-    vec![
-        spaced(&mode.pattern),
-        end(mode.from),
-        end(mode.to),
-        cause(
-            mode.from_is,
-            &mode.from_at,
-            contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows)),
-        ),
-        cause(mode.to_is, &mode.to_at, contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows))),
-        words.join("; "),
-    ]
+    let begins = cause(
+        mode.from_is,
+        &mode.from_at,
+        contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows)),
+    );
+    let ends = cause(mode.to_is, &mode.to_at, contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows)));
+    let (from, to, words) = (end(mode.from), end(mode.to), words.join("; "));
+    if verbose {
+        vec![spaced(&mode.pattern), from, to, words, begins, ends]
+    } else {
+        vec![from, to, words, ends]
+    }
 }
 
 /// The sign of a solution with friction in hinges.
@@ -180,13 +222,15 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
     let several = at.len() > 1;
     let at = at.join(", ");
     match is {
-        ModeEndCause::Range => "the range".to_owned(),
+        ModeEndCause::Range => "end of the range".to_owned(),
         ModeEndCause::Locking | ModeEndCause::WithoutBound => {
             let growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
             match (growing.as_slice(), is) {
                 ([], is) => is.in_words().to_owned(),
-                (list, ModeEndCause::Locking) => format!("locking: {} without bound", list.join(", ")),
-                (list, _) => format!("{} without bound", list.join(", ")),
+                (list, ModeEndCause::Locking) => {
+                    format!("locking: force on {} without bound", list.join(", "))
+                }
+                (list, _) => format!("force on {} without bound", list.join(", ")),
             }
         }
         ModeEndCause::SideChange if several => format!("{at} change side"),

@@ -9,9 +9,7 @@ use crate::model::Model;
 use crate::progress::Work;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{
-    Answered, Report, SpeedChange, Style, indented, locked, no_drive_prescribes, precise, spaced,
-};
+use crate::report::{Answered, NO_DRIVE, Report, SpeedChange, Style, indented, locked, precise, spaced};
 use crate::units::Unit;
 use serde::Serialize;
 
@@ -196,7 +194,7 @@ pub(super) fn report(
 /// Locking and margins against it are questions to motions that are prescribed.
 fn remark(model: &Model, colour_by: ColourBy) -> Option<String> {
     let of_locking = matches!(colour_by, ColourBy::Jam | ColourBy::Margin);
-    (of_locking && model.drives.is_empty()).then(no_drive_prescribes)
+    (of_locking && model.drives.is_empty()).then(|| NO_DRIVE.to_owned())
 }
 
 fn guarantee(raster: &Raster<ClassKey>, colour_by: ColourBy, is_bilinear: bool) -> String {

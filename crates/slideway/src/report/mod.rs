@@ -3,6 +3,7 @@
 //! Last stage of the pipeline. Every face of slideway (command line, library, later Python) gets the same
 //! [`SolveReport`]; its fields are the JSON output, documented in the book under "Output".
 
+mod answer;
 mod attainability;
 mod csv;
 mod end;
@@ -23,7 +24,7 @@ pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::{Answered, indented};
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
-pub(crate) use speed::no_drive_prescribes;
+pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
 pub use text::followed;
@@ -408,6 +409,10 @@ pub struct Margins {
     /// changes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub another_count: Option<f64>,
+    /// The coefficient of friction of all contacts, to which the factors apply; absent where contacts differ in theirs, and
+    /// where none has friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
     /// Just beyond this factor there is no solution, so that nothing moves; absent if there always is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
@@ -439,7 +444,7 @@ pub struct Margins {
 pub struct Unlocking {
     /// As a factor of that of the model, below 1.
     pub factor: f64,
-    /// The coefficient itself; absent where contacts differ in theirs.
+    /// The coefficient itself; absent where contacts with friction differ in theirs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mu: Option<f64>,
 }
@@ -743,6 +748,8 @@ pub struct InfluenceSummary {
     pub coordinate_accelerations: Vec<f64>,
     /// Normal forces without friction, N(0) (N).
     pub normal_forces: Vec<f64>,
+    /// The drives with their efforts without friction.
+    pub drives: Vec<Drive>,
     /// eta_jk for friction at the faces of positive normal force; row j is the contact that answers.
     pub eta_positive: Vec<Vec<f64>>,
     /// The same at the faces of negative normal force.

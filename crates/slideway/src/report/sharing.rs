@@ -64,24 +64,46 @@ impl LoadSharing {
     /// In words, one sentence or more in each line.
     pub fn in_words(&self, units: &Units) -> Vec<String> {
         let mut lines = if self.self_stresses > 0 { self.redundancy_in_words() } else { Vec::new() };
-        if !self.press_fits.is_empty() {
-            let grip = |fit: &PressFit| format!("{} {}", fit.contact, units.of("N").show(fit.grip));
-            let fits: Vec<String> = self.press_fits.iter().map(grip).collect();
-            lines.push(format!(
+        lines.extend(self.press_fits_in_words(units));
+        lines
+    }
+
+    fn press_fits_in_words(&self, units: &Units) -> Option<String> {
+        let grip = |fit: &PressFit| format!("{} {}", fit.contact, units.of("N").show(fit.grip));
+        let fits: Vec<String> = self.press_fits.iter().map(grip).collect();
+        let told = || {
+            format!(
                 "Press fits, with the sum of the forces on both faces while both are pressed: {}.",
                 fits.join(", ")
-            ));
+            )
+        };
+        (!fits.is_empty()).then(told)
+    }
+
+    /// What decides how the load is shared, in a line, and a warning if the stiffness ratios matter.
+    pub(crate) fn in_brief(&self, units: &Units) -> Vec<String> {
+        let mut lines = Vec::new();
+        if self.self_stresses > 0 {
+            let shared = format!("The guides share their load {}.", self.how());
+            let ratios = self.stiffness_ratios.as_ref().filter(|ratios| !ratios.same);
+            let ratios = ratios.map_or("", |_| " Other ratios of stiffness give other contact modes.");
+            lines.push(shared + ratios);
         }
+        lines.extend(self.press_fits_in_words(units));
         lines
+    }
+
+    fn how(&self) -> &'static str {
+        match self.elasticity {
+            Elasticity::Given => "by the stiffness, play and misalignment of each",
+            Elasticity::Rigid => "by their play and misalignment, with rigid faces, as no stiffness is given",
+            Elasticity::Equal => "in equal stiffness, as none is given",
+        }
     }
 
     fn redundancy_in_words(&self) -> Vec<String> {
         let groups: Vec<String> = self.groups.iter().map(|group| group.join(", ")).collect();
-        let how = match self.elasticity {
-            Elasticity::Given => "by the stiffness, play and misalignment of each",
-            Elasticity::Rigid => "by their play and misalignment, with rigid faces, as no stiffness is given",
-            Elasticity::Equal => "in equal stiffness, as none is given",
-        };
+        let how = self.how();
         let degree = match self.self_stresses {
             1 => "1 self-stress".to_owned(),
             several => format!("{several} self-stresses"),

@@ -59,20 +59,11 @@ impl SpeedChange {
     }
 }
 
-/// How to ask whether it jams, where no drive prescribes the motion.
-const ASK: &str = "To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.";
+/// What "slows down" means where no drive prescribes the motion.
+pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
 
-/// What is to be said of a solution in which friction takes more than the loads give.
-pub(crate) fn friction_takes_more() -> String {
-    format!("Friction takes more than the loads give. {ASK}")
-}
-
-/// What is to be said of locking where no drive prescribes the motion.
-pub(crate) fn no_drive_prescribes() -> String {
-    format!(
-        "No drive prescribes the motion: where friction takes more than the loads give, it slows the motion down to a stop, which is no locking. {ASK}"
-    )
-}
+/// What is to be said of limits where no drive prescribes the motion.
+pub(crate) const NO_DRIVE: &str = "Without a drive, \"slows down\" means that friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
 
 /// When and where a coordinate stops if its acceleration stays as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -2,17 +2,18 @@
 
 use super::number::number;
 use super::page::Page;
-use super::speed::friction_takes_more;
+use super::speed::FRICTION_EXCEEDS_LOADS;
 use super::{
-    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
-    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, Style, UncertainMode,
+    CertificateKind, ClosestMode, Contact, Continuum, CoordinateAcceleration, JointMode, ModeEndCause,
+    ModeMargin, PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, Style,
+    UncertainMode, Verdict,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
 
 impl Report for SolveReport {
     fn answer(&self) -> String {
-        self.verdict_in_words()
+        [vec![self.verdict_in_words()], self.safety_in_words()].concat().join(" ")
     }
 
     fn text(&self, style: Style) -> String {
@@ -47,59 +48,6 @@ impl SolveReport {
         joints
     }
 
-    /// What there is, in one sentence.
-    pub fn verdict_in_words(&self) -> String {
-        match self.status {
-            Status::None if !self.rejected.is_empty() => {
-                "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
-            }
-            Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
-            Status::One if self.partial => {
-                "One solution found; not every pattern could be decided.".to_owned()
-            }
-            Status::One => match self.only_speed() {
-                Some(change) => format!("One solution: it {}.", change.in_words()),
-                None => "One solution.".to_owned(),
-            },
-            Status::Several if self.partial => {
-                format!("{} solutions found; not every pattern could be decided.", self.count)
-            }
-            Status::Several if self.has_friction_in_hinges() => format!("{} solutions.", self.count),
-            Status::Several => format!("{} solutions, each in its own contact mode.", self.count),
-            Status::Continuum if self.continua.iter().any(|continuum| continuum.couple.is_some()) => {
-                "Infinitely many solutions: a hinge that never turns has no kinetic friction, and its couple is free within limits.".to_owned()
-            }
-            Status::Continuum => match &self.undetermined {
-                Some(undetermined) => format!("Infinitely many solutions: {}.", undetermined.cause()),
-                None => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
-            },
-            Status::PreloadGap if self.partial || !self.undecided_modes.is_empty() => {
-                "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
-            }
-            Status::PreloadGap => {
-                "No contact mode has a solution, but there is a state in a preload gap.".to_owned()
-            }
-            Status::Unknown if self.partial => {
-                "Nothing found, but not every pattern could be decided.".to_owned()
-            }
-            Status::Unknown => {
-                "On the boundary: whether there is a solution cannot be decided within rounding.".to_owned()
-            }
-        }
-    }
-
-    /// Whether hinges have friction: then several solutions may share a contact mode.
-    fn has_friction_in_hinges(&self) -> bool {
-        self.solutions.iter().flat_map(|solution| &solution.hinges).any(|hinge| hinge.friction.is_some())
-    }
-
-    /// What becomes of the speed of the only coordinate, in the only solution; none if that is not known.
-    fn only_speed(&self) -> Option<SpeedChange> {
-        let [solution] = self.solutions.as_slice() else { return None };
-        let [coordinate] = solution.coordinates.as_slice() else { return None };
-        coordinate.speed.filter(|change| *change != SpeedChange::Undecided)
-    }
-
     /// What holds for all values of parameters that are known within bounds, in sentences: "1 solution for every value,
     /// proven with 3 parts."; none without such parameters.
     pub fn for_all_values(&self) -> Vec<String> {
@@ -121,7 +69,7 @@ impl SolveReport {
     /// That friction takes more than the loads give, and how to ask whether it jams; none where no solution slows
     /// down although the loads push it.
     pub fn remark(&self) -> Option<String> {
-        self.solutions.iter().any(slows_though_pushed).then(friction_takes_more)
+        self.solutions.iter().any(slows_though_pushed).then(|| FRICTION_EXCEEDS_LOADS.to_owned())
     }
 
     /// Between which values infinitely many solutions lie, and what leaves one: a sentence for each kind of quantity.
@@ -157,11 +105,9 @@ impl SolveReport {
         sentences
     }
 
-    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to tell.
+    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to say.
     pub fn margins_in_words(&self) -> String {
-        let mut text = Page::new(self, Style::PLAIN);
-        text.margins();
-        text.text().trim().to_owned()
+        self.safety_in_words().join(" ")
     }
 }
 
@@ -173,107 +119,147 @@ impl Text<'_> {
         if let Some(title) = &model.title {
             self.headline(title);
         }
-        let mut parts = vec![
-            count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
-            count(model.bodies, "body", "bodies"),
-            count(model.contacts, "contact", "contacts"),
-        ];
-        if model.drives > 0 {
-            parts.push(count(model.drives, "drive", "drives"));
+        if self.is_verbose() {
+            let mut parts = vec![
+                count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+                count(model.bodies, "body", "bodies"),
+                count(model.contacts, "contact", "contacts"),
+            ];
+            if model.drives > 0 {
+                parts.push(count(model.drives, "drive", "drives"));
+            }
+            self.line(&parts.join(", "));
         }
-        self.line(&parts.join(", "));
-        for state in &self.report.state {
-            self.line(&state.in_words(&self.report.model.units));
-        }
+        let mut state: Vec<String> =
+            self.report.state.iter().map(|state| state.in_words(&model.units)).collect();
         if self.report.time != 0.0 {
-            self.line(&format!("t = {}", model.units.of("s").show(self.report.time)));
+            state.push(format!("t = {}", model.units.of("s").show(self.report.time)));
         }
-        if let Some(steps) = self.report.steps_from_drawing {
+        self.line(&state.join("; "));
+        if let Some(steps) = self.report.steps_from_drawing.filter(|_| self.is_verbose()) {
             self.line(&followed(steps));
         }
         if let Some(sharing) = &self.report.sharing {
-            sharing.in_words(&model.units).iter().for_each(|line| self.line(line));
+            let lines = if self.is_verbose() {
+                sharing.in_words(&model.units)
+            } else {
+                sharing.in_brief(&model.units)
+            };
+            lines.iter().for_each(|line| self.line(line));
         }
         self.line("");
     }
 
     fn verdict(&mut self) {
         let report = self.report;
-        self.status(report.status, &report.verdict_in_words());
-        let search = match &report.patterns {
-            Some(patterns) => {
-                tried(patterns, self.report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
-            }
-            None => {
-                format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
-            }
-        };
-        let proof = match report.open.as_slice() {
-            [] => "Complete: proven.".to_owned(),
-            open => format!("Complete: not proven; {}.", open.join("; ")),
-        };
-        self.line(&format!("{search} {proof}"));
-        for group in &report.jammed_groups {
-            self.line(&format!("Contacts without a solution on their own: {}.", group.join(", ")));
-        }
+        self.status(report.status, &report.answer());
+        self.line(&report.known_in_words());
         if let Some(remark) = report.remark() {
             self.line(&remark);
         }
-        report.undetermined_in_words().iter().for_each(|line| self.line(line));
+        if self.is_verbose() {
+            self.search();
+        }
+        if let Some(undetermined) = &report.undetermined {
+            let lines = undetermined.in_words(&report.model.units);
+            lines.iter().for_each(|line| self.line(line));
+        }
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
             self.line(&format!("{listed} of them are listed."));
         }
     }
 
+    /// How the solutions were found.
+    fn search(&mut self) {
+        let report = self.report;
+        self.line(&match &report.patterns {
+            Some(patterns) => {
+                tried(patterns, report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
+            }
+            None => {
+                format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
+            }
+        });
+        for group in &report.jammed_groups {
+            self.line(&format!("Contacts without a solution on their own: {}.", group.join(", ")));
+        }
+    }
+
     fn solution(&mut self, title: &str, solution: &Solution) {
         self.line("");
+        let report = self.report;
         let contacts = &solution.contacts;
-        let signs = format!("   signs {}", spaced(&solution.pattern));
-        self.headed(title, if contacts.is_empty() { "" } else { &signs });
+        let is_only = report.solutions.len() + report.preload_gap_states.len() == 1;
+        if self.is_verbose() && !contacts.is_empty() {
+            self.headed(title, &format!("   signs {}", spaced(&solution.pattern)));
+        } else if !is_only || self.is_verbose() {
+            self.headline(title);
+        }
+        self.modes(&solution.joints);
+        self.boundary(solution);
+        let speeds = report.speeds_in_words(solution);
+        // Of the only solution the answer says what becomes of its speed.
+        let is_said = is_only && report.state.len() == 1 && report.rates_not_given.is_empty();
+        speeds.iter().skip(usize::from(is_said)).for_each(|line| self.line(&format!("  {line}")));
+        if !is_only || self.is_verbose() || solution.attainability.verdict != Verdict::Attainable {
+            self.line(&format!("  {}", solution.attainability.in_words()));
+        }
+        if let Some(margin) = solution.margin.as_ref().filter(|_| !is_only || self.is_verbose()) {
+            self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
+        }
+        self.line("");
+        if !contacts.is_empty() {
+            let (header, rows) = contact_table(contacts, &report.model.units);
+            self.table(&header, &rows);
+            self.line("");
+        }
+        let rows = motion_rows(report, solution, self.is_verbose());
+        if !rows.is_empty() {
+            self.table(&["", "", "value", "unit"], &rows);
+        }
+        if self.is_verbose() {
+            self.accuracy(solution);
+        }
+    }
+
+    /// What holds of a solution on the boundary of its mode, and of one that is not proven.
+    fn boundary(&mut self, solution: &Solution) {
+        let contacts = &solution.contacts;
         let pressed = contacts.iter().zip(solution.pattern.bytes()).filter(|(_, state)| *state != b'0');
         let floats = |contact: &&Contact| solution.floating.contains(&contact.name);
         let unpressed = pressed.map(|(contact, _)| contact).filter(|contact| contact.side == 0);
         let about_to_change = are(unpressed.filter(|contact| !floats(contact)));
         if !solution.floating.is_empty() {
             self.line(&format!(
-                "  Floats within its play: {} carry nothing, and nothing tells where between its faces the block is.",
+                "  It floats within its play: {} carry nothing, and nothing decides where between its faces the block is.",
                 solution.floating.join(", ")
             ));
         }
         let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
             if let Some(are) = about_to_change {
-                self.line(&format!("  On the boundary between modes: {are} about to change side."));
+                self.line(&format!("  At a boundary: {are} about to change side."));
             }
             if let Some(are) = guided_in_gap {
-                self.line(&format!("  On the boundary: only while {are} exactly without normal force."));
+                self.line(&format!("  At a boundary: only while {are} exactly without normal force."));
             }
         } else if solution.certificate == CertificateKind::OnBoundary && solution.floating.is_empty() {
-            self.line("  On the boundary within rounding: a normal force or the determinant may be zero.");
+            self.line("  At a boundary within rounding: a normal force or the determinant may be zero.");
         }
         if solution.certificate == CertificateKind::NotProven {
             self.line("  Found within tolerances, not proven.");
         }
-        self.modes(&solution.joints);
-        self.report.speeds_in_words(solution).iter().for_each(|line| self.line(&format!("  {line}")));
-        self.line(&format!("  {}", solution.attainability.in_words()));
-        self.line("");
-        if !contacts.is_empty() {
-            let (header, rows) = contact_table(contacts, &self.report.model.units);
-            self.table(&header, &rows);
-            self.line("");
-        }
-        self.table(&["", "", "value", "unit"], &motion_rows(self.report, solution));
-        self.line("");
-        if let Some(margin) = &solution.margin {
-            self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
-        }
+    }
+
+    /// The determinant and the residual.
+    fn accuracy(&mut self, solution: &Solution) {
         // The determinant of equations with rows of compatibility has no meaning of its own.
         let determinant = match self.report.sharing {
             None => format!("determinant {}", number(solution.determinant)),
             Some(_) => format!("oriented determinant {}", number(solution.oriented_determinant)),
         };
+        self.line("");
         self.line(&format!(
             "  {determinant}, equilibrium of every body to within {}",
             power_of_ten_above(solution.residual)
@@ -283,85 +269,33 @@ impl Text<'_> {
     fn modes(&mut self, joints: &[JointMode]) {
         let width = joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0);
         for joint in joints {
-            self.line(&format!("  {:width$}   {}", joint.name, joint.mode));
+            let first = format!("{:width$}   ", joint.name);
+            self.hung(&format!("  {first}{}", joint.mode), &first);
         }
     }
 
+    /// What else is known of growing friction.
     fn margins(&mut self) {
-        let Some(margins) = &self.report.margins else {
-            if let Some(factor) = self.report.unique_at_least {
-                self.line(&format!(
-                    "Margins, if all friction grows: every load has exactly one solution up to a factor of at least {}; what is beyond was not computed.",
-                    number(factor)
-                ));
-            } else if let Some(reason) = self.report.margins_missing {
-                self.line(&format!("Margins of friction: not computed, {}.", reason.in_words()));
-            }
-            return;
-        };
-        let mut parts = Vec::new();
-        // Solutions may come back where friction is greater still.
-        let beyond = |factor: f64| match margins.solutions_again {
-            None if !margins.tips.is_empty() => {
-                format!("beyond a factor of {}, where {} tips", number(factor), margins.tips.join(" and "))
-            }
-            None => format!("beyond a factor of {}", number(factor)),
-            Some(again) => {
-                format!(
-                    "just beyond a factor of {}, but again from {} upwards",
-                    number(factor),
-                    number(again)
-                )
-            }
-        };
-        match (margins.no_solution, margins.another_count) {
-            _ if self.report.status == Status::None => {}
-            (Some(jams), Some(changes)) if jams == changes => {
-                parts.push(format!("there is no solution {}", beyond(jams)));
-            }
-            (jams, changes) => {
-                let text = |factor: f64| {
-                    format!("the number of solutions changes beyond a factor of {}", number(factor))
-                };
-                parts.extend(changes.map(text));
-                parts.extend(jams.map(|factor| format!("none {}", beyond(factor))));
-            }
-        }
-        if parts.is_empty() && self.report.status != Status::None {
-            parts.push("the number of solutions never changes".to_owned());
-        }
+        let Some(margins) = self.report.margins.as_ref().filter(|_| self.is_verbose()) else { return };
         if let Some(critical) = &margins.critical_contact {
-            let (contact, factor) = (&critical.contact, number(critical.factor));
-            parts.push(format!("{contact} is the most critical single contact, with a factor of {factor}"));
+            self.line(&format!(
+                "The most critical contact is {}: {} times its friction alone changes the number of solutions.",
+                critical.contact,
+                number(critical.factor)
+            ));
         }
-        if let Some(below) = margins.moves_below {
-            let mu = below.mu.map_or_else(String::new, |mu| format!(" (mu below {})", number(mu)));
-            let than = format!("with less than {} times the friction{mu}", number(below.factor));
-            self.line(&if self.report.rejected.is_empty() {
-                format!("It jams: it would move {than}.")
-            } else {
-                format!("It would move without tipping {than}.")
-            });
-        }
-        let guides = self.report.sharing.is_some();
-        if let Some(factor) = margins.uniqueness {
-            let [one, several] = if guides {
-                [
-                    "whatever the load and the play, misalignment and stiffness of the guides, there is exactly one \
-                     solution",
-                    "with another load, play, misalignment or stiffness there may be no solution or several",
-                ]
-            } else {
-                ["every load has exactly one solution", "some other load has no solution or several"]
-            };
-            parts.push(if factor < 1.0 {
-                format!("{several} already beyond a factor of {}", number(factor))
-            } else {
-                format!("{one} up to a factor of {}", number(factor))
-            });
-        }
-        if !parts.is_empty() {
-            self.line(&format!("Margins, if all friction grows: {}.", parts.join("; ")));
+        let factors = [
+            ("another number of solutions", margins.another_count),
+            ("no solution", margins.no_solution),
+            ("solutions again", margins.solutions_again),
+            ("exactly one solution for any load, up to", margins.uniqueness),
+            ("it would move, below", margins.moves_below.map(|below| below.factor)),
+        ];
+        let factors = factors.into_iter().filter_map(|(what, factor)| Some((what, factor?)));
+        let factors: Vec<String> =
+            factors.map(|(what, factor)| format!("{what} {}", number(factor))).collect();
+        if !factors.is_empty() {
+            self.line(&format!("Factors on all friction: {}.", factors.join("; ")));
         }
     }
 
@@ -389,27 +323,32 @@ impl Text<'_> {
 
     fn continua(&mut self) {
         for continuum in &self.report.continua {
-            self.line("");
-            let title = format!("Continuum   signs {}", spaced(&continuum.pattern));
-            self.headline(&title);
-            self.line("  Normal forces at the ends and directions of unbounded growth, contact by contact:");
-            if continuum.vertices.is_empty() {
-                self.line("  More than 4096 corners, which are not listed");
-            }
-            for vertex in &continuum.vertices {
-                self.line(&format!("  from {}", vector(vertex, &self.report.model.units.of("N"))));
-            }
-            for direction in &continuum.directions {
-                self.line(&format!("  along {}", vector(direction, &Unit::default())));
-            }
-            if let Some(couple) = &continuum.couple {
-                let unit = self.report.model.units.of("N m");
-                let at: Vec<String> = couple.couples.iter().map(|couple| unit.show(*couple)).collect();
-                self.line(&format!("  The couple of {} there: {}.", couple.hinge, at.join(", ")));
+            if self.is_verbose() {
+                self.corners(continuum);
             }
             if !continuum.tipping.is_empty() {
-                self.line(&format!("  In a part of it {} would tip.", continuum.tipping.join(", ")));
+                self.line(&format!("In a part of it {} would tip.", continuum.tipping.join(", ")));
             }
+        }
+    }
+
+    fn corners(&mut self, continuum: &Continuum) {
+        self.line("");
+        self.headline(&format!("Continuum   signs {}", spaced(&continuum.pattern)));
+        self.line("  Normal forces at the ends and directions of unbounded growth, contact by contact:");
+        if continuum.vertices.is_empty() {
+            self.line("  More than 4096 corners, which are not listed");
+        }
+        for vertex in &continuum.vertices {
+            self.line(&format!("  from {}", vector(vertex, &self.report.model.units.of("N"))));
+        }
+        for direction in &continuum.directions {
+            self.line(&format!("  along {}", vector(direction, &Unit::default())));
+        }
+        if let Some(couple) = &continuum.couple {
+            let unit = self.report.model.units.of("N m");
+            let at: Vec<String> = couple.couples.iter().map(|couple| unit.show(*couple)).collect();
+            self.line(&format!("  The couple of {} there: {}.", couple.hinge, at.join(", ")));
         }
     }
 
@@ -417,12 +356,17 @@ impl Text<'_> {
         for mode in &self.report.undecided_modes {
             self.line("");
             let what = match mode.contacts.as_slice() {
-                [] => "its determinant may be zero".to_owned(),
-                contacts => format!("the normal force of {} may be zero", contacts.join(", ")),
+                [] => "whether it locks in this contact mode".to_owned(),
+                contacts => format!("on which side {} is pressed", contacts.join(", ")),
             };
-            self.line(&format!("On the boundary within rounding: signs {}; {what}", spaced(&mode.pattern)));
+            self.line(&format!("Not decided within rounding: {what}{}", self.signs(&mode.pattern)));
             self.modes(&mode.joints);
         }
+    }
+
+    /// ", signs + -" among the details.
+    fn signs(&self, pattern: &str) -> String {
+        if self.is_verbose() { format!(", signs {}", spaced(pattern)) } else { String::new() }
     }
 
     fn rejected(&mut self) {
@@ -430,17 +374,20 @@ impl Text<'_> {
         for rejection in &self.report.rejected {
             self.line("");
             self.line(&format!(
-                "Rejected: signs {}. {} would tip: it needs a couple of {}, but its face provides at most {}.",
-                spaced(&rejection.pattern),
+                "{} would tip: it needs a couple of {}, but its face provides at most {}{}. Model it as a block slider to see how \
+                 it goes on.",
                 rejection.joint,
                 couple.show(rejection.couple.abs()),
-                couple.show(rejection.limit)
+                couple.show(rejection.limit),
+                self.signs(&rejection.pattern)
             ));
-            self.line(&format!("  Model {} as a block slider to see its tipped mode.", rejection.joint));
         }
     }
 
     fn locked_modes(&mut self) {
+        if !self.is_verbose() {
+            return;
+        }
         for mode in self.report.locked_modes.iter().take(8) {
             self.line("");
             self.line(&format!("Locked exactly: signs {} (determinant 0)", spaced(&mode.pattern)));
@@ -452,15 +399,27 @@ impl Text<'_> {
         }
     }
 
+    /// Where it locks, or all modes that are close to it.
     fn closest_modes(&mut self) {
         if self.report.status != Status::None || self.report.closest_modes.is_empty() {
             return;
         }
         self.line("");
-        let heading = "The modes closest to locking (friction locks a mode where its determinant is zero)";
-        self.headline(heading);
-        let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
-        self.table(&["signs", "contact mode", "determinant", ""], &rows);
+        if self.is_verbose() {
+            self.headline(
+                "The modes closest to locking (friction locks a mode where its determinant is zero)",
+            );
+            let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
+            self.table(&["signs", "contact mode", "determinant", ""], &rows);
+            return;
+        }
+        let locked = self.report.closest_modes.iter().filter(|mode| mode.oriented_determinant <= 0.0);
+        let nearest =
+            locked.max_by(|one, other| one.oriented_determinant.total_cmp(&other.oriented_determinant));
+        if let Some(mode) = nearest {
+            self.line("It is wedged in this contact mode:");
+            self.modes(&mode.joints);
+        }
     }
 }
 
@@ -509,7 +468,7 @@ fn slows_though_pushed(solution: &Solution) -> bool {
 fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let Some(factor) = margin.factor else {
         let but = if slows_though_pushed { ", but the motion slows down in it" } else { "" };
-        return format!("the contact mode stays the same however much friction grows{but}");
+        return format!("This contact mode remains however much friction grows{but}.");
     };
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {
@@ -522,7 +481,7 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
         ModeEndCause::HingeUnloaded => "the force of a hinge vanishes".to_owned(),
         _ => "a guided slider tips".to_owned(),
     };
-    format!("the mode ends at {} times the friction: {end}", number(factor))
+    format!("It ends at {} times this friction: {end}.", number(factor))
 }
 
 fn uncertain_row(report: &SolveReport, mode: &UncertainMode) -> Vec<String> {
@@ -591,13 +550,17 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
 }
 
 /// Coordinates, drives, hinges and bodies: name, what, value, unit.
-fn motion_rows(report: &SolveReport, solution: &Solution) -> Vec<Vec<String>> {
+fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     let mut row = |name: &str, what: &str, value: String, unit: &Unit| {
         rows.push(vec![name.to_owned(), what.to_owned(), value, unit.name().to_owned()]);
     };
     let units = &report.model.units;
-    for (index, coordinate) in solution.coordinates.iter().enumerate() {
+    // Of a coordinate that a drive moves the acceleration is given.
+    let is_told = |coordinate: &CoordinateAcceleration| verbose || coordinate.speed.is_some();
+    for (index, coordinate) in
+        solution.coordinates.iter().enumerate().filter(|(_, coordinate)| is_told(coordinate))
+    {
         let scale = report.influence.coordinate_accelerations[index].abs();
         let unit = units.of(coordinate.unit);
         row(&coordinate.name, "acceleration", unit.against(coordinate.acceleration, scale), &unit);
@@ -617,6 +580,9 @@ fn motion_rows(report: &SolveReport, solution: &Solution) -> Vec<Vec<String>> {
             let what = format!("friction couple on {}, circle of {radius}", hinge.on);
             row(&hinge.name, &what, moment.number(friction.couple), &moment);
         }
+    }
+    if !verbose {
+        return rows;
     }
     let scale = solution.bodies.iter().flat_map(|body| body.acceleration).map(f64::abs).fold(0.0, f64::max);
     for body in &solution.bodies {

@@ -1,6 +1,6 @@
 //! What infinitely many solutions leave open.
 
-use crate::units::Units;
+use crate::units::{Unit, Units};
 use serde::Serialize;
 
 /// The least and the greatest value of a quantity over infinitely many solutions, each of which some solution has.
@@ -26,11 +26,23 @@ impl OpenRange {
     /// "25 to 50 N", "25 N and more, without bound".
     pub(crate) fn in_words(&self, units: &Units) -> String {
         let unit = units.of(self.unit);
+        self.between(&unit, &|value| unit.number(value))
+    }
+
+    /// [`OpenRange::in_words`] with four significant digits, unless both ends then look alike.
+    pub(crate) fn in_brief(&self, units: &Units) -> String {
+        let unit = units.of(self.unit);
+        let is_alike =
+            self.from.map(|end| unit.brief_number(end)) == self.to.map(|end| unit.brief_number(end));
+        if is_alike { self.in_words(units) } else { self.between(&unit, &|value| unit.brief_number(value)) }
+    }
+
+    fn between(&self, unit: &Unit, number: &dyn Fn(f64) -> String) -> String {
         match (self.from, self.to) {
-            (Some(from), Some(to)) if from == to => unit.show(from),
-            (Some(from), Some(to)) => format!("{} to {}", unit.number(from), unit.show(to)),
-            (Some(from), None) => format!("{} and more, without bound", unit.show(from)),
-            (None, Some(to)) => format!("{} and less, without bound", unit.show(to)),
+            (Some(from), Some(to)) if from == to => unit.with(&number(from)),
+            (Some(from), Some(to)) => format!("{} to {}", number(from), unit.with(&number(to))),
+            (Some(from), None) => format!("{} and more, without bound", unit.with(&number(from))),
+            (None, Some(to)) => format!("{} and less, without bound", unit.with(&number(to))),
             (None, None) => "of any value".to_owned(),
         }
     }

@@ -113,6 +113,8 @@ pub struct SizeReport {
     pub tried: Vec<Sample>,
     /// What the search can miss, in words.
     pub guarantee: String,
+    /// Two steps of what was tried: narrower ranges could be missed (unit of what is varied).
+    pub narrowest: f64,
     /// What it comes to, in words.
     pub conclusion: Vec<String>,
 }
@@ -247,6 +249,7 @@ pub(super) fn report(
         samples: samples(found, (*steps, options.margin), told),
         tried: found.places.iter().map(|place| sample(place, told)).collect(),
         guarantee: words::guarantee(*range, *steps, against, &question.varied.shown_in),
+        narrowest: 2.0 * (range[1] - range[0]) / *steps as f64,
         conclusion: Vec::new(),
     };
     let (driven, guided) = (!model.drives.is_empty(), model.has_guided_sliders());

@@ -8,7 +8,7 @@ use crate::report::{CoordinateState, Report, Style};
 
 impl Report for SizeReport {
     fn answer(&self) -> String {
-        self.conclusion.join(" ")
+        self.conclusion.iter().take(2).cloned().collect::<Vec<_>>().join(" ")
     }
 
     /// What it comes to, where the margin is met, and a table of margins.
@@ -40,12 +40,17 @@ impl Page<'_, SizeReport> {
         for sentence in &report.conclusion {
             self.headline(sentence);
         }
-        self.line(&report.guarantee);
+        if self.is_verbose() {
+            self.line(&report.guarantee);
+        } else {
+            let step = report.vary.shown_in.brief(report.narrowest);
+            self.line(&format!("Sampled and refined: what is narrower than {step} could be missed."));
+        }
     }
 
     fn intervals(&mut self) {
         let report = self.report;
-        if report.met.is_empty() {
+        if report.met.is_empty() || !self.is_verbose() {
             return;
         }
         self.line("");
@@ -61,7 +66,11 @@ impl Page<'_, SizeReport> {
         let report = self.report;
         self.line("");
         let what = subject(report);
-        self.headline(&if report.against.is_limit() { format!("The {what}") } else { "Margins".to_owned() });
+        self.headline(&if report.against.is_limit() {
+            format!("The {what}")
+        } else {
+            "Safety factors".to_owned()
+        });
         let unit = &report.vary.shown_in;
         let name = unit.title(&report.vary.name);
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
@@ -89,9 +98,9 @@ fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
 
 fn cause(report: &SizeReport, is: MetEnd, jumps_to: Option<f64>) -> String {
     match (is, jumps_to) {
-        (MetEnd::Range, _) => "the range".to_owned(),
+        (MetEnd::Range, _) => "end of the range".to_owned(),
         (MetEnd::Margin, _) if report.against.is_limit() => "the limit".to_owned(),
-        (MetEnd::Margin, _) => format!("margin {}", precise(report.margin)),
+        (MetEnd::Margin, _) => format!("safety factor {}", precise(report.margin)),
         (MetEnd::Jump, Some(margin)) => {
             format!("a jump of the {} to {}", subject(report), level(report, margin))
         }

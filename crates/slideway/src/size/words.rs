@@ -3,10 +3,9 @@
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
 use crate::limits::no_answer;
-use crate::report::no_drive_prescribes;
-use crate::report::number::number;
+use crate::report::NO_DRIVE;
 use crate::report::number::precise;
-use crate::units::Unit;
+use crate::units::{Unit, brief};
 
 /// Margins closer than this, relative to the greater one, are the same.
 const SAME: f64 = 1e-9;
@@ -22,11 +21,14 @@ pub(super) struct Words<'r> {
 }
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
-    let (wanted, level) =
-        if against.is_limit() { ("limit", "of the quantity") } else { ("wanted margin", "of the margin") };
+    let (wanted, level) = if against.is_limit() {
+        ("limit", "of the quantity")
+    } else {
+        ("wanted safety factor", "of the safety factor")
+    };
     let step = (to - from) / steps as f64;
     format!(
-        "{} evenly spaced values were tried; crossings of the {wanted} between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump {level} there and back, or a second dip, within two steps of {} may be missed.",
+        "{} evenly spaced values were tried; crossings of the {wanted} between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump {level} there and back, or a second dip, within two steps of {} could be missed.",
         steps + 1,
         shown_in.show(step)
     )
@@ -38,7 +40,7 @@ impl Words<'_> {
         sentences.push(self.present());
         sentences.extend(self.constant());
         if !self.driven && self.report.against == MarginKind::Locking {
-            sentences.push(no_drive_prescribes());
+            sentences.push(NO_DRIVE.to_owned());
         }
         let report = self.report;
         for gap in &report.without_position {
@@ -48,7 +50,7 @@ impl Words<'_> {
         sentences
     }
 
-    /// "For a margin of 2 against locking: L at least 0.36 m."
+    /// "For a safety factor of 2 against jamming: L at least 0.36 m."
     fn answer(&self) -> String {
         let report = self.report;
         let wish = wish(report);
@@ -65,12 +67,12 @@ impl Words<'_> {
                     best.and_then(|(at, margin)| Some((at, report.against.told(margin, report.margin).1?)));
                 match best {
                     Some((at, level)) if report.against.is_limit() => format!(
-                        "{wish}: no {name} from {range} {gives}; of the values that were tried, {} comes nearest to it, with {}.",
+                        "{wish}: no {name} from {range} {gives}; {} comes nearest to it, with {}.",
                         quantity(report, at),
                         self::level(report, level)
                     ),
                     Some((at, margin)) => format!(
-                        "{wish}: no {name} from {range} {gives}; the greatest margin of the values that were tried is {}, at {}.",
+                        "{wish}: no {name} from {range} {gives}; the greatest safety factor that was found is {}, at {}.",
                         precise(margin),
                         quantity(report, at)
                     ),
@@ -109,24 +111,17 @@ impl Words<'_> {
         }
     }
 
-    /// "In the model L = 0.4 m: friction may grow 2.2222 times before nothing moves."
+    /// "The model has L = 0.4 m: its safety factor is 2.222, which is enough."
     fn present(&self) -> String {
         let report = self.report;
-        let model = format!("In the model {} = {}", report.vary.name, quantity(report, report.present.at));
+        let model = format!("The model has {} = {}", report.vary.name, quantity(report, report.present.at));
         let Sample { is, margin, .. } = report.present;
-        let is_met = |margin: f64| {
-            if margin >= report.margin { "the wanted margin is met" } else { "the wanted margin is not met" }
-        };
         let load = report.load.as_deref().unwrap_or_default();
         let what = subject(report);
-        match (is, margin) {
-            (SampleKind::NoSolution, _) => {
-                format!("{model}: there is {}, so the limit is not kept.", report.against.nothing())
-            }
+        let told = match (is, margin) {
+            (SampleKind::NoSolution, _) => format!("{}, so the limit is not kept", report.against.nothing()),
             (SampleKind::WithoutBound, _) => {
-                format!(
-                    "{model}: infinitely many solutions leave the {what} without bound; the limit is not kept."
-                )
+                format!("infinitely many solutions leave the {what} without bound; the limit is not kept")
             }
             (_, Some(level)) if report.against.is_limit() => {
                 let is_kept = if report.against.is_greatest() {
@@ -135,63 +130,47 @@ impl Words<'_> {
                     level >= report.margin
                 };
                 let kept = if is_kept { "the limit is kept" } else { "the limit is not kept" };
-                format!("{model}: the {what} is {}; {kept}.", report.limit_shown_in.show(level))
+                format!("the {what} is {}; {kept}", report.limit_shown_in.show(level))
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
-                MarginKind::Locking => format!("{model}: it is on the verge of locking."),
-                _ => format!("{model}: {load} is just held however great it is."),
+                MarginKind::Locking => "it is on the verge of jamming".to_owned(),
+                _ => format!("the load {load} is just held, however great it is"),
             },
-            (SampleKind::NoPosition, _) => format!("{model}: there is no answer there."),
-            (_, None) => format!("{model}: {}.", never(report)),
-            (_, Some(margin)) => {
-                let met = is_met(margin);
-                let factor = number(margin);
-                match (report.against, margin >= 1.0) {
-                    (MarginKind::Locking, true) => {
-                        let end = if self.guided {
-                            "nothing moves or a guided slider tips"
-                        } else {
-                            "nothing moves"
-                        };
-                        format!("{model}: friction may grow {factor} times before {end}; {met}.")
-                    }
-                    (MarginKind::Locking, false) => {
-                        let now =
-                            if self.guided { "a guided slider tips or it is locked" } else { "it is locked" };
-                        format!("{model}: {now}; friction would have to fall to {factor} of its value.")
-                    }
-                    (MarginKind::SelfLocking, true) => format!(
-                        "{model}: static friction may grow {factor} times before {load} is held however great it is; {met}."
-                    ),
-                    (MarginKind::SelfLocking, false) => format!(
-                        "{model}: {load} is held however great it is; static friction would have to fall to {factor} of its value."
-                    ),
-                    (MarginKind::Hold, _) if margin == 0.0 => {
-                        format!("{model}: no static friction holds {load} however great it is.")
-                    }
-                    (
-                        MarginKind::Hold
-                        | MarginKind::Effort
-                        | MarginKind::NormalForce
-                        | MarginKind::Pressure
-                        | MarginKind::Efficiency,
-                        true,
-                    ) => format!(
-                        "{model}: static friction may be {factor} times smaller and {load} is still held however great it is; {met}."
-                    ),
-                    (
-                        MarginKind::Hold
-                        | MarginKind::Effort
-                        | MarginKind::NormalForce
-                        | MarginKind::Pressure
-                        | MarginKind::Efficiency,
-                        false,
-                    ) => format!(
-                        "{model}: {load} is not held however great it is; static friction would have to be {} times greater.",
-                        number(margin.recip())
-                    ),
-                }
+            (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
+            (_, None) => never(report),
+            (_, Some(margin)) => self.factor(margin),
+        };
+        format!("{model}: {told}.")
+    }
+
+    /// What a safety factor means: "its safety factor is 2.222, which is enough".
+    fn factor(&self, margin: f64) -> String {
+        let report = self.report;
+        let load = report.load.as_deref().unwrap_or_default();
+        let enough = if margin >= report.margin { "which is enough" } else { "which is too little" };
+        let factor = brief(margin);
+        match (report.against, margin >= 1.0) {
+            (MarginKind::Locking, true) => format!("its safety factor is {factor}, {enough}"),
+            (MarginKind::Locking, false) => {
+                let now = if self.guided { "it jams or a guided slider tips" } else { "it jams" };
+                format!("{now}; friction would have to fall to {factor} of its value")
             }
+            (MarginKind::SelfLocking, true) => {
+                format!(
+                    "it would be self-locking under {load} at {factor} times this static friction, {enough}"
+                )
+            }
+            (MarginKind::SelfLocking, false) => format!(
+                "it is self-locking under {load}; static friction would have to fall to {factor} of its value"
+            ),
+            (_, _) if margin == 0.0 => format!("no static friction holds every {load}"),
+            (_, true) => {
+                format!("it holds the load {load}, however great, with a safety factor of {factor}, {enough}")
+            }
+            (_, false) => format!(
+                "a great {load} is not held; static friction would have to be {} times greater",
+                brief(margin.recip())
+            ),
         }
     }
 
@@ -212,7 +191,7 @@ impl Words<'_> {
 fn never(report: &SizeReport) -> String {
     let load = report.load.as_deref().unwrap_or_default();
     match report.against {
-        MarginKind::Locking => "no friction, however great, locks it".to_owned(),
+        MarginKind::Locking => "more friction would not jam it".to_owned(),
         MarginKind::SelfLocking => format!("no static friction, however great, holds every {load}"),
         MarginKind::Hold => format!("{load} is held without friction, however great it is"),
         // These are numbers wherever there is a solution.
@@ -222,7 +201,7 @@ fn never(report: &SizeReport) -> String {
     }
 }
 
-/// What the numbers of the report are: "margin", "greatest effort of push".
+/// What the numbers of the report are: "safety factor", "greatest effort of push".
 pub(super) fn subject(report: &SizeReport) -> String {
     let of = report.load.as_ref().map_or(String::new(), |name| format!(" of {name}"));
     match report.against {
@@ -230,7 +209,7 @@ pub(super) fn subject(report: &SizeReport) -> String {
         MarginKind::NormalForce => format!("greatest normal force{of}"),
         MarginKind::Pressure => format!("greatest bearing pressure{of}"),
         MarginKind::Efficiency => "least efficiency".to_owned(),
-        MarginKind::Locking | MarginKind::SelfLocking | MarginKind::Hold => "margin".to_owned(),
+        MarginKind::Locking | MarginKind::SelfLocking | MarginKind::Hold => "safety factor".to_owned(),
     }
 }
 
@@ -244,11 +223,15 @@ fn wish(report: &SizeReport) -> String {
     let load = report.load.as_deref().unwrap_or_default();
     match report.against {
         MarginKind::Locking if report.both_directions => {
-            format!("For a margin of {margin} against locking in both directions")
+            format!("For a safety factor of {margin} against jamming in both directions")
         }
-        MarginKind::Locking => format!("For a margin of {margin} against locking"),
-        MarginKind::SelfLocking => format!("For a margin of {margin} against self-locking under {load}"),
-        MarginKind::Hold => format!("To hold any {load} with a margin of {margin}"),
+        MarginKind::Locking => format!("For a safety factor of {margin} against jamming"),
+        MarginKind::SelfLocking => {
+            format!("For a safety factor of {margin} against self-locking under {load}")
+        }
+        MarginKind::Hold => {
+            format!("To hold the load {load}, however great, with a safety factor of {margin}")
+        }
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure => {
             format!("For a {} of {} at most", subject(report), level(report, report.margin))
         }

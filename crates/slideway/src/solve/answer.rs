@@ -562,6 +562,7 @@ impl<'a> Answer<'a> {
         report::InfluenceSummary {
             coordinate_accelerations: self.equations.coordinate_accelerations(&self.influence.frictionless),
             normal_forces: self.influence.normal_forces().iter().copied().collect(),
+            drives: self.drives(&self.influence.frictionless),
             eta_positive: rows(0),
             eta_negative: rows(1),
         }

@@ -66,6 +66,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         solution.margin = all.end_of(&solution.pattern).map(margin);
     }
     report.margins = Some(Margins {
+        mu: common_coefficient(mechanism),
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         tips: all.tips(mechanism),
@@ -133,11 +134,15 @@ fn moves_below(data: ProblemData<'_>) -> Option<Unlocking> {
     let falling = Growth::over(FALLING, data, &|_| true)?;
     let last = falling.counts.iter().rfind(|count| !count.is_empty())?;
     let factor = last.to;
-    let mut coefficients =
-        data.mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
-    let first = coefficients.next()?;
-    let mu = coefficients.all(|mu| mu == first).then_some(factor * first);
+    let mu = common_coefficient(data.mechanism).map(|mu| factor * mu);
     (factor < 1.0 - AT_ONCE).then_some(Unlocking { factor, mu })
+}
+
+/// The coefficient of all contacts that have friction; none where they differ, and where none has.
+fn common_coefficient(mechanism: &Mechanism) -> Option<f64> {
+    let mut coefficients = mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
+    let first = coefficients.next()?;
+    coefficients.all(|mu| mu == first).then_some(first)
 }
 
 /// The contact whose friction alone changes the number of solutions at the smallest factor.

@@ -21,6 +21,7 @@
 pub(crate) mod number;
 mod unit;
 
+pub(crate) use number::brief;
 pub use number::precise;
 pub use unit::Unit;
 

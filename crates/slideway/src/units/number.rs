@@ -1,10 +1,19 @@
-//! Numbers for people: five significant digits.
+//! Numbers for people: five significant digits in tables, four in sentences.
 
 /// Values below this multiple of the greatest beside them are rounding errors, and shown as 0.
 const NOISE: f64 = 1e-13;
 
 /// A number with five significant digits; scientific where it is very large or small.
 pub(crate) fn number(value: f64) -> String {
+    rounded(value, 5)
+}
+
+/// A number with four significant digits, for sentences.
+pub(crate) fn brief(value: f64) -> String {
+    rounded(value, 4)
+}
+
+fn rounded(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         // Reports hold no such number; what is computed from theirs may still be too large.
         return if value.is_nan() { "undefined" } else { "beyond all bounds" }.to_owned();
@@ -12,14 +21,14 @@ pub(crate) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let scientific = format!("{value:.4e}");
+    let scientific = format!("{value:.*e}", digits - 1);
     let exponent: i32 =
         scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
     if !(-4..6).contains(&exponent) {
         return scientific;
     }
-    // Five significant digits, and all of an integer part.
-    let decimals = usize::try_from(4 - exponent).unwrap_or(0);
+    // The significant digits, and all of an integer part.
+    let decimals = (i32::try_from(digits).unwrap_or(0) - 1 - exponent).try_into().unwrap_or(0_usize);
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -1,0 +1,272 @@
+//! The plain answer of `solve`: what one would say of a state to a colleague.
+
+use super::text::tips;
+use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
+use crate::units::brief;
+
+impl SolveReport {
+    /// What there is, in one sentence: "It moves: push needs 36.36 N (20 N without friction)."
+    pub fn verdict_in_words(&self) -> String {
+        if self.partial && matches!(self.status, Status::One | Status::Several | Status::PreloadGap) {
+            let states = if self.count == "0" { &self.gap_state_count } else { &self.count };
+            let found = if states == "1" { "one solution" } else { &format!("{states} solutions") };
+            return format!("Found so far: {found}. The search is not finished.");
+        }
+        match self.status {
+            Status::None if !self.rejected.is_empty() => {
+                tips(&self.tipping_joints()).map_or_else(String::new, |tips| format!("No answer: {tips}."))
+            }
+            Status::None => format!("It jams: {}.", self.nothing_moves_it()),
+            Status::One => self.moves_in_words(&self.solutions),
+            Status::Several => self.ways_in_words(),
+            Status::Continuum => self.open_in_words(),
+            Status::PreloadGap => self.gap_in_words(),
+            Status::Unknown if self.partial => {
+                "Not decided: nothing was found, but the search is not finished.".to_owned()
+            }
+            Status::Unknown => {
+                "Not decided: it is at a boundary, and rounding hides whether it moves or jams.".to_owned()
+            }
+        }
+    }
+
+    /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667, 2.222 times this friction."
+    /// Empty where nothing is known, or nothing changes.
+    pub fn safety_in_words(&self) -> Vec<String> {
+        let Some(margins) = &self.margins else { return self.without_margins() };
+        if self.status == Status::None {
+            let below = margins.moves_below.map(|below| self.friction(below.mu, below.factor));
+            return below
+                .map(|below| format!("It {} below {below}.", self.what_ends()))
+                .into_iter()
+                .collect();
+        }
+        let at = |factor: f64| self.friction(margins.mu.map(|mu| factor * mu), factor);
+        let mut sentences = Vec::new();
+        let jams = margins.no_solution;
+        if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
+            sentences.push(format!("The number of solutions changes from {}.", at(changes)));
+        }
+        match jams {
+            Some(jams) => sentences.push(end_in_words(margins, &at(jams))),
+            None if margins.another_count.is_none() && self.has_friction() => {
+                sentences.push("More friction would not jam it.".to_owned());
+            }
+            None => {}
+        }
+        sentences.extend(self.any_load_in_words(margins));
+        sentences
+    }
+
+    /// How the answer is known, in a clause: "Proven: the only solution."
+    pub(super) fn known_in_words(&self) -> String {
+        if !self.open.is_empty() {
+            return format!("Not proven: {}.", self.open.join("; "));
+        }
+        let all = match self.status {
+            Status::None => "there is no solution",
+            Status::One | Status::PreloadGap if self.solutions.len() + self.preload_gap_states.len() == 1 => {
+                "it is the only solution"
+            }
+            _ => "there are no other solutions",
+        };
+        format!("Proven: {all}.")
+    }
+
+    /// "no force of push moves it"
+    fn nothing_moves_it(&self) -> String {
+        match self.influence.drives.as_slice() {
+            [] => "friction locks it".to_owned(),
+            [drive] => format!("no {} of {} moves it", kind(drive.unit), drive.name),
+            _ => "no drive moves it".to_owned(),
+        }
+    }
+
+    /// What happens below the friction that is told: "moves".
+    fn what_ends(&self) -> &'static str {
+        if self.rejected.is_empty() { "moves" } else { "does not tip" }
+    }
+
+    /// "mu = 0.6667, 2.222 times this friction", or the factor alone.
+    fn friction(&self, mu: Option<f64>, factor: f64) -> String {
+        let times = format!("{} times this friction", brief(factor));
+        mu.map_or(times.clone(), |mu| format!("mu = {}, {times}", brief(mu)))
+    }
+
+    /// "It moves: push needs 36.36 N (20 N without friction)."
+    fn moves_in_words(&self, solutions: &[Solution]) -> String {
+        let [solution] = solutions else { return String::new() };
+        if !solution.drives.is_empty() {
+            let needs: Vec<String> = self.needs(solution);
+            return format!("It moves: {}.", needs.join(", "));
+        }
+        let changes: Vec<String> = self.changes(solution);
+        match changes.as_slice() {
+            [] => "It has one solution.".to_owned(),
+            [change] => format!("It {change}."),
+            changes => format!("It moves: {}.", changes.join(", ")),
+        }
+    }
+
+    /// "push needs 36.36 N (20 N without friction)", for each drive.
+    fn needs(&self, solution: &Solution) -> Vec<String> {
+        let one = |(drive, without): (&Drive, &Drive)| {
+            let unit = self.model.units.of(drive.unit);
+            let (with, without) = (unit.brief(drive.effort), unit.brief(without.effort));
+            if with == without {
+                format!("{} needs {with}, as without friction", drive.name)
+            } else {
+                format!("{} needs {with} ({without} without friction)", drive.name)
+            }
+        };
+        solution.drives.iter().zip(&self.influence.drives).map(one).collect()
+    }
+
+    /// What becomes of the speeds: "slows down, and would stop after 0.1 s and 0.02 m", with names if there are several.
+    fn changes(&self, solution: &Solution) -> Vec<String> {
+        let is_only = self.state.len() == 1;
+        let with_speed = self.state.iter().zip(&solution.coordinates);
+        let one = |(state, coordinate): (&super::CoordinateState, &super::CoordinateAcceleration)| {
+            let change = coordinate.speed?;
+            let name = &coordinate.name;
+            let words = match change {
+                SpeedChange::StartsForwards if is_only => format!("starts to move, {name} growing"),
+                SpeedChange::StartsBackwards if is_only => format!("starts to move, {name} falling"),
+                SpeedChange::Undecided if is_only => {
+                    "has one solution; whether it speeds up or slows down is not decided".to_owned()
+                }
+                change if is_only => change.in_words().to_owned(),
+                change => format!("{name} {}", change.in_words()),
+            };
+            let stop = coordinate.stop.as_ref().map_or_else(String::new, |stop| {
+                let units = &self.model.units;
+                let (time, way) = (units.of("s").brief(stop.time), units.of(state.unit).brief(stop.distance));
+                format!(" and would stop after {time} and {way}")
+            });
+            Some(words + &stop)
+        };
+        with_speed.filter_map(one).collect()
+    }
+
+    /// "It can move in 3 ways: push needs 36.36, 41 or 52 N."
+    fn ways_in_words(&self) -> String {
+        let several =
+            format!("{} solutions: from this state it can go on in {} ways", self.count, self.count);
+        let efforts = |drive: &Drive| {
+            let unit = self.model.units.of(drive.unit);
+            let of =
+                |solution: &Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
+            let mut efforts: Vec<String> = self.solutions.iter().filter_map(of).collect();
+            let last = efforts.pop()?;
+            let list = if efforts.is_empty() { last } else { format!("{} or {last}", efforts.join(", ")) };
+            Some(format!("; {} needs {}", drive.name, unit.with(&list)))
+        };
+        let is_short = self.solutions.len() <= 4 && self.solutions.len().to_string() == self.count;
+        let efforts = match self.influence.drives.as_slice() {
+            [drive] if is_short => efforts(drive).unwrap_or_default(),
+            _ => String::new(),
+        };
+        format!("{several}{efforts}.")
+    }
+
+    /// "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value."
+    fn open_in_words(&self) -> String {
+        if let Some(couple) = self.continua.iter().find_map(|continuum| continuum.couple.as_ref()) {
+            let unit = self.model.units.of("N m");
+            let ends =
+                couple.couples.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
+                    [least.min(*value), most.max(*value)]
+                });
+            let range = match ends {
+                [least, most] if least < most => {
+                    format!(", from {} to {}", unit.brief_number(least), unit.brief(most))
+                }
+                _ => String::new(),
+            };
+            return format!(
+                "Undetermined: the hinge {} does not turn, and its friction couple can have any value within its limits{range}.",
+                couple.hinge
+            );
+        }
+        let Some(open) = &self.undetermined else {
+            return "Infinitely many solutions: the forces are undetermined.".to_owned();
+        };
+        let units = &self.model.units;
+        let ranges = open.efforts.iter().chain(&open.accelerations).filter(|range| !range.is_one_value());
+        let ranges: Vec<String> =
+            ranges.take(3).map(|range| format!("{} {}", range.name, range.in_brief(units))).collect();
+        let ranges = if ranges.is_empty() { String::new() } else { format!(": {}", ranges.join(", ")) };
+        let advice = open.advice().map_or_else(String::new, |advice| format!(" {advice}"));
+        let mut cause = open.cause();
+        if let Some(first) = cause.get_mut(..1) {
+            first.make_ascii_uppercase();
+        }
+        format!("{cause}{ranges}.{advice}")
+    }
+
+    /// "It moves, pin between its faces: push needs 3 N (2 N without friction)."
+    fn gap_in_words(&self) -> String {
+        if self.partial || !self.undecided_modes.is_empty() {
+            return "A state in a preload gap; whether it has another solution is not decided.".to_owned();
+        }
+        let [state] = self.preload_gap_states.as_slice() else {
+            return format!("{} states, each in a preload gap.", self.gap_state_count);
+        };
+        let loose = state.contacts.iter().filter(|contact| contact.preload_share.is_some());
+        let loose: Vec<&str> = loose.map(|contact: &Contact| contact.name.as_str()).collect();
+        let loose = loose.join(" and ");
+        let moves = match (self.needs(state), self.changes(state)) {
+            (needs, _) if !needs.is_empty() => format!(": {}", needs.join(", ")),
+            (_, changes) if !changes.is_empty() => format!(": it {}", changes.join(", ")),
+            _ => String::new(),
+        };
+        format!("It moves in a preload gap, {loose} pressed by its preload alone{moves}.")
+    }
+
+    /// "Safe for any load up to 2.222 times this friction."
+    fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
+        let factor = margins.uniqueness?;
+        let times = format!("{} times this friction", brief(factor));
+        let any =
+            if self.sharing.is_some() { "any load, play, misalignment and stiffness" } else { "any load" };
+        Some(if factor < 1.0 {
+            format!("Not safe for {any}: from {times} on some jam it or leave it several ways to move.")
+        } else {
+            format!("Safe for {any} up to {times}.")
+        })
+    }
+
+    fn without_margins(&self) -> Vec<String> {
+        let least = self
+            .unique_at_least
+            .map(|factor| format!("Safe for any load up to {} times this friction at least.", brief(factor)));
+        let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
+        let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
+        least.or(missing).into_iter().collect()
+    }
+
+    /// Whether friction acts anywhere: more of none is none.
+    fn has_friction(&self) -> bool {
+        let mut states = self.solutions.iter().chain(&self.preload_gap_states);
+        states.any(|state| {
+            state.contacts.iter().any(|contact| contact.friction_force != 0.0)
+                || state.hinges.iter().any(|hinge| hinge.friction.is_some())
+        })
+    }
+}
+
+/// "It would jam from mu = 0.6667, 2.222 times this friction."
+fn end_in_words(margins: &Margins, at: &str) -> String {
+    let again = margins.solutions_again;
+    let again =
+        again.map_or_else(String::new, |again| format!("; it moves again from {} times", brief(again)));
+    match margins.tips.as_slice() {
+        [] => format!("It would jam from {at}{again}."),
+        joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
+    }
+}
+
+/// The kind of an effort in this unit.
+fn kind(unit: &str) -> &'static str {
+    if unit == "N" { "force" } else { "torque" }
+}
