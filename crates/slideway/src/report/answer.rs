@@ -227,10 +227,15 @@ impl SolveReport {
     fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
         let factor = margins.uniqueness?;
         let times = format!("{} times this friction", brief(factor));
-        let any =
-            if self.sharing.is_some() { "any load, play, misalignment and stiffness" } else { "any load" };
+        let [any, every] = if self.sharing.is_some() {
+            ["any load, play, misalignment and stiffness", "every load, play, misalignment and stiffness"]
+        } else {
+            ["any load", "every load"]
+        };
         Some(if factor < 1.0 {
-            format!("Not safe for {any}: from {times} on some jam it or leave it several ways to move.")
+            format!(
+                "Not safe for {every}: from {times} on, some can jam it or leave it several ways to move."
+            )
         } else {
             format!("Safe for {any} up to {times}.")
         })

@@ -5,8 +5,8 @@ use super::page::Page;
 use super::speed::FRICTION_EXCEEDS_LOADS;
 use super::{
     CertificateKind, ClosestMode, Contact, Continuum, CoordinateAcceleration, JointMode, ModeEndCause,
-    ModeMargin, PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, Style,
-    UncertainMode, Verdict,
+    ModeMargin, PatternSummary, Persistence, Proof, Report, Solution, SolveReport, SpeedChange, Status,
+    Style, UncertainMode, Verdict,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
@@ -353,6 +353,10 @@ impl Text<'_> {
     }
 
     fn undecided(&mut self) {
+        // Boundaries of what is proven are no gaps of the answer.
+        if self.report.complete == Proof::Proven && !self.is_verbose() {
+            return;
+        }
         for mode in &self.report.undecided_modes {
             self.line("");
             let what = match mode.contacts.as_slice() {

@@ -66,14 +66,9 @@ fn solve_tells_between_which_values_an_undetermined_share_lies() {
         assert!(report.margins.is_none());
     }
     let text = solve(&with_friction(0.2)).unwrap().text(Style::PLAIN);
-    assert!(
-        text.contains("Infinitely many solutions: how left, right share the load is undetermined."),
-        "{text}"
-    );
-    assert!(
-        text.contains("Efforts: belt 25 to 50 N.") && text.contains("Give `stiffness` for one value."),
-        "{text}"
-    );
+    let answer =
+        "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value.";
+    assert!(text.contains(answer) && text.contains("Efforts: belt 25 to 50 N."), "{text}");
 }
 
 #[test]

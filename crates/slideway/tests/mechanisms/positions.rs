@@ -332,11 +332,12 @@ fn every_report_says_that_a_state_was_followed() {
             "{}",
             along.guarantee
         );
+        let style = Style::PLAIN.verbose(true);
         [
-            (checked.steps_from_drawing, checked.text(Style::PLAIN)),
-            (held.steps_from_drawing, held.text(Style::PLAIN)),
-            (simulated.steps_from_drawing, simulated.text(Style::PLAIN)),
-            (found.steps_from_drawing, found.text(Style::PLAIN)),
+            (checked.steps_from_drawing, checked.text(style)),
+            (held.steps_from_drawing, held.text(style)),
+            (simulated.steps_from_drawing, simulated.text(style)),
+            (found.steps_from_drawing, found.text(style)),
         ]
     };
     for (steps, text) in told(&moved) {

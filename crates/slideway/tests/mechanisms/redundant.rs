@@ -399,7 +399,7 @@ fn an_unloaded_block_floats_in_one_state() {
     let [floating] = floating[..] else { panic!("{}", text(&report)) };
     assert_eq!(floating.floating.len(), 4);
     assert!(floating.contacts.iter().all(|contact| contact.deflection.is_none()));
-    assert!(text(&report).contains("Floats within its play"));
+    assert!(text(&report).contains("It floats within its play"));
     let [wedged] = others[..] else { panic!("{}", text(&report)) };
     let forces: Vec<f64> = wedged.contacts.iter().map(|contact| contact.normal_force.abs()).collect();
     for (force, expected) in forces.iter().zip([12.5, 12.5, 2.5, 2.5]) {

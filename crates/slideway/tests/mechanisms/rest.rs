@@ -142,7 +142,7 @@ fn what_is_wedged_is_not_called_self_locking() {
         let bracket = bracket.with(&settings.parameter("mu_static", mu_static)).unwrap();
         let report = hold(&bracket, &HoldOptions::default().load("W")).unwrap();
         let wedging = report.at_rest.as_ref().map(|rest| rest.wedging.join(" "));
-        (report.holds, wedging, report.text(Style::PLAIN))
+        (report.holds, wedging, report.text(Style::PLAIN.width(200)))
     };
     assert!(!told("0.5", "0 m").0);
     let (holds, wedging, text) = told("0.52", "0 m");

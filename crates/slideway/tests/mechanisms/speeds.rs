@@ -87,13 +87,12 @@ fn a_peg_that_slows_down_stops_and_stays() {
     assert_close(stop.time, 1e-3 / 2200.0, 0.0, 1e-12);
     assert_close(stop.distance, 1e-6 / 4400.0, 0.0, 1e-12);
     assert_eq!(report.from_rest, Some(FromRest::Rests));
-    let text = report.text(Style::PLAIN);
+    let text = report.text(Style::PLAIN.verbose(true).width(200));
     for sentence in [
-        "One solution: it slows down.",
-        "Friction takes more than the loads give. To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.",
-        "It slows down, and would stop after 4.5455e-7 s and 2.2727e-7 mm if nothing changed.",
+        "It slows down and would stop after 4.545e-7 s and 2.273e-7 mm.",
+        "It slows down because friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.",
         "Once it is at rest, these loads would not move it again.",
-        "the contact mode stays the same however much friction grows, but the motion slows down in it",
+        "This contact mode remains however much friction grows, but the motion slows down in it.",
     ] {
         assert!(text.contains(sentence), "{sentence}\n{text}");
     }
@@ -211,19 +210,19 @@ fn a_rate_that_is_not_given_is_not_told_as_one() {
 /// The same sentence wherever a load that friction stops could be taken for one that does not jam.
 #[test]
 fn every_answer_on_a_load_says_how_to_ask_whether_it_jams() {
-    const HOW: &str = "To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.";
+    const HOW: &str = "To ask whether it jams, add a drive, or see `slideway hold`.";
     let told = |push: &str| -> Vec<String> {
         let model = Model::parse(&peg("0.3", push)).unwrap();
         let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 0.5))).unwrap();
         let size = size(&model, &SizeOptions::new(Vary::usual("e"), 2.0)).unwrap();
         let map = |colour_by: ColourBy| {
             let axes = MapOptions::new(Vary::between("mu", 0.0, 0.5), Vary::between("e", 0.002, 0.02));
-            map(&model, &axes.size(16, 16).colour_by(colour_by)).unwrap().text(Style::PLAIN)
+            map(&model, &axes.size(16, 16).colour_by(colour_by)).unwrap().text(Style::PLAIN.width(200))
         };
         vec![
-            report_on(&peg("0.3", push)).text(Style::PLAIN),
-            limits.text(Style::PLAIN),
-            size.text(Style::PLAIN),
+            report_on(&peg("0.3", push)).text(Style::PLAIN.width(200)),
+            limits.text(Style::PLAIN.width(200)),
+            size.text(Style::PLAIN.width(200)),
             map(ColourBy::Jam),
             map(ColourBy::Margin),
         ]

@@ -1,0 +1,150 @@
+//! The first line of `solve`, `limits` and `size`, for every kind of outcome: what one would say to a colleague.
+
+use slideway::limits::{LimitsOptions, Vary, limits};
+use slideway::model::Settings;
+use slideway::report::{Report, Status, Style};
+use slideway::size::{SizeOptions, size};
+use slideway::solve::{SolveOptions, solve_with};
+use slideway::{Model, gallery, solve};
+use std::ops::ControlFlow;
+
+fn model(name: &str) -> Model {
+    Model::parse(gallery::find(name).expect("in the gallery").text).expect("sound")
+}
+
+fn with(name: &str, parameters: &[(&str, &str)]) -> Model {
+    let settings = parameters
+        .iter()
+        .fold(Settings::default(), |settings, (name, value)| settings.parameter(*name, *value));
+    model(name).with(&settings).expect("sound")
+}
+
+fn finding(text: &str) -> Model {
+    Model::parse(text).expect("sound")
+}
+
+fn answer(model: &Model) -> String {
+    solve(model).expect("an answer").answer()
+}
+
+/// mu a / L = 2 mu 0.3 / 0.4: the push is 20 N / (1 - 1.5 mu), and it jams from mu = 2/3.
+#[test]
+fn a_drawer_moves_or_jams() {
+    assert_eq!(
+        answer(&model("drawer")),
+        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667, 2.222 times this friction. Safe \
+         for any load up to 2.222 times this friction."
+    );
+    assert_eq!(
+        answer(&with("drawer", &[("mu", "0.7")])),
+        "It jams: no force of push moves it. It moves below mu = 0.6667, 0.9524 times this friction."
+    );
+    assert_eq!(answer(&with("drawer", &[("mu", "0")])), "It moves: push needs 20 N, as without friction.");
+}
+
+#[test]
+fn several_solutions_are_so_many_ways() {
+    assert!(
+        answer(&model("klepp-2002")).starts_with("3 solutions: from this state it can go on in 3 ways. ")
+    );
+    let gap = with("klepp-2002", &[("mu_1", "0.24"), ("F_30", "0.5*m*g"), ("F_20", "0")]);
+    assert_eq!(solve(&gap).expect("an answer").status, Status::PreloadGap);
+    assert!(answer(&gap).starts_with("It moves in a preload gap, "), "{}", answer(&gap));
+}
+
+/// Closed form of the tests of continua: 25 to 50 N.
+#[test]
+fn an_undetermined_share_is_a_range() {
+    assert_eq!(
+        answer(&finding(include_str!("findings/equal_play.toml"))),
+        "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value."
+    );
+}
+
+#[test]
+fn a_guided_slider_tips_and_does_not_jam() {
+    let press = include_str!("findings/tipping_press.toml");
+    let tipping = answer(&finding(&press.replace("mu = 0.12", "mu = 1.3")));
+    assert!(!tipping.contains("jam"), "{tipping}");
+    assert!(
+        answer(&model("stick-slip")).contains(" would tip from mu = "),
+        "{}",
+        answer(&model("stick-slip"))
+    );
+}
+
+#[test]
+fn without_a_drive_it_speeds_up_or_slows_down() {
+    assert!(answer(&model("painleve-klein")).starts_with("It speeds up. It would jam from mu = "));
+    let peg = finding(include_str!("../../../docs/src/examples/peg-pushed-by-load.toml"));
+    assert!(answer(&peg).starts_with("It slows down and would stop after "), "{}", answer(&peg));
+}
+
+#[test]
+fn a_search_that_ends_early_says_so() {
+    let ended = solve_with(&model("klepp-2002"), &SolveOptions::default(), &mut |_| ControlFlow::Break(()));
+    let ended = ended.expect("an answer");
+    assert!(ended.partial && ended.answer().contains("the search is not finished"), "{}", ended.answer());
+}
+
+#[test]
+fn a_limit_is_one_sentence() {
+    let over =
+        |name: &str, vary: Vary| limits(&model(name), &LimitsOptions::new(vary)).expect("an answer").answer();
+    assert_eq!(
+        over("drawer", Vary::between("mu", 0.0, 1.5)),
+        "It jams from mu = 0.6667 on (the model has 0.3)."
+    );
+    assert_eq!(over("drawer", Vary::between("mu", 0.0, 0.5)), "It moves for mu from 0 to 0.5.");
+    assert_eq!(
+        over("drawer", Vary::between("mu", 0.7, 1.5)),
+        "It jams for mu from 0.7 to 1.5 (the model has 0.3)."
+    );
+    assert_eq!(
+        over("drawer", Vary::between("L", 0.2, 0.5)),
+        "It jams below L = 0.36 m (the model has 0.4 m)."
+    );
+}
+
+#[test]
+fn a_dimension_and_the_present_safety_factor_are_two() {
+    let report =
+        size(&model("drawer"), &SizeOptions::new(Vary::between("L", 0.1, 1.0), 2.0)).expect("an answer");
+    assert_eq!(
+        report.answer(),
+        "For a safety factor of 2 against jamming: L at least 0.36 m (examined up to 1 m). The model has L = 0.4 m: its safety \
+         factor is 2.222, which is enough."
+    );
+    let jams = size(&with("drawer", &[("mu", "0.7")]), &SizeOptions::new(Vary::between("L", 0.1, 1.0), 2.0));
+    let jams = jams.expect("an answer").answer();
+    assert!(
+        jams.ends_with(
+            "The model has L = 0.4 m: it jams; friction would have to fall to 0.9524 of its value."
+        ),
+        "{jams}"
+    );
+}
+
+/// What is said shortly is true in full: all details hold the short answer, and no line of prose is too long.
+#[test]
+fn the_details_begin_with_the_answer_and_lines_fit() {
+    for entry in gallery::MODELS {
+        let model = Model::parse(entry.text).expect("sound");
+        let Ok(report) = solve(&model) else { continue };
+        let narrow = report.text(Style::PLAIN.width(80));
+        for line in narrow.lines() {
+            assert!(line.chars().count() <= 100, "{}: {line}", entry.name);
+        }
+        let [brief, verbose] =
+            [false, true].map(|verbose| report.text(Style::PLAIN.verbose(verbose).width(10_000)));
+        for text in [&brief, &verbose] {
+            assert!(text.contains(&report.answer()), "{}: {text}", entry.name);
+        }
+        for line in
+            brief.lines().filter(|line| line.ends_with(['.', ':']) && !line.starts_with("It is wedged"))
+        {
+            let line = line.strip_prefix("The guides share").unwrap_or(line);
+            assert!(verbose.contains(line), "{}: {line}\n{verbose}", entry.name);
+        }
+    }
+}
