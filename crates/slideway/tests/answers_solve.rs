@@ -101,8 +101,8 @@ fn a_limit_is_one_sentence() {
         "It jams for mu from 0.7 to 1.5 (the model has 0.3)."
     );
     assert_eq!(
-        over("drawer", Vary::between("L", 0.2, 0.5)),
-        "It jams below L = 0.36 m (the model has 0.4 m)."
+        over("drawer", Vary::between("L", 0.1, 0.5)),
+        "It jams below L = 0.18 m (the model has 0.4 m)."
     );
 }
 
@@ -140,10 +140,9 @@ fn the_details_begin_with_the_answer_and_lines_fit() {
         for text in [&brief, &verbose] {
             assert!(text.contains(&report.answer()), "{}: {text}", entry.name);
         }
-        for line in
-            brief.lines().filter(|line| line.ends_with(['.', ':']) && !line.starts_with("It is wedged"))
-        {
-            let line = line.strip_prefix("The guides share").unwrap_or(line);
+        // Of redundant guides the details name the groups, where the short text has one sentence.
+        let is_short = |line: &&str| line.starts_with("It is wedged") || line.starts_with("The guides share");
+        for line in brief.lines().filter(|line| line.ends_with(['.', ':']) && !is_short(line)) {
             assert!(verbose.contains(line), "{}: {line}\n{verbose}", entry.name);
         }
     }

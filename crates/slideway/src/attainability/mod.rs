@@ -284,12 +284,14 @@ impl<'p> ElasticGuides<'p> {
 
 /// What is assumed of the drives, and what to change.
 fn reversed(mechanism: &Mechanism) -> String {
-    let holds = mechanism.drives.iter().map(|drive| {
-        format!("{} holds {}", drive.name, mechanism.coordinates[drive.coordinate.index()].name)
-    });
+    let name =
+        |drive: &crate::mechanism::Drive| mechanism.coordinates[drive.coordinate.index()].name.to_string();
+    let holds = mechanism.drives.iter().map(|drive| format!("{} holds {}", drive.name, name(drive)));
+    let holds = holds.collect::<Vec<_>>().join(", ");
+    let first = mechanism.drives.first().map_or_else(String::new, name);
     format!(
-        "each drive is taken to hold its coordinate exactly while the guides give way ({}), and pushes along such a line that this is unstable without any friction; choose as coordinate the displacement of the point on which the drive pushes, `x = \"BODY.POINT\"`",
-        holds.collect::<Vec<_>>().join(", ")
+        "with elastic guides it would be unstable even without friction if {holds} exactly, from where the drive acts. Measure \
+         {first} where the drive acts: `x = \"BODY.POINT\"` in [coordinates.{first}]"
     )
 }
 

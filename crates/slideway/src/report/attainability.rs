@@ -114,8 +114,8 @@ impl Attainability {
                     format!("Flutter unless the damping of the contacts exceeds zeta = {:.2}", damping.ratio)
                 },
             ),
-            Verdict::Undecided => format!("Attainability undecided: {reason}"),
-            Verdict::NotComputed => format!("Attainability not computed: {reason}"),
+            Verdict::Undecided => format!("Stability not decided: {reason}"),
+            Verdict::NotComputed => format!("Stability not computed: {reason}"),
         };
         if self.depends_on_stiffness == Some(true) {
             words += "; depends on the stiffness of the guides";
