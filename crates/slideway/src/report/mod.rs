@@ -43,7 +43,7 @@ pub use slideway_modes::{Proof, Status};
 /// use slideway::{Model, Report, gallery, solve};
 ///
 /// let report = solve(&Model::parse(gallery::find("drawer").expect("in the gallery").text)?)?;
-/// assert!(report.text(Style::PLAIN).contains("One solution."));
+/// assert!(report.text(Style::PLAIN).contains("It moves: push needs 36.36 N"));
 /// assert!(report.json().contains("\"status\": \"one\""));
 /// # Ok::<(), slideway::Faults>(())
 /// ```
