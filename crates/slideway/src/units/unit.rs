@@ -1,6 +1,6 @@
 //! One unit, and numbers in it.
 
-use super::number::{against, number, precise};
+use super::number::{against, brief, number, precise};
 use crate::expression::written_unit;
 
 /// A unit in which numbers are shown.
@@ -83,6 +83,16 @@ impl Unit {
     /// An SI value in this unit, with eight significant digits.
     pub fn precise(&self, value: f64) -> String {
         self.with(&precise(self.number_of(value)))
+    }
+
+    /// An SI value in this unit, with at most four significant digits: for sentences.
+    pub(crate) fn brief(&self, value: f64) -> String {
+        self.with(&self.brief_number(value))
+    }
+
+    /// [`Unit::brief`] without the name.
+    pub(crate) fn brief_number(&self, value: f64) -> String {
+        brief(self.number_of(value))
     }
 
     /// A heading of a column or an axis: "L in mm".
