@@ -44,6 +44,7 @@
 //! of one state of joints and contacts, and its inequalities, `directions.rs` which way joints may move together; `rest.rs`,
 //! `threshold.rs` and `release.rs` are the questions, `instant.rs` that of a mechanism in motion with friction in hinges, `turning.rs` its states in which some turn.
 
+mod answer;
 mod directions;
 mod instant;
 mod reactions;
