@@ -143,6 +143,15 @@ pub fn hold_with(
     watched(callback, |work| hold_within(model, options, work))
 }
 
+/// Whether [`hold`] has an answer, without seeking it.
+///
+/// # Errors
+/// As [`hold`] without a load.
+pub(crate) fn can_hold(model: &Model) -> Result<(), Faults> {
+    let setup = Setup::new(model, &HoldOptions::default())?;
+    check_states(&setup, MOST_STATES).map(|_| ())
+}
+
 fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
     let options = &with_load(model, options)?;
     let setup = Setup::new(model, options)?;
