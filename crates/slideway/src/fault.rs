@@ -539,7 +539,7 @@ impl FaultKind {
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
             Self::SharedLoad { .. } => Some(
-                "contacts that open and close on the way are no event that motions have; ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
+                "`slideway simulate` cannot yet follow guides that share a load: ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
                     .to_owned(),
             ),
             Self::FrictionInHinges { .. } => Some(

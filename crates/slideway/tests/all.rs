@@ -3,6 +3,7 @@
 //! One program, so that the library is linked once for all of them. A file of this folder is a module here, a
 //! folder with a `main.rs` is a program of its own; `architecture.rs` sees to it that none is forgotten.
 
+mod answers;
 mod answers_solve;
 mod architecture;
 mod book;

@@ -10,8 +10,8 @@ Examples:
   slideway check drawer.toml --format json
 
 Exit codes:
-  0  the model is sound: `slideway solve` accepts it
-  2  invalid input, or a finding that makes `slideway solve` reject it";
+  0  at least one question can be answered in this state
+  2  invalid input, or no question can be answered";
 
 /// Arguments of `slideway check`.
 #[derive(Debug, Args)]

@@ -8,7 +8,7 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use slideway::check::{self};
 
-/// Says what a model consists of, and whether it can be solved.
+/// Says what a model consists of, and which questions it can answer.
 pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
@@ -16,5 +16,5 @@ pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outco
     let report = check::check(&model).map_err(|faults| input.refused(faults))?;
     output.tell(&report, arguments.format)?;
     input.be_strict(&model)?;
-    Ok(if report.sound { Outcome::Done } else { Outcome::Refused })
+    Ok(if report.is_ready() { Outcome::Done } else { Outcome::Refused })
 }

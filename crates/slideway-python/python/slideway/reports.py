@@ -1139,6 +1139,9 @@ class Course(Record):
     """What is varied."""
     directions: tuple[CourseDirection, ...]
     """Motion as in the model, and with all rates reversed."""
+    sampled: bool
+    """Whether the values at which something changes were sought between sampled ones, so that some may be
+    missed."""
     guarantee: str
     """What can be missed, in words."""
 
@@ -1362,6 +1365,8 @@ class DriveDirection(Record):
     """Which direction it is."""
     status: Status
     """How many solutions there are."""
+    complete: Proof
+    """Whether these are certainly all solutions."""
     frictionless: Frictionless
     """Without friction."""
     solutions: tuple[DriveSolution, ...]
@@ -1370,8 +1375,16 @@ class DriveDirection(Record):
     """Where there are infinitely many solutions: between which values their efforts lie; absent if there are
     not, and if it is not known."""
     no_solution: float | None = None
-    """From this factor of friction on there is no solution; absent if there always is one, or it was not
+    """Just beyond this factor of friction there is no solution; absent if there always is one, or it was not
     computed."""
+    never_jams: bool
+    """Whether there is a solution however great the friction; false also where that was not computed."""
+    moves_below: Unlocking | None = None
+    """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
+    and where none comes."""
+    mu: float | None = None
+    """The coefficient of friction of all contacts that have friction; absent if it is not the same for all of
+    them, or depends on the sliding speed."""
     tips: tuple[str, ...] = ()
     """The guided sliders that tip where there is no solution, or from that factor on: as block sliders they show
     whether it moves."""

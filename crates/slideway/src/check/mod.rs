@@ -8,13 +8,16 @@
 //!
 //! let bracket = Model::parse(gallery::find("bracket-on-pole").expect("in the gallery").text)?;
 //! let report = check::check(&bracket)?;
-//! assert!(!report.sound);
+//! assert!(!report.sound && report.is_ready());
 //! assert_eq!(report.inertia.motions_without, ["bracket moves along (0, -1)"]);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
 mod directions;
+mod questions;
 mod text;
+
+pub use questions::Question;
 
 use crate::configuration::{Configuration, Mobility, Pose, free_motions, motions_without_inertia, unit};
 use crate::fault::{FaultKind, Faults};
@@ -52,8 +55,10 @@ pub struct CheckReport {
     /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings.
     /// (What only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
     pub sound: bool,
-    /// Everything for which it would be refused.
+    /// Everything for which that would be refused.
     pub findings: Vec<Finding>,
+    /// The questions, and which of them the model can answer in this state.
+    pub questions: Vec<Question>,
     /// What is perhaps not meant, though it does not stand in the way.
     pub warnings: Vec<WarningReport>,
     /// Degrees of freedom and determinacy.
@@ -300,6 +305,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));
     let assembled = state.is_ok();
+    let original = mechanism.clone();
     let configuration = state.unwrap_or(drawing);
     let mobility = Mobility::of(&mechanism, &configuration);
     let (mut condition, mut sharing) = (None, None);
@@ -330,7 +336,8 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         title: mechanism.title.clone(),
         units: model.units.clone(),
         sound: faults.is_empty(),
-        findings: faults.sorted().iter().map(|fault| finding(&fault.kind)).collect(),
+        findings: faults.sorted().iter().map(|fault| Finding::of(&fault.kind)).collect(),
+        questions: questions::questions((model, &original), assembled.then_some(&configuration), &faults),
         warnings: WarningReport::list(&warnings(model)),
         mobility: mobility_summary(&mechanism, &mobility),
         sharing,
@@ -347,8 +354,17 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     })
 }
 
-fn finding(kind: &FaultKind) -> Finding {
-    Finding { message: kind.to_string(), hint: kind.hint() }
+impl Finding {
+    fn of(kind: &FaultKind) -> Self {
+        Self { message: kind.to_string(), hint: kind.hint() }
+    }
+}
+
+impl CheckReport {
+    /// Whether some question can be answered in this state.
+    pub fn is_ready(&self) -> bool {
+        self.questions.iter().any(|question| question.ready)
+    }
 }
 
 fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySummary {

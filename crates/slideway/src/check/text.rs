@@ -1,6 +1,6 @@
 //! The findings of a check as text for people.
 
-use super::{CheckReport, ContactFit, ContactSummary};
+use super::{CheckReport, ContactFit, ContactSummary, Finding, Question};
 use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -9,15 +9,27 @@ use crate::units::Unit;
 use anstyle::AnsiColor;
 
 impl Report for CheckReport {
+    /// Which questions it can answer: "Ready for: hold, simulate. For solve, give a rate."
     fn answer(&self) -> String {
-        match (self.sound, self.warnings.is_empty()) {
-            (true, true) => "Sound: it can be solved in this state.".to_owned(),
-            (true, false) => "It can be solved in this state, but look at the warnings.".to_owned(),
-            _ => {
-                let findings = count(self.findings.len(), "finding", "findings");
-                format!("It cannot be solved in this state: {findings}.")
-            }
+        if !self.is_ready() {
+            let faults = count(self.findings.len(), "fault", "faults");
+            return format!("No question can be answered in this state: {faults}.");
         }
+        let ready: Vec<&str> =
+            self.questions.iter().filter(|question| question.ready).map(|question| question.name).collect();
+        let mut sentences = vec![format!("Ready for: {}.", ready.join(", "))];
+        let hindered: Vec<&Question> = self.hindered().collect();
+        for alike in hindered.chunk_by(|one, next| one.needs == next.needs) {
+            let names = alike.iter().map(|question| question.name).collect::<Vec<_>>().join(", ");
+            sentences.push(match alike[0].needs.as_slice() {
+                [] => format!("Not for {names}: see below."),
+                needs => format!("For {names}, give {}.", needs.join(" and ")),
+            });
+        }
+        if !self.warnings.is_empty() {
+            sentences.push(format!("{}.", count(self.warnings.len(), "warning", "warnings")));
+        }
+        sentences.join(" ")
     }
 
     /// The verdict first, then what the model consists of.
@@ -29,6 +41,28 @@ impl Report for CheckReport {
         text.inertia();
         text.tables();
         text.text()
+    }
+}
+
+impl CheckReport {
+    /// The questions that it cannot answer; `drive` only where there is one.
+    fn hindered(&self) -> impl Iterator<Item = &Question> {
+        let asked = |question: &&Question| question.name != "drive" || !self.drives.is_empty();
+        self.questions.iter().filter(|question| !question.ready).filter(asked)
+    }
+
+    /// What stands in the way, each once, with the questions that it concerns.
+    fn hindrances(&self) -> Vec<(&Finding, Vec<&str>)> {
+        let mut all: Vec<(&Finding, Vec<&str>)> = Vec::new();
+        for question in self.hindered() {
+            for finding in &question.findings {
+                match all.iter_mut().find(|(known, _)| *known == finding) {
+                    Some((_, names)) => names.push(question.name),
+                    None => all.push((finding, vec![question.name])),
+                }
+            }
+        }
+        all
     }
 }
 
@@ -46,9 +80,10 @@ impl Text<'_> {
             count(report.contacts.len(), "contact", "contacts"),
             count(report.loads.len(), "load", "loads"),
             count(report.drives.len(), "drive", "drives"),
+            count(report.mobility.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
         ];
         self.line(&parts.join(", "));
-        if let Some(steps) = report.steps_from_drawing {
+        if let Some(steps) = report.steps_from_drawing.filter(|_| self.is_verbose()) {
             self.line(&followed(steps));
         }
         self.line("");
@@ -56,14 +91,15 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let colour = match (report.sound, report.warnings.is_empty()) {
+        let colour = match (report.is_ready(), report.warnings.is_empty()) {
             (true, true) => AnsiColor::Green,
             (true, false) => AnsiColor::Yellow,
             _ => AnsiColor::Red,
         };
         self.painted(colour.on_default().bold(), &report.answer(), "");
-        for finding in &report.findings {
-            self.line(&format!("  - {}", finding.message));
+        for (finding, questions) in report.hindrances() {
+            let of_some = report.is_ready().then(|| format!("For {}: ", questions.join(", ")));
+            self.line(&format!("  - {}{}", of_some.unwrap_or_default(), finding.message));
             if let Some(hint) = &finding.hint {
                 self.line(&format!("    help: {hint}"));
             }
@@ -81,14 +117,16 @@ impl Text<'_> {
 
     fn mobility(&mut self) {
         let mobility = &self.report.mobility;
-        self.line(&format!(
-            "{} of the bodies, {}: {}.",
-            count(mobility.body_coordinates, "coordinate", "coordinates"),
-            count(mobility.independent, "independent constraint", "independent constraints"),
-            count(mobility.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
-        ));
+        if self.is_verbose() {
+            self.line(&format!(
+                "{} of the bodies, {}: {}.",
+                count(mobility.body_coordinates, "coordinate", "coordinates"),
+                count(mobility.independent, "independent constraint", "independent constraints"),
+                count(mobility.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+            ));
+        }
         let determinacy = if mobility.determinate {
-            "Statically determinate: no constraint is redundant.".to_owned()
+            "Statically determinate.".to_owned()
         } else if mobility.constraints == mobility.independent {
             // Further supports of one block.
             "Statically indeterminate: contacts are redundant.".to_owned()
@@ -97,7 +135,7 @@ impl Text<'_> {
             let excess = count(excess, "constraint is", "constraints are");
             let joints = mobility.joints_in_excess.join(", ");
             if mobility.singular_position {
-                format!("Singular position: {excess} lost there, among {joints}.")
+                format!("Singular position: {excess} lost in it, among {joints}.")
             } else {
                 format!("Statically indeterminate: {excess} redundant, among {joints}.")
             }
@@ -113,21 +151,20 @@ impl Text<'_> {
         if report.mobility.degrees_of_freedom == 0 {
             // Nothing can move.
         } else if report.inertia.regular {
-            self.line("Mass matrix on the free motions: regular.");
+            if self.is_verbose() {
+                self.line("Every motion has inertia: the mass matrix is regular.");
+            }
         } else {
-            self.line("Mass matrix on the free motions: singular. These motions have no inertia:");
-            for motion in &report.inertia.motions_without {
-                self.line(&format!("  {motion}"));
-            }
-            if report.condition.is_some() {
-                self.line("  The drives prescribe them, so the equations can be solved nevertheless.");
-            }
+            let motions = report.inertia.motions_without.join("; ");
+            let nevertheless =
+                if report.condition.is_some() { " The drives prescribe it." } else { "" };
+            self.line(&format!("Without inertia: {motions}.{nevertheless}"));
         }
-        if let Some(condition) = report.condition {
+        if let Some(condition) = report.condition.filter(|_| self.is_verbose()) {
             self.line(&format!("Condition of the kinetic equations: {}.", number(condition)));
         }
         if !report.assembled {
-            self.line("These results hold for the drawing, not for the state.");
+            self.line("What follows holds for the drawing, as the state could not be assembled.");
         }
     }
 

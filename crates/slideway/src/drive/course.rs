@@ -4,7 +4,7 @@ use super::efforts::{Efforts, GROWTH};
 use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
-use crate::limits::{ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
+use crate::limits::{Method, ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Status, Verdict};
@@ -19,6 +19,13 @@ const STEPS: usize = 500;
 /// Halvings between two values: down to neighbouring numbers.
 const HALVINGS: usize = 100;
 
+/// What can be missed.
+pub(super) struct Guarantee {
+    /// Whether changes were sought between sampled values.
+    pub(super) sampled: bool,
+    pub(super) words: String,
+}
+
 /// The efforts in one direction of motion, and what can be missed.
 ///
 /// # Errors
@@ -28,7 +35,7 @@ pub(super) fn direction(
     (range, steps): ([f64; 2], usize),
     direction: Sense,
     work: Work<'_>,
-) -> Result<(String, CourseDirection), Faults> {
+) -> Result<(Guarantee, CourseDirection), Faults> {
     let found = find(varied, range, None, 0, work.part(0, 2))?;
     let efforts = |value: f64| {
         let goes_on = !work.part(1, 2).is_over();
@@ -42,8 +49,9 @@ pub(super) fn direction(
     let rows = course.rows(steps);
     let modes = modes(&rows, &Naming::new(varied.model())?);
     let without_mode_problem = RangeWithoutProblem::of(&found);
+    let sampled = found.method == Method::Bracketing;
     Ok((
-        guarantee(&found, &varied.shown_in),
+        Guarantee { sampled, words: guarantee(&found, &varied.shown_in) },
         CourseDirection { direction, rows, modes, blow_ups, locked: Vec::new(), without_mode_problem },
     ))
 }

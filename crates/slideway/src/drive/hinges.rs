@@ -1,7 +1,7 @@
 //! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and where the
 //! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
 
-use super::course::{evenly, modes, nothing, rows_of, with_blow_ups};
+use super::course::{Guarantee, evenly, modes, nothing, rows_of, with_blow_ups};
 use super::efforts::{frictionless, grows, velocities};
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, LockedRange, Sense};
 use super::state::{self, AllEfforts};
@@ -24,7 +24,7 @@ const HALVINGS: usize = 60;
 const NEAR: [f64; 2] = [1e-4, 1e-6];
 
 /// What can be missed.
-const GUARANTEE: &str = "Every row was solved by itself, and so were 501 evenly spaced values; between those with different numbers of solutions the change was sought by bisection. What begins and ends between two of these values is missed.";
+const GUARANTEE: &str = "Every row is solved by itself, and so are 501 evenly spaced values. Where the number of solutions differs between two of them, the change is found by bisection. What begins and ends between two of these values is missed.";
 
 /// The efforts in one direction of motion, and what can be missed.
 ///
@@ -35,7 +35,7 @@ pub(super) fn direction(
     (range, steps): ([f64; 2], usize),
     direction: Sense,
     work: Work<'_>,
-) -> Result<(String, CourseDirection), Faults> {
+) -> Result<(Guarantee, CourseDirection), Faults> {
     let course = Sampled { varied, range, work };
     let rows: Vec<CourseRow> = evenly(range, steps).flat_map(|value| course.rows_at(value)).collect();
     if rows.iter().all(|row| row.frictionless.is_none()) {
@@ -53,7 +53,7 @@ pub(super) fn direction(
     let modes = modes(&rows, &Naming::new(varied.model())?);
     let without_mode_problem = Vec::new();
     Ok((
-        GUARANTEE.to_owned(),
+        Guarantee { sampled: true, words: GUARANTEE.to_owned() },
         CourseDirection { direction, rows, modes, blow_ups, locked, without_mode_problem },
     ))
 }

@@ -39,6 +39,7 @@ mod hinges;
 mod report;
 mod state;
 mod text;
+mod words;
 
 pub(crate) use efforts::Efforts;
 pub use report::{
@@ -136,7 +137,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         conclusion: Vec::new(),
     };
     report.suit_units();
-    report.conclusion = text::conclusion(&report);
+    report.conclusion = words::conclusion(&report);
     finite(report)
 }
 
@@ -158,6 +159,7 @@ fn course(
     Ok(Course {
         vary: VariedQuantity::new(&varied, range, varied.present()?),
         directions: vec![forwards, backwards],
-        guarantee,
+        sampled: guarantee.sampled,
+        guarantee: guarantee.words,
     })
 }

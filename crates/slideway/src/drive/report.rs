@@ -1,7 +1,7 @@
 //! What is told of driven motion: plain data, which are the JSON output.
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
-use crate::report::{CoordinateState, JointMode, Status, Undetermined, Verdict};
+use crate::report::{CoordinateState, JointMode, Proof, Status, Undetermined, Unlocking, Verdict};
 use crate::units::Units;
 use serde::Serialize;
 
@@ -69,6 +69,8 @@ pub struct DriveDirection {
     pub direction: Sense,
     /// How many solutions there are.
     pub status: Status,
+    /// Whether these are certainly all solutions.
+    pub complete: Proof,
     /// Without friction.
     pub frictionless: Frictionless,
     /// Every solution, preload-gap states after the others.
@@ -77,10 +79,20 @@ pub struct DriveDirection {
     /// if it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<EffortRange>,
-    /// From this factor of friction on there is no solution; absent if there always is one, or it was not
+    /// Just beyond this factor of friction there is no solution; absent if there always is one, or it was not
     /// computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
+    /// Whether there is a solution however great the friction; false also where that was not computed.
+    pub never_jams: bool,
+    /// Where there is no solution: to what all friction would have to fall for one; absent where there is one, and
+    /// where none comes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moves_below: Option<Unlocking>,
+    /// The coefficient of friction of all contacts that have friction; absent if it is not the same for all of them, or
+    /// depends on the sliding speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
     /// The guided sliders that tip where there is no solution, or from that factor on: as block sliders they show
     /// whether it moves.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -199,6 +211,8 @@ pub struct Course {
     pub vary: VariedQuantity,
     /// Motion as in the model, and with all rates reversed.
     pub directions: Vec<CourseDirection>,
+    /// Whether the values at which something changes were sought between sampled ones, so that some may be missed.
+    pub sampled: bool,
     /// What can be missed, in words.
     pub guarantee: String,
 }

@@ -5,7 +5,7 @@ use super::efforts::{Efforts, efficiency, frictionless, growing, power, velociti
 use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, EffortRange, Frictionless, Sense};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Contact, Mechanism};
 use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::Work;
@@ -46,13 +46,28 @@ pub(super) fn direction(
         tips,
         direction,
         status: report.status,
+        complete: report.complete,
         solutions,
         range,
         no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
+        never_jams: report.margins.as_ref().is_some_and(|margins| margins.no_solution.is_none()),
+        moves_below: report.margins.as_ref().and_then(|margins| margins.moves_below),
+        mu: only_mu(&stages.mechanism),
         blow_ups: blow_ups(&stages, work.part(1, 2))?,
         frictionless,
     };
     Ok((report.state, found))
+}
+
+/// The coefficient of friction, if there is one.
+fn only_mu(mechanism: &Mechanism) -> Option<f64> {
+    let rough = mechanism.contacts.iter().filter(|contact| contact.mu != [0.0; 2]);
+    if rough.clone().any(Contact::depends_on_speed) || mechanism.rough_hinges().next().is_some() {
+        return None;
+    }
+    let mut coefficients = rough.flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
+    let first = coefficients.next()?;
+    coefficients.all(|mu| mu == first).then_some(first)
 }
 
 /// The efforts of all solutions.

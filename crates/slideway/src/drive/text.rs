@@ -1,14 +1,13 @@
 //! Driven motion as text for people.
 
 use super::report::{
-    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, Efficiency,
-    EfficiencyKind, EffortRange, LockedRange, Sense,
+    Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution, EffortRange,
+    LockedRange, Sense,
 };
+use super::words::{advice, is_stable, percents, sentences, share, without_limit};
 use crate::limits::{RangeWithoutProblem, no_answer};
-use crate::report::number::number;
-use crate::report::number::precise;
 use crate::report::page::Page;
-use crate::report::{LOCKED, OpenRange, Report, Status, Style, Verdict, count, spaced, tips};
+use crate::report::{OpenRange, Proof, Report, Style, Verdict, precise, spaced};
 use crate::units::Unit;
 
 impl Report for DriveReport {
@@ -23,6 +22,7 @@ impl Report for DriveReport {
         for direction in &self.directions {
             text.direction(direction);
         }
+        text.proof();
         if let Some(course) = &self.course {
             text.course(course);
         }
@@ -30,139 +30,11 @@ impl Report for DriveReport {
     }
 }
 
-/// One sentence for each direction, one for each factor of friction at which its efforts grow without bound, and
-/// one for the factor beyond which it locks, if no effort grows there.
-pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
-    let mut sentences = Vec::new();
-    for direction in &report.directions {
-        sentences.push(format!("{}: {}.", moving(direction.direction), outcome(report, direction)));
-        let blow_ups = direction.blow_ups.iter().flatten();
-        sentences.extend(blow_ups.map(|blow_up| {
-            format!(
-                "{}: at {} times the friction {}.",
-                moving(direction.direction),
-                precise(blow_up.at),
-                without_bound(report, blow_up)
-            )
-        }));
-        // A jam that no growing effort announces.
-        let is_announced =
-            |factor: f64| direction.blow_ups.iter().flatten().any(|blow_up| near(blow_up.at, factor));
-        let comes = direction.no_solution.filter(|_| !direction.solutions.is_empty());
-        sentences.extend(comes.filter(|&factor| !is_announced(factor)).map(|factor| {
-            let what =
-                tips(&direction.tips).unwrap_or_else(|| "no effort moves it; none grows before".to_owned());
-            format!("{}: beyond {} times the friction {what}.", moving(direction.direction), precise(factor))
-        }));
-    }
-    let ranges = report.directions.iter().filter_map(|direction| direction.range.as_ref());
-    sentences.extend(ranges.filter_map(|range| range.undetermined.advice()).map(str::to_owned).next());
-    sentences
-}
-
-/// Whether two factors are one, as the text tells them.
-fn near(one: f64, other: f64) -> bool {
-    precise(one) == precise(other)
-}
-
-fn moving(direction: Sense) -> &'static str {
+fn title(direction: Sense) -> &'static str {
     match direction {
-        Sense::Model => "Moving as in the model",
-        Sense::Reversed => "Moving in the opposite direction with the same loads",
+        Sense::Model => "As in the model",
+        Sense::Reversed => "Backwards, with the same loads",
     }
-}
-
-/// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
-fn outcome(report: &DriveReport, direction: &DriveDirection) -> String {
-    if let Some(range) = &direction.range {
-        return undetermined(report, direction, range);
-    }
-    match (direction.solutions.as_slice(), direction.status) {
-        (_, Status::Continuum) => {
-            "infinitely many states are possible, whose efforts are not known".to_owned()
-        }
-        ([], Status::Unknown) => "it is not known which effort moves it".to_owned(),
-        ([], _) => tips(&direction.tips).unwrap_or_else(|| format!("no effort moves it, {LOCKED}")),
-        ([only], _) => {
-            // One drive that does no work without friction has no effort then.
-            let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;
-            let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
-                let unit = report.units.of(drive.unit);
-                let (with, without) = (unit.show(*with), unit.show(*without));
-                if is_idle {
-                    return format!("{} needs {with}", drive.name);
-                }
-                format!("{} needs {with} instead of {without} without friction", drive.name)
-            };
-            let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
-            let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
-            format!("{}; {}", needs.join(", "), efficiency_in_words(only.efficiency))
-        }
-        (several, _) => format!("{} states are possible, each with its own efforts", several.len()),
-    }
-}
-
-/// "belt needs 25 to 50 N instead of 20 N without friction; how left, right share the load is undetermined"
-fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &EffortRange) -> String {
-    let one = |(effort, without): (&OpenRange, &f64)| {
-        let without = report.units.of(effort.unit).show(*without);
-        format!(
-            "{} needs {} instead of {without} without friction",
-            effort.name,
-            effort.in_words(&report.units)
-        )
-    };
-    let efforts = range.undetermined.efforts.iter().zip(&direction.frictionless.efforts);
-    let mut parts: Vec<String> = efforts.map(one).collect();
-    parts.extend(range.efficiency.map(|ends| format!("efficiency {}", percents(ends))));
-    parts.push(range.undetermined.cause());
-    if !direction.solutions.is_empty() {
-        let further = count(direction.solutions.len(), "further state has", "further states have");
-        parts.push(format!("{further} their own efforts"));
-    }
-    parts.join("; ")
-}
-
-/// "40 to 80 %"
-fn percents([from, to]: [f64; 2]) -> String {
-    if from == to { percent(from) } else { format!("{} to {}", number(100.0 * from), percent(to)) }
-}
-
-fn efficiency_in_words(efficiency: Efficiency) -> String {
-    match (efficiency.is, efficiency.value) {
-        (EfficiencyKind::Driving, Some(value)) => format!("efficiency {}", percent(value)),
-        (EfficiencyKind::Braking, Some(value)) => {
-            format!("the load pushes, and {} of its power reaches the drives", percent(value))
-        }
-        (EfficiencyKind::HeldByFriction, _) => {
-            "without friction the load would push, but friction holds it".to_owned()
-        }
-        (EfficiencyKind::NoPower, _) => "without friction the motion needs no power".to_owned(),
-        _ => "without friction the drives would push, with it they brake".to_owned(),
-    }
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", number(100.0 * share))
-}
-
-/// "the effort of push grows without bound (mode + -), as do guide.front, guide.rear"
-fn without_bound(report: &DriveReport, blow_up: &BlowUp) -> String {
-    let growing = report.drives.iter().zip(&blow_up.efforts).filter(|(_, sign)| **sign != 0);
-    let growing: Vec<&str> = growing.map(|(drive, _)| &*drive.name).collect();
-    let [what, verb] = if growing.len() == 1 { ["effort", "grows"] } else { ["efforts", "grow"] };
-    let also = match blow_up.contacts.as_slice() {
-        [] => String::new(),
-        contacts => format!(", as the normal forces of {} do", contacts.join(", ")),
-    };
-    let only = if blow_up.side == Approach::Above { ", which exists above it" } else { "" };
-    // Hinges alone have no modes.
-    let mode = match (blow_up.pattern.as_str(), blow_up.side) {
-        ("", Approach::Below) => " from below".to_owned(),
-        ("", Approach::Above) => " from above".to_owned(),
-        (pattern, _) => format!(" in the mode {}{only}", spaced(pattern)),
-    };
-    format!("the {what} of {} {verb} without bound{mode}{also}", growing.join(", "))
 }
 
 impl Page<'_, DriveReport> {
@@ -174,43 +46,53 @@ impl Page<'_, DriveReport> {
         let state = report.state.iter().map(|coordinate| coordinate.in_words(&report.units));
         self.line(&state.collect::<Vec<_>>().join("; "));
         self.line("");
-        for sentence in &report.conclusion {
-            self.headline(sentence);
+        for direction in &report.directions {
+            self.status(direction.status, &sentences(report, direction).join(" "));
         }
+        advice(report).iter().for_each(|line| self.line(line));
     }
 
     fn direction(&mut self, direction: &DriveDirection) {
         self.line("");
-        self.headline(moving(direction.direction));
-        let mut header = vec!["signs".to_owned(), "elastic guides".to_owned()];
+        self.headline(title(direction.direction));
+        let all = self.is_verbose();
+        let states = &direction.solutions;
+        let columns = Columns {
+            signs: all,
+            stable: all || states.iter().any(|one| one.attainability != Verdict::Attainable),
+            contact: states.iter().any(|one| !one.joints.is_empty()),
+        };
+        let mut header = vec![String::new()];
+        header.extend(columns.signs.then(|| "signs".to_owned()));
         header.extend(self.effort_titles());
-        let power = self.report.units.of("W").title("power");
-        header.extend([power, "efficiency".to_owned(), "contact mode".to_owned()]);
-        let frictionless = &direction.frictionless;
-        let mut rows = vec![self.row(["without friction", ""], &frictionless.efforts, frictionless.power)];
-        rows[0].extend([String::new(), String::new()]);
-        for solution in &direction.solutions {
-            let mut one = self.row(
-                [&spaced(&solution.pattern), verdict_in_words(solution.attainability)],
-                &solution.efforts,
-                solution.power,
-            );
-            let words = solution.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode));
-            one.extend([share(solution.efficiency), words.collect::<Vec<_>>().join("; ")]);
-            rows.push(one);
+        header.extend([self.report.units.of("W").title("power"), "efficiency".to_owned()]);
+        header.extend(columns.stable.then(|| "stable".to_owned()));
+        header.extend(columns.contact.then(|| "contact".to_owned()));
+        let mut rows = vec![self.frictionless(direction, columns)];
+        for (index, state) in states.iter().enumerate() {
+            let name = if states.len() == 1 { "with friction".to_owned() } else { format!("state {}", index + 1) };
+            rows.push(self.state(name, state, columns));
         }
-        if let Some(range) = &direction.range {
-            let mut one = vec!["undetermined".to_owned(), String::new()];
-            one.extend(self.range_cells(range));
-            one.push(ends_in_words(
-                range.power.map(|end| end.map(|power| self.report.units.of("W").number(power))),
-            ));
-            one.push(range.efficiency.map_or(String::new(), percents));
-            one.push(String::new());
-            rows.push(one);
-        }
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        rows.extend(direction.range.as_ref().map(|range| self.range(range, columns)));
         self.table(&header, &rows);
+        for blow_up in direction.blow_ups.iter().flatten().filter(|_| all) {
+            let told = without_limit(self.report, blow_up, true);
+            self.line(&format!("  At {} times this friction {told}.", precise(blow_up.at)));
+        }
+        for factor in direction.no_solution.iter().filter(|_| all) {
+            self.line(&format!("  Just beyond {} times this friction there is no solution.", precise(*factor)));
+        }
+    }
+
+    /// Whether other states are excluded.
+    fn proof(&mut self) {
+        let proven = self.report.directions.iter().all(|one| one.complete == Proof::Proven);
+        self.line("");
+        self.line(if proven {
+            "Proven: there are no other states."
+        } else {
+            "Not proven: there may be other states."
+        });
     }
 
     fn effort_titles(&self) -> Vec<String> {
@@ -223,51 +105,106 @@ impl Page<'_, DriveReport> {
         self.report.drives.iter().map(|drive| self.report.units.of(drive.unit)).collect()
     }
 
-    fn row(&self, [signs, verdict]: [&str; 2], efforts: &[f64], power: f64) -> Vec<String> {
-        let mut row = vec![signs.to_owned(), verdict.to_owned()];
-        row.extend(efforts.iter().zip(self.effort_units()).map(|(effort, unit)| unit.number(*effort)));
-        row.push(self.report.units.of("W").number(power));
-        row
+    fn frictionless(&self, direction: &DriveDirection, columns: Columns) -> Vec<String> {
+        let mut row = columns.first("without friction".to_owned(), String::new());
+        row.extend(self.numbers(&direction.frictionless.efforts, direction.frictionless.power));
+        columns.last(row, String::new(), [String::new(), String::new()])
     }
 
-    /// The efforts of infinitely many solutions, a cell for each drive.
-    fn range_cells(&self, range: &EffortRange) -> Vec<String> {
-        range_cells(range, &self.effort_units())
+    fn state(&self, name: String, state: &DriveSolution, columns: Columns) -> Vec<String> {
+        let mut row = columns.first(name, spaced(&state.pattern));
+        row.extend(self.numbers(&state.efforts, state.power));
+        let words = state.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode));
+        let words = words.collect::<Vec<_>>().join("; ");
+        columns.last(row, share(state.efficiency), [is_stable(state.attainability).to_owned(), words])
+    }
+
+    fn range(&self, range: &EffortRange, columns: Columns) -> Vec<String> {
+        let mut row = columns.first("undetermined".to_owned(), String::new());
+        row.extend(range_cells(range, &self.effort_units()));
+        let power = |end: Option<f64>| end.map(|power| self.report.units.of("W").number(power));
+        row.push(ends_in_words(range.power.map(power)));
+        let efficiency = range.efficiency.map_or(String::new(), percents);
+        columns.last(row, efficiency, [String::new(), String::new()])
+    }
+
+    /// The efforts and their power.
+    fn numbers(&self, efforts: &[f64], power: f64) -> Vec<String> {
+        let efforts = efforts.iter().zip(self.effort_units()).map(|(effort, unit)| unit.number(*effort));
+        efforts.chain([self.report.units.of("W").number(power)]).collect()
     }
 
     fn course(&mut self, course: &Course) {
+        let details = self.is_verbose();
         for direction in &course.directions {
             self.line("");
-            self.headline(&format!("{}, over {}", moving(direction.direction), course.vary.name));
+            self.headline(&format!("{}, over {}", title(direction.direction), course.vary.name));
             self.course_table(course, direction);
             for blow_up in &direction.blow_ups {
-                let told = without_bound(self.report, blow_up);
+                let told = without_limit(self.report, blow_up, details);
                 let at = course.vary.shown_in.precise(blow_up.at);
                 self.line(&format!("  At {} = {at} {told}.", course.vary.name));
             }
             for LockedRange { from, to } in &direction.locked {
                 let unit = &course.vary.shown_in;
                 let [from, to] = [unit.precise_number(*from), unit.precise(*to)];
-                self.line(&format!("  From {} = {from} to {to} no effort moves it.", course.vary.name));
+                self.line(&format!("  From {} = {from} to {to} it jams.", course.vary.name));
             }
             for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
                 self.line(&no_answer([*from, *to], &course.vary.shown_in, reason));
             }
         }
         self.line("");
-        self.line(&course.guarantee);
+        self.line(match (details, course.sampled) {
+            (true, _) => &course.guarantee,
+            (false, true) => "Sampled: what begins and ends between two sampled values is missed.",
+            (false, false) => "Not sampled: the values at which something changes are computed.",
+        });
     }
 
     fn course_table(&mut self, course: &Course, direction: &CourseDirection) {
-        let mut header = vec![course.vary.shown_in.title(&course.vary.name), "signs".to_owned()];
+        let details = self.is_verbose();
+        let units = self.effort_units();
+        let rows: Vec<CourseCells> =
+            direction.rows.iter().map(|row| course_row(row, &course.vary.shown_in, &units)).collect();
+        let with_notes = rows.iter().any(|row| !row.note.is_empty());
+        let mut header = vec![course.vary.shown_in.title(&course.vary.name)];
+        header.extend(details.then(|| "signs".to_owned()));
         header.extend(self.effort_titles());
         header.extend(self.report.drives.iter().map(|drive| format!("{} without friction", drive.name)));
         header.push("efficiency".to_owned());
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let units = self.effort_units();
-        let row = |row: &CourseRow| course_row(row, &course.vary.shown_in, &units);
-        let rows: Vec<Vec<String>> = direction.rows.iter().map(row).collect();
-        self.table(&header, &rows);
+        header.extend(with_notes.then(String::new));
+        let cells = rows.into_iter().map(|row| {
+            let mut cells = vec![row.at];
+            cells.extend(details.then_some(row.signs));
+            cells.extend(row.numbers);
+            cells.extend(with_notes.then_some(row.note));
+            cells
+        });
+        self.table(&header, &cells.collect::<Vec<_>>());
+    }
+}
+
+/// Which columns a table has beside efforts, power and efficiency.
+#[derive(Clone, Copy)]
+struct Columns {
+    signs: bool,
+    stable: bool,
+    contact: bool,
+}
+
+impl Columns {
+    /// The first cells of a row.
+    fn first(self, name: String, signs: String) -> Vec<String> {
+        std::iter::once(name).chain(self.signs.then_some(signs)).collect()
+    }
+
+    /// A row with its last cells.
+    fn last(self, mut row: Vec<String>, efficiency: String, [stable, contact]: [String; 2]) -> Vec<String> {
+        row.push(efficiency);
+        row.extend(self.stable.then_some(stable));
+        row.extend(self.contact.then_some(contact));
+        row
     }
 }
 
@@ -290,54 +227,47 @@ fn ends_in_words(ends: [Option<String>; 2]) -> String {
     }
 }
 
-fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> Vec<String> {
-    let mut cells = vec![shown_in.precise_number(row.at)];
-    cells.push(match (&row.pattern, &row.frictionless) {
-        _ if row.range.is_some() => "undetermined".to_owned(),
-        (Some(pattern), _) => {
-            let verdict = row.attainability.filter(|verdict| *verdict != Verdict::Attainable);
-            let words = verdict.map_or_else(String::new, |one| format!("({})", verdict_in_words(one)));
-            [spaced(pattern), words].join(" ").trim().to_owned()
-        }
-        (None, Some(_)) => "no solution".to_owned(),
-        (None, None) => "no answer".to_owned(),
-    });
+/// A row of the table over what is varied.
+struct CourseCells {
+    at: String,
+    signs: String,
+    /// Efforts with and without friction, and the efficiency.
+    numbers: Vec<String>,
+    note: String,
+}
+
+fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> CourseCells {
+    let note = match (&row.pattern, &row.frictionless) {
+        _ if row.range.is_some() => "undetermined",
+        (Some(_), _) => match row.attainability {
+            None | Some(Verdict::Attainable) => "",
+            Some(Verdict::Unattainable) => "unstable",
+            Some(Verdict::Flutter) => "flutters",
+            Some(Verdict::Undecided | Verdict::NotComputed) => "stability not decided",
+        },
+        (None, Some(_)) => "no solution",
+        (None, None) => "no answer",
+    };
     let drives = || units.iter().enumerate();
     let ranges = row.range.as_ref().map(|range| range_cells(range, units));
-    cells.extend(ranges.unwrap_or_else(|| {
+    let mut numbers = ranges.unwrap_or_else(|| {
         drives()
             .map(|(drive, unit)| match (&row.efforts, row.grows.get(drive)) {
                 (Some(efforts), _) => unit.number(efforts[drive]),
-                (None, Some(1)) => "without bound".to_owned(),
-                (None, Some(-1)) => "-without bound".to_owned(),
+                (None, Some(1)) => "infinite".to_owned(),
+                (None, Some(-1)) => "-infinite".to_owned(),
                 _ => String::new(),
             })
             .collect()
-    }));
-    cells.extend(
-        drives().map(|(drive, unit)| {
-            row.frictionless.as_ref().map_or(String::new(), |all| unit.number(all[drive]))
-        }),
-    );
+    });
+    let free = row.frictionless.as_ref();
+    numbers.extend(drives().map(|(drive, unit)| free.map_or(String::new(), |all| unit.number(all[drive]))));
     let range = row.range.as_ref().and_then(|range| range.efficiency).map(percents);
-    cells.push(range.or_else(|| row.efficiency.map(share)).unwrap_or_default());
-    cells
-}
-
-fn share(efficiency: Efficiency) -> String {
-    match (efficiency.is, efficiency.value) {
-        (EfficiencyKind::Driving, Some(value)) => percent(value),
-        (EfficiencyKind::Braking, Some(value)) => format!("{} braking", percent(value)),
-        (is, _) => is.in_words().to_owned(),
-    }
-}
-
-fn verdict_in_words(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Attainable => "attainable",
-        Verdict::Unattainable => "unattainable",
-        Verdict::Flutter => "flutter",
-        Verdict::Undecided => "undecided",
-        Verdict::NotComputed => "not computed",
+    numbers.push(range.or_else(|| row.efficiency.map(share)).unwrap_or_default());
+    CourseCells {
+        at: shown_in.precise_number(row.at),
+        signs: row.pattern.as_deref().map(spaced).unwrap_or_default(),
+        numbers,
+        note: note.to_owned(),
     }
 }

@@ -53,7 +53,7 @@ pub(crate) use answer::{Naming, held_state};
 pub(crate) use curves::StateAt;
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
 pub(crate) use find::find;
-pub(crate) use found::{ModesFound, SameEnds};
+pub(crate) use found::{Method, ModesFound, SameEnds};
 pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{

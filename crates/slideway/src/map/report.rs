@@ -11,6 +11,7 @@ use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::{Answered, NO_DRIVE, Report, SpeedChange, Style, indented, locked, precise, spaced};
 use crate::units::Unit;
+use crate::units::number::brief;
 use serde::Serialize;
 
 /// Version of the layout of a [`MapReport`]; changes whenever a field is renamed or removed.
@@ -102,7 +103,27 @@ impl MapReport {
     }
 }
 
+/// So many classes are named in the answer.
+const NAMED: usize = 3;
+
 impl Report for MapReport {
+    /// The classes with the greatest shares: "66.7 % of the map: one solution. 33.3 %: no solution, friction locks it."
+    fn answer(&self) -> String {
+        let pixels = (self.x.pixels * self.y.pixels) as f64;
+        let mut classes: Vec<&MapClass> = self.classes.iter().collect();
+        classes.sort_by_key(|class| std::cmp::Reverse(class.pixels));
+        let one = |(place, class): (usize, &&MapClass)| {
+            let of = if place == 0 { " of the map" } else { "" };
+            let share = brief(100.0 * class.pixels as f64 / pixels);
+            format!("{share} %{of}: {}.", class.words.replace(": ", ", "))
+        };
+        let mut sentences: Vec<String> = classes.iter().enumerate().take(NAMED).map(one).collect();
+        if classes.len() > NAMED {
+            sentences.push(format!("{} more classes.", classes.len() - NAMED));
+        }
+        sentences.join(" ")
+    }
+
     /// The axes, and which part of the plane each class has.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
@@ -114,13 +135,18 @@ impl Report for MapReport {
             text.line(&format!("{} from {from} to {to}", axis.name));
         }
         text.line("");
+        text.headline(&self.answer());
         let pixels = (self.x.pixels * self.y.pixels) as f64;
         for class in &self.classes {
             let share = number(100.0 * class.pixels as f64 / pixels);
             text.line(&format!("  {share:>9} %  {}", class.words));
             class.modes.iter().for_each(|mode| text.line(&format!("               {mode}")));
         }
-        text.line(&self.guarantee);
+        text.line(match (text.is_verbose(), self.points == self.x.pixels * self.y.pixels) {
+            (true, _) => &self.guarantee,
+            (false, true) => "Every pixel was solved.",
+            (false, false) => "Sampled: a small region between the points that were solved can be missed.",
+        });
         self.remark.iter().for_each(|remark| text.line(remark));
         text.text()
     }
@@ -199,7 +225,7 @@ fn remark(model: &Model, colour_by: ColourBy) -> Option<String> {
 
 fn guarantee(raster: &Raster<ClassKey>, colour_by: ColourBy, is_bilinear: bool) -> String {
     let source = if colour_by == ColourBy::Hold {
-        "Statics was decided at every point, the rates of the model set to zero and its drives absent."
+        "Whether it holds was decided at every point, without the rates and drives of the model."
     } else if is_bilinear {
         "The mode problem depends bilinearly on both, so its numbers were interpolated."
     } else {

@@ -28,7 +28,7 @@ struct ModelFile {
     gravity: Option<Gravity>,
     /// Time of the state, `t` in expressions (s). Default: 0.
     time: Option<Quantity>,
-    /// In which units numbers are shown to people; `--units` overrides it. Default: "as-typed".
+    /// Units of the text output; `--units` overrides it. Default: "as-typed".
     units: Option<UnitSystem>,
     /// Named numbers that any expression may use and that `--set name=value` overrides.
     parameters: Option<BTreeMap<String, Quantity>>,

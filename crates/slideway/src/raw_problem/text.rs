@@ -6,7 +6,7 @@ use super::{
 };
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Report, Status, Style, count};
+use crate::report::{Proof, Report, Status, Style, count};
 
 /// Groups that are told one by one.
 const GROUPS: usize = 8;
@@ -32,9 +32,9 @@ impl Report for RawReport {
         match self.status {
             Status::None => format!("No {one}."),
             Status::Unknown if self.partial => {
-                "Nothing found, but not every sign pattern could be decided.".to_owned()
+                "Not decided: no solution was found before the search ended.".to_owned()
             }
-            Status::Unknown => "Nothing found, but that is not proven.".to_owned(),
+            Status::Unknown => "Not decided: no solution was found, but none is excluded.".to_owned(),
             Status::Continuum => {
                 let continua = match self.continuum_count.as_str() {
                     "1" => "one continuum".to_owned(),
@@ -45,7 +45,7 @@ impl Report for RawReport {
             }
             Status::PreloadGap => {
                 let none = if self.open.is_empty() { "No solution" } else { "No solution found" };
-                format!("{none}, but a state with an unknown in its preload gap.")
+                format!("{none}, but there is a state with an unknown in its preload gap.")
             }
             Status::One | Status::Several => format!("{single}."),
         }
@@ -62,7 +62,9 @@ impl Report for RawReport {
         text.solutions(title, &self.count, &self.solutions);
         text.solutions("Preload gap", &self.gap_state_count, &self.gap_states);
         text.continua();
-        text.strategy();
+        if text.is_verbose() {
+            text.strategy();
+        }
         text.text()
     }
 }
@@ -86,9 +88,13 @@ impl Text<'_> {
     fn verdict(&mut self) {
         let report = self.report;
         self.status(report.status, &report.answer());
-        self.line(&format!("complete: {}", report.complete));
+        self.line(match report.complete {
+            Proof::Proven if report.status == Status::None => "Proven.",
+            Proof::Proven => "Proven: there are no others.",
+            Proof::NotProven => "Not proven: there may be others.",
+        });
         for open in &report.open {
-            self.line(&format!("  open: {open}"));
+            self.line(&format!("  Open: {open}"));
         }
     }
 
@@ -100,9 +106,9 @@ impl Text<'_> {
         let rounding = format!("rounding of the numbers (relative {relative:e})");
         let Some(unknowns) = unknowns else {
             self.line(&if *answer == WithinRoundingAnswer::None {
-                format!("Within {rounding} there is none, either: proven.")
+                format!("Proven: within {rounding} there is none, either.")
             } else {
-                format!("Whether there is one within {rounding} is undecided.")
+                format!("Not decided: whether there is one within {rounding}.")
             });
             return;
         };
@@ -129,7 +135,7 @@ impl Text<'_> {
             _ => ("", ""),
         };
         self.line(&match answer {
-            EveryAnswer::One => format!("For every {vector} there is exactly one solution{is}: proven."),
+            EveryAnswer::One => format!("Proven: for every {vector} there is exactly one solution{is}."),
             EveryAnswer::NotOne => format!(
                 "For some {vector} there are several solutions or none{is_not}: the oriented determinants of the \
                  patterns {shown} have opposite signs."
@@ -139,7 +145,7 @@ impl Text<'_> {
                  {shown} is singular."
             ),
             EveryAnswer::InDoubt | EveryAnswer::NotComputed | EveryAnswer::Jumps => {
-                format!("Whether there is exactly one solution for every {vector} is not decided: {reason}.")
+                format!("Not decided: whether there is exactly one solution for every {vector}; {reason}.")
             }
         });
     }
@@ -147,7 +153,8 @@ impl Text<'_> {
     fn solutions(&mut self, title: &str, all: &str, solutions: &[RawSolution]) {
         for (at, solution) in solutions.iter().enumerate() {
             self.line("");
-            let signs = if solution.signs.len() > SIGNS { String::new() } else { signs(solution) };
+            let told = self.is_verbose() && solution.signs.len() <= SIGNS;
+            let signs = if told { signs(solution) } else { String::new() };
             self.headed(&format!("{title} {} of {all}", at + 1), format!("   {signs}").trim_end());
             self.boundary(solution);
             self.unknowns(&solution.unknowns, &solution.beyond_range);

@@ -44,6 +44,7 @@
 //! of one state of joints and contacts, and its inequalities, `directions.rs` which way joints may move together; `rest.rs`,
 //! `threshold.rs` and `release.rs` are the questions, `instant.rs` that of a mechanism in motion with friction in hinges, `turning.rs` its states in which some turn.
 
+mod answer;
 mod directions;
 mod instant;
 mod reactions;
@@ -140,6 +141,15 @@ pub fn hold_with(
     callback: &mut Callback<'_>,
 ) -> Result<Option<HoldReport>, Faults> {
     watched(callback, |work| hold_within(model, options, work))
+}
+
+/// Whether [`hold`] has an answer, without seeking it.
+///
+/// # Errors
+/// As [`hold`] without a load.
+pub(crate) fn can_hold(model: &Model) -> Result<(), Faults> {
+    let setup = Setup::new(model, &HoldOptions::default())?;
+    check_states(&setup, MOST_STATES).map(|_| ())
 }
 
 fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {

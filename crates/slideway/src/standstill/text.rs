@@ -1,6 +1,7 @@
 //! The analysis of standstill as text for people.
 
-use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold, Wedging};
+use super::answer::{self, wedges, without_inertia};
+use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::{Report, Style, count, followed, spaced};
@@ -9,26 +10,9 @@ use anstyle::AnsiColor;
 use std::fmt::Write;
 
 impl Report for HoldReport {
-    /// Whether it stays at rest, in one sentence: "It holds: it stays at rest."
+    /// Whether it stays at rest, and which loads it holds: "It holds."
     fn answer(&self) -> String {
-        let ways = count(self.releases.len(), "state", "states");
-        match self.verdict {
-            HoldVerdict::Holds => "It holds: it stays at rest.".to_owned(),
-            HoldVerdict::MayHold => "It holds: it can stay at rest.".to_owned(),
-            HoldVerdict::HoldsUntilPushed => {
-                format!(
-                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
-                )
-            }
-            HoldVerdict::HoldsOrSlips => {
-                format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest.")
-            }
-            HoldVerdict::Moves => format!("It does not hold: {ways} in which it begins to move."),
-            HoldVerdict::Neither => {
-                "It can neither stay at rest nor begin to move with finite accelerations.".to_owned()
-            }
-            HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
-        }
+        answer::answer(self)
     }
 
     /// The verdict first, then load, reactions and release.
@@ -37,7 +21,7 @@ impl Report for HoldReport {
         text.heading();
         text.verdict();
         text.wedging();
-        text.load();
+        text.remarks();
         text.at_rest();
         for (index, release) in self.releases.iter().enumerate() {
             text.release(index, release);
@@ -52,11 +36,22 @@ impl HoldReport {
     /// is varied, in lines of words.
     pub fn verdict_in_words(&self) -> String {
         let mut text = Page::new(self, Style::PLAIN);
-        text.drives();
+        self.drives_in_words().iter().for_each(|line| text.line(line));
         text.verdict();
         text.wedging();
-        text.load();
+        text.remarks();
         text.text().trim().to_owned()
+    }
+
+    /// "Without the drive push", "Held by the drives lift, swing"
+    fn drives_in_words(&self) -> Vec<String> {
+        let drives = |how: &str, names: &[String]| {
+            let what = if names.len() == 1 { "drive" } else { "drives" };
+            (!names.is_empty()).then(|| format!("{how} the {what} {}", names.join(", ")))
+        };
+        let kinds =
+            [drives("Without", &self.released_drives), drives("Held by", &self.holding_drives)];
+        kinds.into_iter().flatten().collect()
     }
 }
 
@@ -70,26 +65,16 @@ impl Text<'_> {
         }
         let values =
             report.state.iter().map(|c| format!("{} = {}", c.name, report.units.of(c.unit).show(c.value)));
-        let rates = if report.rates_ignored { "; the rates of the model are set to zero" } else { "" };
+        let rates = if report.rates_ignored { " (its rates are ignored)" } else { "" };
         self.line(&format!("At rest at {}{rates}", values.collect::<Vec<_>>().join(", ")));
-        if let Some(steps) = report.steps_from_drawing {
-            self.line(&followed(steps));
-        }
-        self.drives();
-        for line in report.sharing.iter().flat_map(|sharing| sharing.in_words(&report.units)) {
-            self.line(&line);
+        report.drives_in_words().iter().for_each(|line| self.line(line));
+        if self.is_verbose() {
+            report.steps_from_drawing.iter().for_each(|steps| self.line(&followed(*steps)));
+            for line in report.sharing.iter().flat_map(|sharing| sharing.in_words(&report.units)) {
+                self.line(&line);
+            }
         }
         self.line("");
-    }
-
-    fn drives(&mut self) {
-        let HoldReport { released_drives, holding_drives, .. } = self.report;
-        if !released_drives.is_empty() {
-            self.line(&format!("Without the drives: {}", released_drives.join(", ")));
-        }
-        if !holding_drives.is_empty() {
-            self.line(&format!("Held by the drives: {}", holding_drives.join(", ")));
-        }
     }
 
     fn verdict(&mut self) {
@@ -100,20 +85,28 @@ impl Text<'_> {
         };
         self.painted(colour.on_default().bold(), &self.report.answer(), "");
         self.what_holds();
-        if !self.report.motions_without_inertia.is_empty() {
-            let what = if self.report.holds { "Whether it could also begin" } else { "How it begins" };
-            self.line(&format!("{what} to move is not determined, since these motions have no inertia:"));
-            for motion in &self.report.motions_without_inertia {
-                self.line(&format!("  {motion}"));
-            }
-        }
     }
 
     fn wedging(&mut self) {
         let Some(wedging) = &self.report.wedging else { return };
-        self.line("");
-        for line in wedging_in_words(wedging) {
-            self.line(&line);
+        let details = self.is_verbose();
+        wedges(wedging).iter().for_each(|line| self.line(line));
+        if details {
+            coefficients_in_words(&wedging.threshold).iter().for_each(|line| self.line(line));
+        }
+    }
+
+    /// What the answer leaves open, and with details from which coefficients on it is self-locking.
+    fn remarks(&mut self) {
+        let report = self.report;
+        without_inertia(report).iter().for_each(|line| self.line(line));
+        if !self.is_verbose() {
+            return;
+        }
+        report.motions_without_inertia.iter().for_each(|motion| self.line(&format!("  {motion}")));
+        if let Some(load) = &report.load {
+            self.line(&threshold_in_words(load));
+            coefficients_in_words(&load.threshold).iter().for_each(|line| self.line(line));
         }
     }
 
@@ -121,30 +114,14 @@ impl Text<'_> {
     fn what_holds(&mut self) {
         let Some(rest) = &self.report.at_rest else { return };
         if rest.without_preloads == Some(false) {
-            self.line("Its preloads hold it: without them it would not stay at rest.");
+            self.line("Its preloads hold it: without them it would move.");
         }
         // Of redundant guides it is said from which friction on.
         if !rest.wedging.is_empty() && self.report.wedging.is_none() {
             self.line(&format!(
-                "It can be wedged: {} can press against each other without any load, however hard.",
+                "It can wedge: {} can press against each other without any load, however hard.",
                 rest.wedging.join(", ")
             ));
-        }
-    }
-
-    fn load(&mut self) {
-        let Some(load) = &self.report.load else { return };
-        self.line("");
-        self.headline(&load_title(load));
-        for line in held_in_words(self.report, load) {
-            self.line(&format!("  {line}"));
-        }
-        for line in threshold_in_words(load) {
-            self.line(&format!("  {line}"));
-        }
-        // Of redundant guides it was said what that depends on.
-        if self.report.verdict == HoldVerdict::HoldsOrSlips && self.report.wedging.is_none() {
-            self.line("  At rest it is wedged in now, and it can also begin to slide: do not rely on it.");
         }
     }
 
@@ -156,12 +133,15 @@ impl Text<'_> {
         self.signs(&rest.patterns);
         self.reactions(&rest.reactions);
         if self.report.sharing.is_some() {
-            self.line("  Which of these states it is in depends on how it came to rest.");
+            self.line("  Which of these values it has depends on how it came to rest.");
         }
     }
 
     /// The sides of all contacts, if there are any.
     fn signs(&mut self, patterns: &[String]) {
+        if !self.is_verbose() {
+            return;
+        }
         let signs: Vec<String> = patterns.iter().map(|pattern| spaced(pattern)).collect();
         if signs.iter().any(|signs| !signs.is_empty()) {
             self.line(&format!("  signs {}", signs.join(" or ")));
@@ -170,7 +150,10 @@ impl Text<'_> {
 
     fn release(&mut self, index: usize, release: &Release) {
         self.line("");
-        let title = format!("Release {} of {}", index + 1, self.report.releases.len());
+        let title = match self.report.releases.len() {
+            1 => "Start of the motion".to_owned(),
+            all => format!("Start of the motion, {} of {all}", index + 1),
+        };
         self.headline(&title);
         for joint in &release.joints {
             self.line(&format!("  {}: {}", joint.name, joint.words));
@@ -240,9 +223,17 @@ impl Text<'_> {
         }
     }
 
+    /// How it is known.
     fn tried(&mut self) {
         let report = self.report;
         self.line("");
+        self.line(match report.undecided {
+            0 => "Every state of joints and contacts was examined, in rounded numbers.",
+            _ => "Not decided: some states of joints and contacts could not be examined.",
+        });
+        if !self.is_verbose() {
+            return;
+        }
         let mut line = match report.rest_patterns {
             1 => "The only pattern of contact sides was tried for rest".to_owned(),
             all => format!("All {all} patterns of contact sides were tried for rest"),
@@ -260,94 +251,22 @@ impl Text<'_> {
     }
 }
 
-fn load_title(load: &LoadReport) -> String {
-    if load.unit.is_empty() {
-        format!("The load {}, multiplied by a factor", load.name)
-    } else {
-        format!("The effort of the drive {} as a load", load.name)
-    }
-}
-
 fn at_factor(load: &LoadReport) -> String {
     if load.unit.is_empty() { String::new() } else { format!(" without {}", load.name) }
 }
 
-fn held_in_words(report: &HoldReport, load: &LoadReport) -> Vec<String> {
-    let what = if load.unit.is_empty() { "factor" } else { "effort" };
-    let unit = report.units.of(load.unit);
-    let one = |range: &Range| match (range.least, range.greatest) {
-        (None, None) => format!("every {what}"),
-        (Some(least), None) => format!("every {what} from {} on", unit.show(least)),
-        (None, Some(greatest)) => format!("every {what} up to {}", unit.show(greatest)),
-        (Some(least), Some(greatest)) if least == greatest => {
-            format!("the {what} {} only", unit.show(least))
+/// From which friction on the load alone is held, however great.
+fn threshold_in_words(LoadReport { name, threshold, .. }: &LoadReport) -> String {
+    match threshold.value {
+        None => format!("{name} alone is not held by any {}, however great.", threshold.varied),
+        Some(0.0) => format!("{name} alone is held without friction, however great."),
+        Some(value) if threshold.varied == "static friction" => {
+            format!("{name} alone is held, however great, from {} times the static friction on.", number(value))
         }
-        (Some(least), Some(greatest)) => {
-            format!("{what}s from {} to {}", unit.number(least), unit.show(greatest))
+        Some(value) => {
+            let (at, now) = (number(value), number(threshold.present));
+            format!("{name} alone is held, however great, from {} = {at} on (now {now}).", threshold.varied)
         }
-    };
-    let mut lines = match load.held.as_slice() {
-        [] => vec![format!("It holds with no {what}.")],
-        held => {
-            vec![format!("It holds with {}.", held.iter().map(one).collect::<Vec<_>>().join(", and with "))]
-        }
-    };
-    // Where no sliding is possible the load itself sees to it that it is held.
-    let is_sure =
-        load.factor == 1.0 && matches!(report.verdict, HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed);
-    let is_wedged = report.at_rest.as_ref().is_some_and(|rest| !rest.wedging.is_empty());
-    lines.push(match (load.self_locking, is_wedged && !is_sure) {
-        (true, false) => "Self-locking: no load is too great.".to_owned(),
-        (true, true) => {
-            "No load is too great while it stays wedged, which need not be the load's doing.".to_owned()
-        }
-        (false, _) => "Not self-locking: a sufficiently large load moves it.".to_owned(),
-    });
-    lines
-}
-
-fn threshold_in_words(load: &LoadReport) -> Vec<String> {
-    let varied = &load.threshold.varied;
-    let Some(value) = load.threshold.value else {
-        return vec![format!("No {varied} makes it self-locking for {} alone.", load.name)];
-    };
-    if value == 0.0 {
-        return vec![format!("{} alone is held whatever its magnitude, without friction.", load.name)];
-    }
-    let what = threshold_value(&load.threshold, value);
-    let mut lines = vec![format!("For {} alone: self-locking from {what} on, free below it.", load.name)];
-    lines.extend(coefficients_in_words(&load.threshold));
-    lines
-}
-
-/// From which friction on guides that share a load wedge.
-fn wedging_in_words(wedging: &Wedging) -> Vec<String> {
-    let Wedging { possible, threshold } = wedging;
-    let Some(value) = threshold.value else {
-        return vec![format!("No {} lets the guides be wedged.", threshold.varied)];
-    };
-    let what = threshold_value(threshold, value);
-    let whole = if *possible {
-        format!(
-            "The guides can be wedged: once pressed against each other, however hard, they stay so without any load. That is \
-             so from {what} on. Then nothing bounds the loads that friction can hold, and whether it holds one depends on how \
-             it came to rest."
-        )
-    } else {
-        format!(
-            "The guides cannot be wedged. From {what} on they can: once pressed against each other, however hard, they stay \
-             so without any load."
-        )
-    };
-    [whole].into_iter().chain(coefficients_in_words(threshold)).collect()
-}
-
-/// "2 times the static friction of the model", "mu = 0.6 (the model has 0.3)".
-fn threshold_value(threshold: &Threshold, value: f64) -> String {
-    if threshold.varied == "static friction" {
-        format!("{} times the static friction of the model", number(value))
-    } else {
-        format!("{} = {} (the model has {})", threshold.varied, number(value), number(threshold.present))
     }
 }
 

@@ -1,32 +1,75 @@
 //! What a sweep comes to, as text for people.
 
-use super::{PointStatus, Sweep, SweepState};
+use super::{PointStatus, Probability, Sweep, SweepState};
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Style, locked};
+use crate::report::{Status, Style, locked};
+use crate::units::number::brief;
 
 impl Sweep {
+    /// How many of the points jam, or with samples the probability of it: "It jams at 34 of 101 points."
+    pub fn answer(&self, state: &SweepState) -> String {
+        let tally = &state.tally;
+        let all = tally.points - tally.breakpoints;
+        let jams = if self.plan.model.has_guided_sliders() { "jams or tips" } else { "jams" };
+        let probability = if self.has_branches() { None } else { tally.probability_of_jamming() };
+        let mut sentences = vec![match probability {
+            Some(Probability { share, interval }) => {
+                let [from, to] = interval.map(|end| brief(100.0 * end));
+                format!(
+                    "It {jams} with a probability of {} % ({from} to {to} % with 95 % confidence).",
+                    brief(100.0 * share)
+                )
+            }
+            None => match tally.with_status(PointStatus::None) {
+                0 => format!("It {jams} at none of {}.", counted(all, "point")),
+                count if count == all => format!("It {jams} at all {}.", counted(all, "point")),
+                count => format!("It {jams} at {count} of {}.", counted(all, "point")),
+            },
+        }];
+        let what = if self.has_branches() { "points" } else { "samples" };
+        let several: u64 = tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
+        for (count, is) in [(several, "with several solutions"), (all - tally.solved(), "not solved")] {
+            if count > 0 {
+                sentences.push(format!("{} {is}.", counted(count, what.trim_end_matches('s'))));
+            }
+        }
+        sentences.join(" ")
+    }
+
     /// What the points that are done come to, as text for people. With samples also the probability that it
     /// jams.
     pub fn text(&self, state: &SweepState, style: Style) -> String {
         let mut text = Page::new(state, style);
+        text.shard(self);
+        let jams = state.tally.with_status(PointStatus::None) > 0;
+        text.status(if jams { Status::None } else { Status::One }, &self.answer(state));
         text.points(self);
         text.solutions(self);
-        text.probability(self);
         text.remarks(self);
         text.text()
     }
 }
 
 impl Page<'_, SweepState> {
+    fn shard(&mut self, sweep: &Sweep) {
+        let Some(shard) = sweep.of_shard() else { return };
+        let range = sweep.range();
+        let which = match range.end.checked_sub(1).filter(|last| *last >= range.start) {
+            Some(last) => format!("points {} to {last}", range.start),
+            None => "no points".to_owned(),
+        };
+        self.headline(&format!("Shard {shard}, {which}:"));
+    }
+
     fn points(&mut self, sweep: &Sweep) {
         let tally = &self.report.tally;
         let own = tally.points - tally.breakpoints;
         let what = if sweep.has_branches() { "point" } else { "sample" };
         let inserted = match tally.breakpoints {
             0 => String::new(),
-            1 => " and 1 exact end of a mode between them".to_owned(),
-            count => format!(" and {count} exact ends of modes between them"),
+            1 => " and 1 exact end of a state between them".to_owned(),
+            count => format!(" and {count} exact ends of states between them"),
         };
         let branches = if sweep.numbers_branches() {
             format!(", {}", counted(u64::from(self.report.branches()), "branch"))
@@ -34,15 +77,7 @@ impl Page<'_, SweepState> {
             String::new()
         };
         let rows = counted(tally.rows, "row");
-        if let Some(shard) = sweep.of_shard() {
-            let range = sweep.range();
-            let which = match range.end.checked_sub(1).filter(|last| *last >= range.start) {
-                Some(last) => format!("points {} to {last}", range.start),
-                None => "no points".to_owned(),
-            };
-            self.headline(&format!("Shard {shard}, {which}:"));
-        }
-        self.headline(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
+        self.line(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
     }
 
     fn solutions(&mut self, sweep: &Sweep) {
@@ -83,23 +118,6 @@ impl Page<'_, SweepState> {
         }
     }
 
-    fn probability(&mut self, sweep: &Sweep) {
-        if sweep.has_branches() {
-            return;
-        }
-        let Some(probability) = self.report.tally.probability_of_jamming() else { return };
-        let [from, to] = probability.interval.map(|end| number(100.0 * end));
-        self.line("");
-        self.headline(&format!(
-            "It jams with a probability of {} %, with 95 % confidence between {from} % and {to} %.",
-            number(100.0 * probability.share)
-        ));
-        let unsolved = self.report.tally.points - self.report.tally.solved();
-        if unsolved > 0 {
-            self.line(&format!("  Samples that could not be solved ({unsolved}) are not counted."));
-        }
-    }
-
     fn remarks(&mut self, sweep: &Sweep) {
         for (name, part) in sweep.cut_off() {
             self.line(&format!(
@@ -108,14 +126,14 @@ impl Page<'_, SweepState> {
             ));
         }
         let tally = &self.report.tally;
-        if tally.boundary_rows > 0 {
+        if tally.boundary_rows > 0 && self.is_verbose() {
             let rows = counted(tally.boundary_rows, "row");
             self.line(&format!(
-                "  {rows} on the boundary between modes: a normal force is zero within rounding."
+                "  {rows} where a contact is about to change side: its normal force is zero within rounding."
             ));
         }
         if let Some(reason) = sweep.without_breakpoints() {
-            self.line(&format!("  No exact ends of modes were inserted: {}", in_one_line(reason)));
+            self.line(&format!("  No exact ends of states were inserted: {}", in_one_line(reason)));
         }
         for (status, (point, reason)) in &tally.refusals {
             let count = tally.with_status(*status);

@@ -1,19 +1,19 @@
-//! Numbers for people: five significant digits in tables, four in sentences.
+//! Numbers for people: five significant digits, four in sentences.
 
 /// Values below this multiple of the greatest beside them are rounding errors, and shown as 0.
 const NOISE: f64 = 1e-13;
 
 /// A number with five significant digits; scientific where it is very large or small.
 pub(crate) fn number(value: f64) -> String {
-    rounded(value, 5)
+    significant(value, 5)
 }
 
-/// A number with four significant digits, for sentences.
+/// A number of a sentence: at most four significant digits.
 pub(crate) fn brief(value: f64) -> String {
-    rounded(value, 4)
+    significant(value, 4)
 }
 
-fn rounded(value: f64, digits: usize) -> String {
+fn significant(value: f64, digits: i32) -> String {
     if !value.is_finite() {
         // Reports hold no such number; what is computed from theirs may still be too large.
         return if value.is_nan() { "undefined" } else { "beyond all bounds" }.to_owned();
@@ -21,14 +21,14 @@ fn rounded(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let scientific = format!("{value:.*e}", digits - 1);
+    let scientific = format!("{value:.*e}", usize::try_from(digits - 1).unwrap_or(0));
     let exponent: i32 =
         scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
     if !(-4..6).contains(&exponent) {
         return scientific;
     }
     // The significant digits, and all of an integer part.
-    let decimals = (i32::try_from(digits).unwrap_or(0) - 1 - exponent).try_into().unwrap_or(0_usize);
+    let decimals = usize::try_from(digits - 1 - exponent).unwrap_or(0);
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
@@ -51,7 +51,16 @@ pub fn precise(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{against, number};
+    use super::{against, brief, number};
+
+    #[test]
+    fn sentences_have_four_significant_digits() {
+        let told = [(36.363_636, "36.36"), (0.666_666_7, "0.6667"), (2.222_222_2, "2.222"), (0.001_234_56, "0.001235")];
+        for (value, text) in told {
+            assert_eq!(brief(value), text);
+        }
+        assert_eq!([brief(20.0), brief(123_456.7), brief(0.0), brief(1.234_56e7)], ["20", "123457", "0", "1.235e7"]);
+    }
 
     #[test]
     fn five_significant_digits() {

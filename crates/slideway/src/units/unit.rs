@@ -85,7 +85,7 @@ impl Unit {
         self.with(&precise(self.number_of(value)))
     }
 
-    /// An SI value in this unit, with four significant digits: for sentences.
+    /// An SI value in this unit, with at most four significant digits: for sentences.
     pub(crate) fn brief(&self, value: f64) -> String {
         self.with(&self.brief_number(value))
     }

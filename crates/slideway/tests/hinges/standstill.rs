@@ -119,15 +119,15 @@ fn from_a_certain_friction_on_a_lever_is_self_locking(#[case] friction: &str, #[
 #[test]
 fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     let options = HoldOptions::default().load("Q");
-    let pins = held(&lever("mu = 0.3\nradius = 0.1", BELL_CRANK), &options).text(Style::PLAIN);
+    let pins = held(&lever("mu = 0.3\nradius = 0.1", BELL_CRANK), &options).text(Style::PLAIN.verbose(true));
     assert!(
-        pins.contains("self-locking from 2.5 times the static friction") && !pins.contains("mu_static"),
+        pins.contains("It is self-locking from 2.5 times this static friction.") && !pins.contains("mu_static"),
         "{pins}"
     );
     let press = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
     let at = Settings::default().position("alpha", "1 deg");
     let press = hold(&press.with(&at).unwrap(), &HoldOptions::default().load("work")).unwrap();
-    let both = press.text(Style::PLAIN);
+    let both = press.text(Style::PLAIN.verbose(true));
     assert!(both.contains("There mu_static of the sliding joints is 0.060759."), "{both}");
 }
 

@@ -96,8 +96,8 @@ fn drive_tells_a_range_of_efforts() {
     assert_close(best, 0.8);
     assert_eq!(
         report.conclusion[0],
-        "Moving as in the model: belt needs 25 to 50 N instead of 20 N without friction; efficiency 40 to 80 %; how \
-         left, right share the load is undetermined."
+        "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is \
+         undetermined."
     );
     assert!(!report.text(Style::PLAIN).contains("lock"), "{}", report.text(Style::PLAIN));
     let rows = &report.course.as_ref().unwrap().directions[0].rows;

@@ -148,17 +148,17 @@ fn what_is_wedged_is_not_called_self_locking() {
     let (holds, wedging, text) = told("0.52", "0 m");
     assert_eq!((holds, wedging.as_deref()), (true, Some("sleeve.front sleeve.rear")));
     for sentence in [
-        "It can be wedged: sleeve.front, sleeve.rear can press against each other without any load, however hard.",
-        "No load is too great while it stays wedged, which need not be the load's doing.",
-        "Whether it could also begin to move is not determined",
+        "It can wedge: sleeve.front, sleeve.rear can press against each other without any load, however hard.",
+        "While wedged it holds any `W`, but `W` alone need not wedge it.",
+        "Not decided: whether it could also start to move",
     ] {
         assert!(text.contains(sentence), "{sentence}\n{text}");
     }
-    assert!(!text.contains("Self-locking: ") && !text.contains("How it begins to move"), "{text}");
+    assert!(!text.contains("Self-locking: ") && !text.contains("how it starts to move"), "{text}");
     // Far out the load itself presses: x = 0.4 m > B/(2 mu_static) at mu_static = 0.25.
     let (holds, wedging, text) = told("0.25", "0.4 m");
     assert_eq!((holds, wedging.as_deref()), (true, Some("")));
-    assert!(text.contains("Self-locking: no load is too great.") && !text.contains("wedged"), "{text}");
+    assert!(text.contains("Self-locking: it holds any `W` from") && !text.contains("edge"), "{text}");
 }
 
 /// 20 N hang on a slide that a preload of 30 N brakes: without the preload it falls.

@@ -115,8 +115,8 @@ impl Words<'_> {
                 Some(_) => return None,
                 None => format!("{} stops turning", self.name(*joint)),
             },
-            Cause::Locks => "the contact mode locks: its determinant vanishes".to_owned(),
-            Cause::Folds => "the contact mode ends at a fold, where it meets another one".to_owned(),
+            Cause::Locks => "friction locks this state of contact".to_owned(),
+            Cause::Folds => "this state of contact ends where it meets another one (a fold)".to_owned(),
             Cause::ReactionLimit(contact) => {
                 format!("the normal force of {} reaches its limit", self.contact(*contact))
             }

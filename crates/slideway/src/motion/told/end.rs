@@ -1,9 +1,11 @@
 //! Why a motion ends, as a kind and as a sentence.
 
-use super::report::{EndKind, EndReport};
+use super::report::{EndKind, EndReport, is_told};
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
+use crate::motion::record::event::Event;
 use crate::motion::record::history::{End, History};
+use crate::report::count;
 
 /// How a motion ends.
 pub(super) fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
@@ -16,98 +18,105 @@ pub(super) fn end_report(history: &History, options: &SimulateOptions) -> EndRep
 /// The kind of the end for reports, and a sentence.
 fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, String) {
     let mechanism = &history.mechanism;
-    let time = history.mechanism.units.of("s").show(history.stop());
+    let time = history.mechanism.units.of("s").brief(history.stop());
     let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => (EndKind::Finished, finished(history, &time)),
         End::TravelLimit(id) => (
             EndKind::TravelLimit,
-            format!("It ends at {time}, where {} reaches a limit of its travel.", joint(id)),
+            format!("It ends at {time}: {} reaches a limit of its travel.", joint(id)),
         ),
         End::OverlapVanished(id) => {
-            (EndKind::OverlapVanished, format!("It ends at {time}, where {} leaves its guide.", joint(id)))
+            (EndKind::OverlapVanished, format!("It ends at {time}: {} leaves its guide.", joint(id)))
         }
         End::ReactionLimit(id) => {
             let contact = &mechanism.contacts[id.index()].name;
             let words = format!(
-                "It ends at {time}: the normal force of {contact} has reached its limit, so the mechanism counts as locked."
+                "It ends at {time}: the normal force of {contact} reaches its limit, which counts as a jam."
             );
             (EndKind::ReactionLimit, words)
         }
-        End::UserEvent(_) => (
-            EndKind::UserEvent,
-            format!("It ends at {time}, at an event that stops it: {}.", last_words(history)),
-        ),
+        End::UserEvent(_) => {
+            (EndKind::UserEvent, format!("It ends at {time}, as the model asks: {}.", last_words(history)))
+        }
         End::NoSuchBranch { branching } => (
             EndKind::NoSuchBranch,
-            format!("It ends at {time}: the branch requested at decision {branching} does not exist there."),
+            format!("It ends at {time}: at decision {branching} there is no branch with the number asked for."),
         ),
         End::Tips(id) => (
             EndKind::Tips,
-            format!(
-                "It ends at {time}: {} tips in its guide, which a guided slider cannot show: model it as a block slider.",
-                joint(id)
-            ),
+            format!("It ends at {time}: {} tips; model it as a block slider to go on.", joint(id)),
         ),
         End::NoContinuation => (
             EndKind::NoContinuation,
-            format!("It ends at {time}: at rest neither sticking nor sliding is possible."),
+            format!("It ends at {time}: it can neither stick nor start to slide."),
         ),
         End::Jammed => {
-            let words = format!(
-                "It ends at {time}: it jams, and no impulse leads to a state in which it can continue."
-            );
-            (EndKind::Jammed, words)
+            (EndKind::Jammed, format!("It jams at {time}: not even an impulse leads to a motion that goes on."))
         }
         End::Accumulation => {
-            let words = format!("It ends at {time}, where events come closer and closer together.");
+            let words = format!("It ends at {time}: events follow each other faster and faster.");
             (EndKind::Accumulation, words)
         }
         End::StepLimit => {
             let words = format!(
-                "It ends at {time}, after the {} steps that were permitted: the equations are stiff there, or the tolerance is small.",
+                "Not finished: it was followed to {time}, in {} steps, the most allowed. The equations are stiff there, or the \
+                 tolerance is small.",
                 options.most_steps
             );
             (EndKind::StepLimit, words)
         }
         End::EventLimit => {
-            let words =
-                format!("It ends at {time}, after the {} events that were permitted.", options.most_events);
+            let words = format!(
+                "Not finished: it was followed to {time}, over {} events, the most allowed.",
+                options.most_events
+            );
             (EndKind::EventLimit, words)
         }
         End::NoValue(faults) => (EndKind::NoValue, format!("It ends at {time}: {}.", first(faults))),
-        End::Undecided(faults) => (
-            EndKind::Undecided,
-            format!("It ends at {time}: what follows cannot be decided: {}.", first(faults)),
-        ),
-        End::Interrupted => (EndKind::Interrupted, format!("It was interrupted at {time}.")),
+        End::Undecided(faults) => {
+            (EndKind::Undecided, format!("Not decided what follows after {time}: {}.", first(faults)))
+        }
+        End::Interrupted => (EndKind::Interrupted, format!("Interrupted at {time}.")),
     }
 }
 
 /// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
-    let jams = history.events.iter().flat_map(|event| &event.causes);
-    let jams = match jams.filter(|cause| matches!(cause, Cause::Jams { .. })).count() {
+    let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
+    let events = history.events.iter().filter(|event| is_told(event) && !event.causes.contains(&Cause::Start));
+    let after = match events.count() {
         0 => String::new(),
-        1 => " It has jammed once.".to_owned(),
-        count => format!(" It has jammed {count} times."),
+        events => format!(", after {}", count(events, "event", "events")),
     };
-    match history.phases.last() {
-        Some(interval) if interval.phase.is_at_rest() => {
-            let from = history.mechanism.units.of("s").show(interval.from);
-            let joints = match (interval.phase.joints.is_empty(), interval.phase.hinges.is_empty()) {
-                (_, true) => "all sliding joints",
-                (true, false) => "all hinges with friction",
-                (false, false) => "all sliding joints and hinges with friction",
-            };
-            format!("At {time} the end is reached; {joints} have been sticking since {from}.{jams}")
-        }
-        _ => {
-            let bodies = 3 * history.mechanism.bodies.len();
-            let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
-            let told = if moves { "it is still moving" } else { "nothing moves" };
-            format!("At {time} the end is reached; {told}.{jams}")
-        }
+    let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest());
+    let Some(rest) = rest else {
+        let bodies = 3 * history.mechanism.bodies.len();
+        let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
+        let what = if moves { "It is still moving" } else { "Nothing moves" };
+        return format!("{what} at {time}{after}.{}", jams_on_the_way(jams.len()));
+    };
+    let from = history.mechanism.units.of("s").brief(rest.from);
+    if jams.last() == Some(&rest.from) {
+        let before = jams_on_the_way(jams.len() - 1);
+        return format!("It jams at {from}, and stays at rest until {time}.{before}");
+    }
+    let jams = jams_on_the_way(jams.len());
+    if rest.from <= history.start() {
+        return format!("It stays at rest until {time}.{jams}");
+    }
+    format!("It comes to rest at {from}{after}, and stays so until {time}.{jams}")
+}
+
+fn jams(event: &Event) -> bool {
+    event.causes.iter().any(|cause| matches!(cause, Cause::Jams { .. }))
+}
+
+fn jams_on_the_way(jams: usize) -> String {
+    match jams {
+        0 => String::new(),
+        1 => " It jams once on the way.".to_owned(),
+        jams => format!(" It jams {jams} times on the way."),
     }
 }
 

@@ -313,7 +313,7 @@ fn hints(history: &History) -> Vec<String> {
     loads.dedup();
     let hint = |load: String| {
         format!(
-            "{load} jumps where a rate passes zero, as friction does, but has no state of rest: where the motion stops, steps become ever shorter. Give the joint its own friction (`mu`, `mu_static`, preload) instead."
+            "{load} jumps where a rate passes zero, as friction does, but cannot hold anything at rest: where the motion stops, steps become ever shorter. Give the joint friction of its own (`mu`, `mu_static`, preload) instead."
         )
     };
     let mut hints: Vec<String> = loads.into_iter().map(hint).collect();
@@ -321,7 +321,7 @@ fn hints(history: &History) -> Vec<String> {
         let name = |contact: &ContactId| mechanism.contacts[contact.index()].name.to_string();
         let names: Vec<String> = history.undetermined.iter().map(name).collect();
         hints.push(format!(
-            "the normal forces of {} are indeterminate while joints stick, since they depend on how contacts share the friction; the limit on normal forces is not checked for them then.",
+            "while joints stick, statics does not determine the normal forces of {}; the limit on normal forces is not checked for them then.",
             names.join(", ")
         ));
     }
@@ -342,7 +342,7 @@ fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateStat
 }
 
 /// A normal force may touch zero once more within rounding: then nothing changes, and nothing is reported.
-fn is_told(event: &Event) -> bool {
+pub(super) fn is_told(event: &Event) -> bool {
     event.words != NOTHING
 }
 

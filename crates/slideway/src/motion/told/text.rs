@@ -1,10 +1,10 @@
 //! A motion as readable text: a log of events, and the accuracy.
 
-use super::report::{EventReport, Named, SimulateReport};
+use super::report::{EndKind, EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
 use crate::report::number::{against, number};
 use crate::report::page::Page;
-use crate::report::{Report, Style, Verdict, count, followed, spaced};
+use crate::report::{Report, Status, Style, Verdict, count, followed, spaced};
 use crate::units::Unit;
 
 /// Energies below this fraction of the greatest are rounding.
@@ -35,11 +35,11 @@ impl SimulateReport {
 fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, SimulateReport> {
     let mut text = Page::new(report, style);
     text.heading();
+    text.end();
+    report.hints.iter().for_each(|hint| text.line(&format!("Hint: {hint}")));
     text.events(all_events);
     text.line("");
-    text.headline(&report.end.words);
-    report.hints.iter().for_each(|hint| text.line(&format!("Hint: {hint}")));
-    text.last_state();
+    text.state("At the end", &report.last);
     text.energy();
     text.quality();
     text
@@ -48,9 +48,12 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
 /// How each motion ends, then the logs.
 impl Report for TreeReport {
     fn answer(&self) -> String {
-        let number = count(self.histories.len(), "motion", "motions");
-        let completeness = if self.complete { "these are all" } else { "there are more" };
-        format!("{number}; {completeness}.")
+        let motions = self.histories.len();
+        match (motions, self.complete) {
+            (1, true) => "One motion is possible: this is the only one.".to_owned(),
+            (all, true) => format!("{all} motions are possible: these are all."),
+            (found, false) => format!("{} found; there may be more.", count(found, "motion", "motions")),
+        }
     }
 
     fn text(&self, style: Style) -> String {
@@ -101,18 +104,31 @@ impl Page<'_, SimulateReport> {
         if let Some(title) = &model.title {
             self.headline(title);
         }
-        let parts = [
-            count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
-            count(model.bodies, "body", "bodies"),
-            count(model.contacts, "contact", "contacts"),
-        ];
         let [start, until] = [report.start, report.until].map(|time| self.seconds().show(time));
-        self.line(&format!("{}; from {start} to {until}", parts.join(", ")));
-        self.line("");
-        self.state("At the start", &report.initial);
-        if let Some(steps) = report.steps_from_drawing {
-            self.line(&followed(steps));
+        self.state(&format!("From {start} to {until}"), &report.initial);
+        if self.is_verbose() {
+            let parts = [
+                count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+                count(model.bodies, "body", "bodies"),
+                count(model.contacts, "contact", "contacts"),
+            ];
+            self.line(&parts.join(", "));
+            report.steps_from_drawing.iter().for_each(|steps| self.line(&followed(*steps)));
         }
+        self.line("");
+    }
+
+    /// How it ends.
+    fn end(&mut self) {
+        let end = &self.report.end;
+        let status = match end.kind {
+            _ if end.locked => Status::None,
+            EndKind::Finished | EndKind::UserEvent | EndKind::TravelLimit | EndKind::OverlapVanished => {
+                Status::One
+            }
+            _ => Status::Unknown,
+        };
+        self.status(status, &end.words);
     }
 
     fn state(&mut self, when: &str, state: &[crate::report::CoordinateState]) {
@@ -128,16 +144,16 @@ impl Page<'_, SimulateReport> {
         self.line(&format!("{when}: {}", parts.join("; ")));
     }
 
-    fn last_state(&mut self) {
-        self.state("At the end", &self.report.last);
-    }
-
     fn events(&mut self, all: bool) {
         let events = &self.report.events;
         self.line("");
         let names: Vec<&str> =
             self.report.contacts.iter().chain(&self.report.hinges).map(String::as_str).collect();
-        self.headline(&format!("Events (modes of {})", names.join(", ")));
+        if self.is_verbose() {
+            self.headline(&format!("Events (signs of {})", names.join(", ")));
+        } else {
+            self.headline("Events");
+        }
         let all = all || events.len() <= FIRST + LAST;
         let (first, last) = if all { (events.len(), events.len()) } else { (FIRST, events.len() - LAST) };
         let shown = || events[..first].iter().chain(&events[last..]);
@@ -149,7 +165,7 @@ impl Page<'_, SimulateReport> {
         events[..first].iter().for_each(|event| self.event(event, widths));
         if !all {
             let left_out = count(last - first, "event is", "events are");
-            self.line(&format!("  ... {left_out} omitted here; --all-events prints all of them"));
+            self.line(&format!("  ... {left_out} left out here; --all-events shows them"));
             events[last..].iter().for_each(|event| self.event(event, widths));
         }
     }
@@ -161,21 +177,25 @@ impl Page<'_, SimulateReport> {
 
     fn event(&mut self, event: &EventReport, (time, mode): (usize, usize)) {
         let pattern = event.mode.as_deref().map(spaced).unwrap_or_default();
-        self.line(&format!("  {:>time$}   {pattern:mode$}   {}", when(event, &self.seconds()), event.words));
+        let details = self.is_verbose();
+        let columns = |when: &str, pattern: &str| {
+            if details { format!("{when:>time$}   {pattern:mode$}   ") } else { format!("{when:>time$}   ") }
+        };
+        let first = columns(&when(event, &self.seconds()), &pattern);
+        self.hung(&format!("  {first}{}", event.words), first.trim_start());
+        let below = columns("", "");
+        let mut line = |text: &str| self.hung(&format!("  {below}{text}"), "");
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
-            let jump = if branch.continues { "" } else { ", with a jump" };
-            let text = format!(
-                "could also continue as {}{jump}{} (branch {})",
+            let jump = if branch.continues { "" } else { ", with a jump of the forces" };
+            line(&format!(
+                "branch {}: it could also go on with the signs {}{jump}{}",
+                branch.number,
                 spaced(&branch.mode),
                 verdict(branch.attainable),
-                branch.number
-            );
-            self.line(&format!("  {:time$}   {:mode$}     {text}", "", ""));
+            ));
         }
         if event.branches_left_out {
-            let text =
-                "there may be further continuations in which fewer joints stick: not all states were tried";
-            self.line(&format!("  {:time$}   {:mode$}     {text}", "", ""));
+            line("there may be more ways to go on, with fewer joints sticking: not all were tried");
         }
     }
 
@@ -204,34 +224,43 @@ impl Page<'_, SimulateReport> {
         self.table(&["", "start", "end"], &rows);
     }
 
+    /// How well it is known.
     fn quality(&mut self) {
         let report = self.report;
         self.line("");
         let (unit, part) = (report.model.units.of("J"), report.energy.relative_error);
         let error = unit.with(&format!("{:.1e}", unit.number_of(report.energy.error)));
-        self.line(&match part {
-            _ if report.energy.error == 0.0 => "The energy balance closes.".to_owned(),
-            Some(part) => format!("The energy balance closes to {error}, {part:.1e} of the greatest term."),
-            None => format!("The energy balance closes to {error}."),
-        });
-        self.line(&format!(
-            "Joints had drifted by at most {:.1e} of the size of the mechanism before each correction.",
-            report.position_drift
-        ));
+        let closes = match report.energy.error {
+            0.0 => "the energy balance closes".to_owned(),
+            _ => format!("the energy balance closes to {error}"),
+        };
+        self.line(&format!("Computed step by step, not proven: {closes}."));
         let statistics = &report.statistics;
+        if statistics.sampled.is_some() {
+            self.line("Sampled: whether joints can stick under loads that change was checked four times a step.");
+        }
+        if !self.is_verbose() {
+            return;
+        }
+        if let Some(part) = part.filter(|_| report.energy.error != 0.0) {
+            self.line(&format!("The error of the energy is {part:.1e} of its greatest part."));
+        }
         if let Some(sampled) = &statistics.sampled {
             self.line(&format!(
-                "For a total of {} joints stuck under loads that change with time without a proof that they can: this was checked four \
-                 times in each step, the longest of {}.",
+                "Joints stuck so for {} in all; the longest step took {}.",
                 self.seconds().show(sampled.time),
                 self.seconds().show(sampled.longest_step)
             ));
         }
         self.line(&format!(
-            "{} ({} repeated), {} of the equations, {}; tolerance {}.",
+            "Joints had drifted by at most {:.1e} of the size of the mechanism before each correction.",
+            report.position_drift
+        ));
+        self.line(&format!(
+            "{} ({} repeated), {} evaluations of the equations, {}; tolerance {}.",
             count(statistics.steps, "step", "steps"),
             statistics.repeated,
-            format_args!("{} evaluations", statistics.evaluations),
+            statistics.evaluations,
             count(statistics.events, "event", "events"),
             number(report.tolerance)
         ));
@@ -249,8 +278,8 @@ fn row(name: &str, mut values: Vec<String>) -> Vec<String> {
 
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
-        Verdict::Attainable => ", attainable",
-        Verdict::Unattainable => ", unattainable",
+        Verdict::Attainable => ", stable",
+        Verdict::Unattainable => ", unstable",
         Verdict::Flutter => ", with flutter",
         Verdict::Undecided | Verdict::NotComputed => "",
     }

@@ -1,0 +1,80 @@
+//! Which questions a model can answer in its state.
+
+use super::Finding;
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::motion::{SimulateOptions, Thorough, simulate_with};
+use crate::standstill::can_hold;
+use serde::Serialize;
+use std::ops::ControlFlow;
+
+/// A question, and whether the model can answer it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Question {
+    /// The command that asks it: "solve" (and with it "limits", "size", "sweep", "map"), "drive", "hold", "simulate".
+    pub name: &'static str,
+    /// Whether nothing stands in its way.
+    pub ready: bool,
+    /// Everything for which it would be refused.
+    pub findings: Vec<Finding>,
+    /// What it needs, in a few words, if that is little: "a rate".
+    pub needs: Vec<&'static str>,
+}
+
+impl Question {
+    fn new(name: &'static str, faults: &Faults) -> Self {
+        let kinds: Vec<&FaultKind> = faults.sorted().into_iter().map(|fault| &fault.kind).collect();
+        // What is not simple leaves the rest untold.
+        let needs: Option<Vec<&'static str>> = kinds.iter().map(|kind| need(kind)).collect();
+        Self {
+            name,
+            ready: kinds.is_empty(),
+            findings: kinds.iter().map(|kind| Finding::of(kind)).collect(),
+            needs: needs.unwrap_or_default(),
+        }
+    }
+}
+
+/// What a model lacks, if that is easily given.
+fn need(kind: &FaultKind) -> Option<&'static str> {
+    match kind {
+        FaultKind::ZeroSlidingVelocity { .. } => Some("a rate"),
+        FaultKind::MotionWithoutInertia { .. } => Some("a mass (or a drive)"),
+        FaultKind::NoDrives { .. } => Some("a drive"),
+        _ => None,
+    }
+}
+
+/// All questions, with what stands in the way of `solve`.
+pub(super) fn questions(
+    (model, mechanism): (&Model, &Mechanism),
+    configuration: Option<&Configuration>,
+    of_solve: &Faults,
+) -> Vec<Question> {
+    let drive = if model.drives.is_empty() {
+        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
+        Fault::general(FaultKind::NoDrives { coordinate }).into()
+    } else {
+        of_solve.clone()
+    };
+    // Without a state there is nothing to ask of it.
+    let within = |answer: &dyn Fn(&Configuration) -> Result<(), Faults>| match configuration {
+        Some(configuration) => answer(configuration).err().unwrap_or_default(),
+        None => of_solve.clone(),
+    };
+    // Whether the motion can begin, and no further.
+    let begins = |configuration: &Configuration| {
+        let options = SimulateOptions::new(1.0);
+        let mut stop = |_: &_| ControlFlow::Break(());
+        simulate_with(mechanism, configuration, &options, &mut Thorough, &mut stop).map(|_| ())
+    };
+    vec![
+        Question::new("solve", of_solve),
+        Question::new("drive", &drive),
+        Question::new("hold", &within(&|_| can_hold(model))),
+        Question::new("simulate", &within(&begins)),
+    ]
+}

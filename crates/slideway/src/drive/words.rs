@@ -1,0 +1,234 @@
+//! What driven motion comes to, in sentences.
+
+use super::report::{
+    Approach, BlowUp, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency, EfficiencyKind,
+    EffortRange, Sense,
+};
+use crate::report::{Status, Verdict, spaced};
+use crate::units::number::{brief, number};
+use crate::units::precise;
+
+/// Efforts of so many states are told in a sentence.
+const TOLD: usize = 4;
+
+/// The sentences of both directions of motion, and what makes an undetermined effort determinate.
+pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
+    report.directions.iter().flat_map(|direction| sentences(report, direction)).chain(advice(report)).collect()
+}
+
+/// What makes an undetermined effort determinate.
+pub(super) fn advice(report: &DriveReport) -> Option<String> {
+    let ranges = report.directions.iter().filter_map(|direction| direction.range.as_ref());
+    ranges.filter_map(|range| range.undetermined.advice()).map(str::to_owned).next()
+}
+
+/// What one direction of motion needs, and whether it jams: "push needs 36.36 N (20 N without friction): efficiency
+/// 55 %.", "It would jam at 2.222 times this friction (mu = 0.6667)."
+pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec<String> {
+    let whole = |clause: String| match direction.direction {
+        Sense::Reversed => format!("Backwards {clause}"),
+        // All but names of drives and joints.
+        Sense::Model if ["it ", "beyond ", "infinitely "].iter().any(|word| clause.starts_with(word)) => {
+            clause[..1].to_uppercase() + &clause[1..]
+        }
+        Sense::Model => clause,
+    };
+    std::iter::once(needs(report, direction)).chain(jam(direction)).map(whole).collect()
+}
+
+/// The efforts and the efficiency, or that it jams.
+fn needs(report: &DriveReport, direction: &DriveDirection) -> String {
+    if let Some(range) = &direction.range {
+        return undetermined(report, direction, range);
+    }
+    match (direction.solutions.as_slice(), direction.status) {
+        (_, Status::Continuum) => {
+            "infinitely many states are possible, and their efforts are not known.".to_owned()
+        }
+        ([], Status::Unknown) => "it is not decided whether it moves.".to_owned(),
+        ([], _) => stuck(report, direction),
+        ([only], _) => format!("{}.{}", needs_one(report, direction, only), unsettled(only.attainability)),
+        (several, _) => needs_several(report, several),
+    }
+}
+
+/// "it jams: no force moves it.", "bed tips: model it as a block slider ..."
+fn stuck(report: &DriveReport, direction: &DriveDirection) -> String {
+    if !direction.tips.is_empty() {
+        return format!(
+            "{}; {} to see whether it still moves.",
+            tip("tips", "tip", direction),
+            as_block(direction)
+        );
+    }
+    let what = match report.drives.as_slice() {
+        drives if drives.iter().all(|drive| drive.unit == "N") => "force",
+        drives if drives.iter().all(|drive| drive.unit == "N m") => "torque",
+        _ => "effort",
+    };
+    format!("it jams: no {what} moves it.")
+}
+
+/// "bed tips", "bed and die tip"
+fn tip(one: &str, several: &str, direction: &DriveDirection) -> String {
+    format!("{} {}", direction.tips.join(" and "), if direction.tips.len() == 1 { one } else { several })
+}
+
+fn as_block(direction: &DriveDirection) -> &'static str {
+    if direction.tips.len() == 1 { "model it as a block slider" } else { "model them as block sliders" }
+}
+
+/// "push needs 36.36 N (20 N without friction): efficiency 55 %"
+fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
+    let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;
+    let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
+        let unit = report.units.of(drive.unit);
+        // One drive that does no work without friction has no effort then.
+        let free = if is_idle { String::new() } else { format!(" ({} without friction)", unit.brief(*without)) };
+        format!("{} needs {}{free}", drive.name, unit.brief(*with))
+    };
+    let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
+    let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
+    let gain = match (only.efficiency.is, only.efficiency.value) {
+        _ if is_idle => ", all of it against friction".to_owned(),
+        (EfficiencyKind::Driving, Some(value)) => format!(": efficiency {}", percent(value)),
+        (EfficiencyKind::Braking, Some(value)) => {
+            format!("; the load pushes, and {} of its power arrives", percent(value))
+        }
+        (EfficiencyKind::HeldByFriction, _) => ": friction holds the load, so it must be driven".to_owned(),
+        (EfficiencyKind::NoPower, _) => "; without friction the motion needs no power".to_owned(),
+        _ => "; without friction the drives push, with it they brake".to_owned(),
+    };
+    needs.join(", ") + &gain
+}
+
+/// "2 states are possible: push needs 9.091 N, or -100 N (unstable)."
+fn needs_several(report: &DriveReport, several: &[DriveSolution]) -> String {
+    let count = several.len();
+    let ([drive], 0..=TOLD) = (report.drives.as_slice(), count) else {
+        return format!("{count} states are possible, each with its own efforts.");
+    };
+    let unit = report.units.of(drive.unit);
+    let one = |state: &DriveSolution| {
+        let note = match state.attainability {
+            Verdict::Unattainable => " (unstable)",
+            Verdict::Flutter => " (it flutters)",
+            _ => "",
+        };
+        unit.brief(state.efforts[0]) + note
+    };
+    let efforts: Vec<String> = several.iter().map(one).collect();
+    format!("{count} states are possible: {} needs {}.", drive.name, efforts.join(", or "))
+}
+
+/// What is to be said of the only state if a mechanism does not settle on it.
+fn unsettled(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Unattainable => " This state is unstable: a real mechanism leaves it.",
+        Verdict::Flutter => " It flutters unless its contacts are damped.",
+        _ => "",
+    }
+}
+
+/// "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is
+/// undetermined."
+fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &EffortRange) -> String {
+    let efforts = range.undetermined.efforts.iter().zip(&direction.frictionless.efforts);
+    let needs = efforts.map(|(effort, without)| {
+        let without = report.units.of(effort.unit).brief(*without);
+        format!("{} needs {} ({without} without friction)", effort.name, effort.in_words(&report.units))
+    });
+    let mut parts: Vec<String> = needs.collect();
+    parts.extend(range.efficiency.map(|ends| format!("efficiency {}", percents(ends))));
+    let further = match direction.solutions.len() {
+        0 => "",
+        1 => " One more state has its own effort.",
+        _ => " More states have their own efforts.",
+    };
+    format!("{}; {}.{further}", parts.join(", "), range.undetermined.cause())
+}
+
+/// When it would jam, or that it never does; none where that is not known.
+fn jam(direction: &DriveDirection) -> Option<String> {
+    if let Some(below) = &direction.moves_below {
+        let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
+        return Some(format!("{what} below {}.", friction(below.factor, below.mu)));
+    }
+    let [.., last] = direction.solutions.as_slice() else { return None };
+    let Some(factor) = direction.no_solution else {
+        let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
+        let never = direction.never_jams && direction.solutions.len() == 1 && settles;
+        return never.then(|| "it does not jam at any friction.".to_owned());
+    };
+    let at = friction(factor, direction.mu.map(|mu| factor * mu));
+    if !direction.tips.is_empty() {
+        let tips = tip("would tip", "would tip", direction);
+        return Some(format!("beyond {at} {tips}; {} to go on.", as_block(direction)));
+    }
+    // A jam that no growing effort announces.
+    let grows = |blow_ups: &Vec<BlowUp>| blow_ups.iter().any(|one| precise(one.at) == precise(factor));
+    let is_sudden = direction.blow_ups.as_ref().is_some_and(|blow_ups| !grows(blow_ups));
+    let warning = if is_sudden { ", and the effort gives no warning before" } else { "" };
+    Some(format!("it would jam at {at}{warning}."))
+}
+
+/// "2.222 times this friction (mu = 0.6667)"
+fn friction(factor: f64, mu: Option<f64>) -> String {
+    let mu = mu.map_or_else(String::new, |mu| format!(" (mu = {})", brief(mu)));
+    format!("{} times this friction{mu}", brief(factor))
+}
+
+/// "40 to 80 %"
+pub(super) fn percents([from, to]: [f64; 2]) -> String {
+    if from == to { percent(from) } else { format!("{} to {}", brief(100.0 * from), percent(to)) }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", brief(100.0 * share))
+}
+
+/// An efficiency as a cell of a table: "68.966 % (braking)".
+pub(super) fn share(efficiency: Efficiency) -> String {
+    let percent = |value: f64| format!("{} %", number(100.0 * value));
+    match (efficiency.is, efficiency.value) {
+        (EfficiencyKind::Driving, Some(value)) => percent(value),
+        (EfficiencyKind::Braking, Some(value)) => format!("{} (braking)", percent(value)),
+        (is, _) => is.in_words().to_owned(),
+    }
+}
+
+/// Whether a mechanism settles on a state, as a cell of a table.
+pub(super) fn is_stable(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Attainable => "yes",
+        Verdict::Unattainable => "no",
+        Verdict::Flutter => "flutters",
+        Verdict::Undecided => "not decided",
+        Verdict::NotComputed => "not computed",
+    }
+}
+
+/// "the effort of push grows without limit"; with details also where: "(mode + -, below), with the normal forces of
+/// guide.front, guide.rear".
+pub(super) fn without_limit(report: &DriveReport, blow_up: &BlowUp, details: bool) -> String {
+    let growing = report.drives.iter().zip(&blow_up.efforts).filter(|(_, sign)| **sign != 0);
+    let growing: Vec<&str> = growing.map(|(drive, _)| &*drive.name).collect();
+    let [what, verb] = if growing.len() == 1 { ["effort", "grows"] } else { ["efforts", "grow"] };
+    let what = format!("the {what} of {} {verb} without limit", growing.join(", "));
+    let side = match blow_up.side {
+        Approach::Below => "below it",
+        Approach::Above => "above it",
+    };
+    if !details {
+        return format!("{what} just {side}");
+    }
+    let also = match blow_up.contacts.as_slice() {
+        [] => String::new(),
+        contacts => format!(", with the normal forces of {}", contacts.join(", ")),
+    };
+    // Hinges alone have no modes.
+    match blow_up.pattern.as_str() {
+        "" => format!("{what} just {side}{also}"),
+        pattern => format!("{what} just {side} in the mode {}{also}", spaced(pattern)),
+    }
+}

@@ -1,0 +1,173 @@
+//! Whether it holds, in sentences.
+
+use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging};
+use crate::report::count;
+use crate::units::number::brief;
+
+/// Whether it stays at rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from mu_static =
+/// 0.1667 (0.8333 times this static friction)."
+pub(super) fn answer(report: &HoldReport) -> String {
+    let Some(load) = &report.load else { return verdict(report) };
+    let locks = locks(report, load);
+    let is_all = load.held == [Range { least: None, greatest: None }];
+    let mut sentences = Vec::new();
+    // That it holds is said by what it holds.
+    if !(report.holds && is_sure(report) && load.self_locking && is_all) {
+        let verdict = verdict(report);
+        sentences.push(match verdict.strip_prefix("It ") {
+            // A drive is a load that is absent.
+            Some(rest) if !load.unit.is_empty() => format!("Without `{}` it {rest}", load.name),
+            _ => verdict,
+        });
+    }
+    if !is_all {
+        sentences.push(held(report, load));
+    }
+    sentences.extend(locks);
+    sentences.join(" ")
+}
+
+/// Whether it stays at rest.
+fn verdict(report: &HoldReport) -> String {
+    if report.undecided > 0 && !report.holds {
+        return "Not decided: no state of rest was found, but not all could be examined.".to_owned();
+    }
+    match report.verdict {
+        HoldVerdict::Holds | HoldVerdict::MayHold => "It holds.".to_owned(),
+        HoldVerdict::HoldsUntilPushed => {
+            "It holds. Once pushed it keeps sliding: kinetic friction is lower than static.".to_owned()
+        }
+        HoldVerdict::HoldsOrSlips => "It may hold, or it may start to slide: do not rely on it.".to_owned(),
+        HoldVerdict::Moves => moves(report),
+        HoldVerdict::Neither => {
+            "It can neither stay at rest nor start to slide with finite accelerations.".to_owned()
+        }
+        HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
+    }
+}
+
+/// "It does not hold: it starts to slide (x: -4 m/s^2)."
+fn moves(report: &HoldReport) -> String {
+    let acceleration = |release: &Release| {
+        let [only] = release.coordinates.as_slice() else { return None };
+        let unit = report.units.of(only.unit);
+        let ends = only.acceleration.least.zip(only.acceleration.greatest)?;
+        let [least, greatest] = [ends.0, ends.1].map(|end| unit.brief(end));
+        (least == greatest).then(|| format!(" ({}: {least})", only.name))
+    };
+    match report.releases.as_slice() {
+        [only] => {
+            let starts = if only.joints.iter().any(|joint| joint.slip != 0) { "slide" } else { "move" };
+            format!("It does not hold: it starts to {starts}{}.", acceleration(only).unwrap_or_default())
+        }
+        several => format!("It does not hold: it starts to slide, in one of {} ways.", several.len()),
+    }
+}
+
+/// Whether the load itself sees to it that it is held: no sliding is possible.
+fn is_sure(report: &HoldReport) -> bool {
+    let verdict = matches!(report.verdict, HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed);
+    let is_wedged = report.at_rest.as_ref().is_some_and(|rest| !rest.wedging.is_empty());
+    !is_wedged || verdict && report.load.as_ref().is_some_and(|load| load.factor == 1.0)
+}
+
+/// "It holds `cam` from 193 to 286.1 N.", "It holds up to 3 times `W`."
+fn held(report: &HoldReport, load: &LoadReport) -> String {
+    let unit = report.units.of(load.unit);
+    let name = &load.name;
+    let one = |range: &Range| match (range.least, range.greatest, load.unit) {
+        (None, None, _) => format!("any `{name}`"),
+        (Some(least), None, "") => format!("at least {} times `{name}`", brief(least)),
+        (None, Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
+        (Some(least), Some(greatest), "") if least == greatest => {
+            format!("only {} times `{name}`", brief(least))
+        }
+        (Some(least), Some(greatest), "") => {
+            format!("{} to {} times `{name}`", brief(least), brief(greatest))
+        }
+        (Some(least), None, _) => format!("`{name}` from {} on", unit.brief(least)),
+        (None, Some(greatest), _) => format!("`{name}` up to {}", unit.brief(greatest)),
+        (Some(least), Some(greatest), _) if least == greatest => {
+            format!("`{name}` of {} only", unit.brief(least))
+        }
+        (Some(least), Some(greatest), _) => {
+            format!("`{name}` from {} to {}", unit.brief_number(least), unit.brief(greatest))
+        }
+    };
+    let with = if load.unit.is_empty() { "" } else { "with " };
+    match load.held.as_slice() {
+        [] if load.unit.is_empty() => format!("It holds no multiple of `{name}`."),
+        [] => format!("No `{name}` holds it."),
+        ranges => format!("It holds {with}{}.", ranges.iter().map(one).collect::<Vec<_>>().join(", and ")),
+    }
+}
+
+/// Whether it is self-locking, and from which friction on it is.
+fn locks(report: &HoldReport, load: &LoadReport) -> Vec<String> {
+    let name = &load.name;
+    let from = match load.threshold.value {
+        None => None,
+        Some(0.0) => Some("even without friction".to_owned()),
+        Some(value) => Some(format!("from {}", threshold(&load.threshold, value))),
+    };
+    match (load.self_locking, is_sure(report), from) {
+        (true, true, Some(from)) => vec![format!("Self-locking: it holds any `{name}` {from}.")],
+        (true, true, None) => {
+            vec![format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load.")]
+        }
+        (true, false, _) => {
+            vec![format!("While wedged it holds any `{name}`, but `{name}` alone need not wedge it.")]
+        }
+        (false, _, None) => vec![format!("Not self-locking: no {} makes it so.", load.threshold.varied)],
+        (false, _, Some(from)) => {
+            vec![format!("Not self-locking: a great enough `{name}` moves it. It is self-locking {from}.")]
+        }
+    }
+}
+
+/// From which friction on guides that share a load wedge.
+pub(super) fn wedges(Wedging { possible, threshold: known }: &Wedging) -> Vec<String> {
+    let Some(value) = known.value else {
+        return vec![format!("No {} wedges the guides.", known.varied)];
+    };
+    let from = threshold(known, value);
+    let mut sentences = vec![if *possible {
+        format!("The guides can wedge, from {from}.")
+    } else {
+        format!("The guides cannot wedge; they could from {from}.")
+    }];
+    if *possible {
+        sentences.push(
+            "Pressed against each other they then stay so without any load. Whether that holds a load depends on how it came \
+             to rest."
+                .to_owned(),
+        );
+    }
+    sentences
+}
+
+/// "mu = 0.6 (now 0.3)", "mu_static = 0.1667 (now 0.2)", "1.2 times this static friction"
+fn threshold(threshold: &Threshold, value: f64) -> String {
+    let now = |name: &str, at: f64, present: f64| match [at, present].map(brief) {
+        [at, present] if at == present => format!("{name} = {at}, its present value"),
+        [at, present] => format!("{name} = {at} (now {present})"),
+    };
+    if threshold.varied != "static friction" {
+        return now(&threshold.varied, value, threshold.present);
+    }
+    let mut coefficients = threshold.coefficients.iter().flat_map(|one| one.mu_static);
+    match coefficients.next() {
+        Some(first) if !threshold.friction_in_hinges && coefficients.all(|other| other == first) => {
+            now("mu_static", first, first / value)
+        }
+        _ => format!("{} times this static friction", brief(value)),
+    }
+}
+
+/// What is not known since some motions have no inertia.
+pub(super) fn without_inertia(report: &HoldReport) -> Option<String> {
+    let motions = report.motions_without_inertia.len();
+    let what = if report.holds { "whether it could also start to move" } else { "how it starts to move" };
+    let bodies = count(motions, "motion has no mass", "motions have no mass");
+    (motions > 0).then(|| format!("Not decided: {what} ({bodies})."))
+}

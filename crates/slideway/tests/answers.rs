@@ -1,0 +1,346 @@
+//! The answer in plain words, for every question but `solve`, `limits` and `size`, and for every kind of outcome.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use slideway::check::check;
+use slideway::map::{ColourBy, MapOptions, map};
+use slideway::mechanism::Mechanism;
+use slideway::modes::SearchOptions;
+use slideway::motion::{self, SimulateOptions, Thorough};
+use slideway::raw_problem::{self, RawProblem};
+use slideway::report::Style;
+use slideway::sweep::{Rows, Sampling, Sweep, SweepOptions, SweepState};
+use slideway::{DriveOptions, HoldOptions, Model, Report, Settings, configuration::Configuration, drive, gallery, hold};
+use std::ops::ControlFlow;
+
+/// A model of the gallery, or its text, with some parameters.
+fn model(text: &str, settings: &[(&str, &str)]) -> Model {
+    let text = gallery::find(text).map_or(text, |model| model.text);
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    Model::parse(text).unwrap().with(&settings).unwrap()
+}
+
+fn driven(text: &str, settings: &[(&str, &str)]) -> String {
+    drive(&model(text, settings), &DriveOptions::default()).unwrap().answer()
+}
+
+const EQUAL_PLAY: &str = include_str!("findings/equal_play.toml");
+const TIPPING_PRESS: &str = include_str!("findings/tipping_press.toml");
+const GUIDED_GAP: &str = include_str!("findings/guided_gap.toml");
+
+#[test]
+fn drive_answers() {
+    let told = [
+        // P = Q / (1 - 2 mu a / L), which has no limit at mu = L / (2 a) = 2/3.
+        (driven("drawer", &[]), ""),
+        (driven("drawer", &[("mu", "0.8")]), ""),
+        (driven("drawer", &[("mu", "2/3")]), ""),
+        (driven("wedge", &[]), ""),
+        (driven("stick-slip", &[]), ""),
+        (driven("bell-crank", &[]), ""),
+        (driven(EQUAL_PLAY, &[]), ""),
+        (driven(TIPPING_PRESS, &[("mu", "1.3")]), ""),
+        (driven(GUIDED_GAP, &[]), ""),
+    ];
+    assert_answers(&told);
+}
+
+/// Sees to it that all answers are the expected ones.
+#[track_caller]
+fn assert_answers(told: &[(String, &str)]) {
+    let wrong: Vec<String> = told
+        .iter()
+        .filter(|(told, expected)| told != expected)
+        .map(|(told, expected)| format!("{told}\n  instead of\n{expected}"))
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+fn held(text: &str, settings: &[(&str, &str)], load: Option<&str>) -> String {
+    let mut options = HoldOptions::default();
+    options.load = load.map(str::to_owned);
+    hold(&model(text, settings), &options).unwrap().answer()
+}
+
+const SASH: &str = include_str!("findings/sash.toml");
+const PIPE_CLAMP: &str = include_str!("findings/pipe_clamp.toml");
+const GUIDED_TIPS: &str = include_str!("../../../docs/src/examples/guided-tips.toml");
+
+/// 20 N on a slope; it slides from tan(angle) = mu_static on, and goes on from tan(angle) = mu.
+const SLOPE: &str = r#"
+    [parameters]
+    angle = "13 deg"
+    [points]
+    c = [0, 0]
+    [bodies.block]
+    points = ["c"]
+    mass = 2
+    centre_of_mass = "c"
+    moment_of_inertia = 1
+    [joints.plane]
+    type = "guided_slider"
+    block = "block"
+    at = "c"
+    along = "angle"
+    length = 1
+    mu = 0.2
+    mu_static = 0.3
+    [loads.weight]
+    type = "force"
+    at = "block.c"
+    components = [0, -20]
+    [coordinates.s]
+    slide = "plane"
+"#;
+
+#[test]
+fn hold_answers() {
+    let wedged = [("mu", "0.7"), ("mu_s", "0.7"), ("cord_force", "0 N")];
+    let told = [
+        (held("klepp-2002", &[], None), ""),
+        (held("drawer", &[], None), ""),
+        (held("bell-crank", &[], None), ""),
+        (held(SLOPE, &[], None), ""),
+        (held(SLOPE, &[], Some("weight")), ""),
+        (held(SLOPE, &[("angle", "20 deg")], Some("weight")), ""),
+        (held("bracket-on-pole", &[], None), ""),
+        (held("bracket-on-pole", &[], Some("W")), ""),
+        (held("bracket-on-pole", &[("x", "0.2 m")], Some("W")), ""),
+        (held(PIPE_CLAMP, &[], Some("screw")), ""),
+        (held("cam-follower", &[], Some("cam")), ""),
+        (held("drawer", &[], Some("resistance")), ""),
+        (held(SASH, &[], Some("gravity")), ""),
+        (held(SASH, &wedged, Some("gravity")), ""),
+        (held(GUIDED_TIPS, &[], None), ""),
+        (held("telescopic-boom", &[], None), ""),
+    ];
+    assert_answers(&told);
+}
+
+/// A block of 2 kg on a horizontal guide, g = 10 m/s^2, friction decelerates it by 2.5 m/s^2.
+const BLOCK: &str = r#"
+gravity = "10 m/s^2"
+[parameters]
+v = "2 m/s"
+[points]
+C = [0, 0]
+[bodies.block]
+points = ["C"]
+mass = "2 kg"
+centre_of_mass = "C"
+shape = { rectangle = ["0.2 m", "0.1 m"] }
+[joints.guide]
+type = "block_slider"
+block = "block"
+at = "C"
+along = "0 deg"
+length = "0.2 m"
+mu = 0.25
+[coordinates.x]
+slide = "guide"
+rate = "v"
+"#;
+
+fn options(duration: f64) -> SimulateOptions {
+    SimulateOptions::new(duration)
+}
+
+fn simulated(model: &Model, options: &SimulateOptions) -> String {
+    let mechanism = Mechanism::new(model).unwrap();
+    let options = options.clone().with_events_of(&mechanism);
+    let history = motion::simulate(model, &options).unwrap();
+    motion::report(&history, &options).answer()
+}
+
+/// From 2 m/s the block stops after 2 / 2.5 = 0.8 s.
+#[test]
+fn simulate_answers() {
+    let block = |settings: &[(&str, &str)]| model(BLOCK, settings);
+    let with = |from: &str, to: &str| Model::parse(&BLOCK.replace(from, to)).unwrap();
+    let rate = "rate = \"v\"";
+    let force = "components = [\"1 N * sqrt(1.3 - t/(1 s))\", 0]";
+    let told = [
+        (simulated(&block(&[]), &options(2.0)), ""),
+        (simulated(&block(&[]), &options(0.5)), ""),
+        (simulated(&block(&[("v", "0 m/s")]), &options(0.5)), ""),
+        (simulated(&model("stick-slip", &[]), &options(0.5)), ""),
+        (simulated(&model("thrown-drawer", &[]), &options(0.6)), ""),
+        (simulated(&with("mu = 0.25", "mu = 0.25\ntravel = [-1, 0.5]"), &options(2.0)), ""),
+        (simulated(&model("drawer", &[("v", "-0.1 m/s")]), &options(6.0)), ""),
+        (simulated(&block(&[]), &SimulateOptions { reaction_limit: Some(9.0), ..options(2.0) }), ""),
+        (simulated(&block(&[]), &options(2.0).most_events(0)), ""),
+        (simulated(&block(&[]), &options(2.0).most_steps(3)), ""),
+        (
+            simulated(
+                &with(rate, &format!("{rate}\n[loads.force]\ntype = \"force\"\nat = \"block.C\"\n{force}")),
+                &options(2.0),
+            ),
+            "",
+        ),
+        (simulated(&model(TIPPING_PRESS, &[("mu", "1.3")]), &options(0.1)), ""),
+    ];
+    assert_answers(&told);
+}
+
+#[test]
+fn an_interrupted_motion_and_several_motions() {
+    let model = model(BLOCK, &[]);
+    let mechanism = Mechanism::new(&model).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let options = options(2.0);
+    let mut stop = |_: &_| ControlFlow::Break(());
+    let history = motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut stop).unwrap();
+    let interrupted = motion::report(&history, &options).answer();
+    let tree = |most: usize| {
+        let mut go_on = |_: &_| ControlFlow::Continue(());
+        let tree =
+            motion::simulate_all(&mechanism, &configuration, &options, (&mut Thorough, most), &mut go_on).unwrap();
+        motion::tree_report(&tree, &options).answer()
+    };
+    assert_answers(&[(interrupted, "Interrupted at 0 s."), (tree(9), ""), (tree(0), "")]);
+}
+
+fn checked(text: &str, settings: &[(&str, &str)]) -> String {
+    check(&model(text, settings)).unwrap().answer()
+}
+
+const PULLED_BLOCK: &str = include_str!("findings/pulled_block.toml");
+const SHORT_ROD: &str = include_str!("../../slideway-cli/tests/bad/short-rod.toml");
+
+#[test]
+fn check_answers() {
+    let told = [
+        (checked("drawer", &[]), "Ready for: solve, drive, hold, simulate."),
+        (checked("slider-crank", &[]), "Ready for: solve, hold, simulate."),
+        (checked(PULLED_BLOCK, &[]), "Ready for: hold, simulate. For solve, drive, give a rate."),
+        (
+            checked(PIPE_CLAMP, &[]),
+            "Ready for: hold. For solve, give a mass (or a drive) and a rate. For simulate, give a mass (or a drive).",
+        ),
+        (checked(EQUAL_PLAY, &[]), ""),
+        (checked("drawer", &[("mu", "30")]), "Ready for: solve, drive, hold, simulate. 1 warning."),
+        (checked(SHORT_ROD, &[]), "No question can be answered in this state: 1 fault."),
+    ];
+    assert_answers(&told);
+}
+
+fn swept(model: &Model, options: &SweepOptions) -> String {
+    let sweep = Sweep::new(model, options).unwrap();
+    let state = all_points(&sweep);
+    sweep.answer(&state)
+}
+
+fn all_points(sweep: &Sweep) -> SweepState {
+    let mut state = sweep.start();
+    sweep.run(&mut state, &|_: &Rows| (), &mut |_, _| ControlFlow::Continue(()));
+    state
+}
+
+fn grid(axis: &str) -> SweepOptions {
+    SweepOptions::grid([axis.parse().unwrap()])
+}
+
+/// The drawer jams beyond mu = 2/3.
+#[test]
+fn sweep_answers() {
+    let drawer = model("drawer", &[]);
+    let samples = SweepOptions::samples(Sampling::Random { samples: 100, seed: 1 }, ["mu=0..0.5".parse().unwrap()]);
+    let told = [
+        (swept(&drawer, &grid("mu=0..1:101")), "It jams at 34 of 101 points."),
+        (swept(&drawer, &grid("mu=0..0.6:7")), "It jams at none of 7 points."),
+        (swept(&drawer, &grid("mu=0.7..1:4")), "It jams at all 4 points."),
+        (swept(&model("slider-crank", &[]), &grid("l=5 mm..200 mm:4")), ""),
+        (swept(&drawer, &samples), ""),
+        (swept(&model("drawer", &[("v", "-0.1 m/s")]), &grid("mu=0..1:11")), ""),
+    ];
+    assert_answers(&told);
+}
+
+#[test]
+fn map_answers() {
+    let options = |colour_by: ColourBy| {
+        MapOptions::new("mu=0..1".parse().unwrap(), "a=0 m..0.4 m".parse().unwrap()).size(32, 32).colour_by(colour_by)
+    };
+    let told = [ColourBy::Solutions, ColourBy::Jam, ColourBy::Hold].map(|colour_by| {
+        map(&model("drawer", &[]), &options(colour_by)).unwrap().answer()
+    });
+    let [solutions, jam, hold] = told;
+    assert_answers(&[(solutions, ""), (jam, ""), (hold, "")]);
+}
+
+fn found(json: &str, options: &SearchOptions) -> String {
+    let problem = RawProblem::from_json(json.as_bytes()).unwrap();
+    raw_problem::solve(&problem, options, 100, &mut |_| ControlFlow::Continue(())).unwrap().answer()
+}
+
+#[test]
+fn modes_answers() {
+    let all = SearchOptions::default();
+    let lcp = |m: &str, q: &str| format!("{{\"type\": \"lcp\", \"M\": {m}, \"q\": {q}}}");
+    let told = [
+        // z = 1, w = 0; z = 0, w = -1 is none.
+        (found(&lcp("[[1]]", "[-1]"), &all), "One solution."),
+        (found(&lcp("[[-1]]", "[-1]"), &all), "No solution."),
+        // z = 1 or w = 1.
+        (found(&lcp("[[-1]]", "[1]"), &all), "2 solutions."),
+        // w = 0 whatever z is.
+        (found(&lcp("[[0]]", "[0]"), &all), "Infinitely many solutions: one continuum."),
+        (
+            found(include_str!("../../slideway-cli/tests/raw/good/gap.json"), &all),
+            "No solution, but there is a state with an unknown in its preload gap.",
+        ),
+        (
+            found(
+                &lcp("[[-1, 0.5], [0.5, -1]]", "[1, 1]"),
+                &SearchOptions { nodes: 1, ..all.clone() },
+            ),
+            "",
+        ),
+        (found(r#"{"type": "game", "A": [[1, -1], [-1, 1]], "B": [[-1, 1], [1, -1]]}"#, &all), "One equilibrium."),
+    ];
+    assert_answers(&told);
+}
+
+/// Every text of default form over the gallery, with its name.
+fn texts(style: Style) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    for each in gallery::MODELS {
+        let model = Model::parse(each.text).unwrap();
+        let mut tell = |question: &str, text: Option<String>| {
+            all.extend(text.map(|text| (format!("{question} {}", each.name), text)));
+        };
+        tell("check", check(&model).ok().map(|report| report.text(style)));
+        tell("drive", drive(&model, &DriveOptions::default()).ok().map(|report| report.text(style)));
+        tell("hold", hold(&model, &HoldOptions::default()).ok().map(|report| report.text(style)));
+        let options = options(0.02);
+        let history = motion::simulate(&model, &options).ok();
+        tell("simulate", history.map(|history| motion::report(&history, &options).text(style)));
+    }
+    all
+}
+
+#[test]
+fn no_line_is_longer_than_the_page() {
+    for (name, text) in texts(Style::PLAIN.width(80)) {
+        for line in text.lines() {
+            assert!(line.chars().count() <= 80, "{name}: {line}");
+        }
+    }
+}
+
+/// No statement is lost: the details hold every number of the default form, and more.
+#[test]
+fn details_hold_every_number_of_the_default_form() {
+    let numbers = |text: &str| -> Vec<String> {
+        let parts = text.split(|letter: char| !(letter.is_ascii_digit() || letter == '.'));
+        parts.map(|part| part.trim_matches('.').to_owned()).filter(|part| !part.is_empty()).collect()
+    };
+    let style = Style::PLAIN.width(1000);
+    for ((name, plain), (_, whole)) in texts(style).iter().zip(&texts(style.verbose(true))) {
+        let mut known = numbers(whole);
+        for number in numbers(plain) {
+            let place = known.iter().position(|known| *known == number);
+            known.swap_remove(place.unwrap_or_else(|| panic!("{name}: {number} is not in\n{whole}")));
+        }
+    }
+}
