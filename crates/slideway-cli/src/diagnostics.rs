@@ -206,8 +206,8 @@ fn closing_line(faults: &[&Fault], model: &str) -> String {
     let count = if faults.len() == 1 { format!("1 {one}") } else { format!("{} {several}", faults.len()) };
     let strict = match faults.len() {
         _ if !are_warnings => "",
-        1 => ", taken for an error",
-        _ => ", taken for errors",
+        1 => ", treated as an error",
+        _ => ", treated as errors",
     };
     let place = match in_settings {
         0 => format!("in {model}"),
