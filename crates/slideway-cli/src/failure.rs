@@ -1,11 +1,15 @@
 //! Why a command could not do what it was asked to do.
 
 use crate::diagnostics::{self, Note};
+use crate::explain::listing;
 use crate::faulty_input::FaultyInput;
 use crate::halt::Halt;
 use crate::outcome::Outcome;
 use slideway::import::ImportFault;
+use slideway::limits::{FRICTION, Variable};
+use slideway::printable;
 use slideway::raw_problem::RawFaults;
+use slideway::template::TEMPLATES;
 use slideway_pictures::NotFinite;
 use slideway_tables::{Reason, TableError};
 use std::fmt;
@@ -36,6 +40,12 @@ pub(crate) enum Failure {
     NoTemplate,
     /// There is no such template.
     UnknownTemplate { name: String, nearest: Option<String> },
+    /// No quantity is named that is to be varied, by this option.
+    NothingVaried { option: &'static str, variables: Vec<Variable> },
+    /// Standard output cannot be opened.
+    NothingToOpen,
+    /// No program opens a file.
+    CannotOpen { path: PathBuf, program: String },
     /// There is no such model in the gallery.
     UnknownModel { name: String, nearest: Option<String> },
     /// Only the telescopic boom has stages.
@@ -139,6 +149,11 @@ impl Failure {
             Self::Drawing { name, fault } => format!("`{name}` cannot be imported: {fault}"),
             Self::NoTemplate => "which template? None is named".to_owned(),
             Self::UnknownTemplate { name, .. } => format!("there is no template `{name}`"),
+            Self::NothingVaried { .. } => "what is to be varied?".to_owned(),
+            Self::NothingToOpen => "only a file can be opened".to_owned(),
+            Self::CannotOpen { path, .. } => {
+                format!("`{}` is written, but cannot be opened from here", path.display())
+            }
             Self::UnknownModel { name, .. } => format!("the gallery has no model `{name}`"),
             Self::NoStages { name } => format!("`{name}` has no stages"),
             Self::StageCount { stages, most } => {
@@ -250,8 +265,13 @@ impl Failure {
                 Some(format!("did you mean `{nearest}`?"))
             }
             Self::NoTemplate | Self::UnknownTemplate { nearest: None, .. } => {
-                Some("`slideway new --list` lists them".to_owned())
+                Some("`slideway new NAME` writes one of these".to_owned())
             }
+            Self::NothingVaried { option, .. } => {
+                Some(format!("name one of these with `{option}`; they have these values now"))
+            }
+            Self::NothingToOpen => Some("name it with --output, or omit --output".to_owned()),
+            Self::CannotOpen { program, .. } => Some(format!("the program `{program}` would do it")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
             Self::FileFormat { known, .. } | Self::SeriesFormat { known, .. } => {
@@ -282,6 +302,29 @@ impl Failure {
             }
             _ => None,
         }
+    }
+}
+
+impl Failure {
+    /// All that there is, where none of it is named.
+    fn all(&self) -> Vec<(String, String)> {
+        match self {
+            Self::NoTemplate | Self::UnknownTemplate { .. } => {
+                TEMPLATES.iter().map(|one| (one.name.to_owned(), one.summary().to_owned())).collect()
+            }
+            Self::NothingVaried { variables, .. } => {
+                let meaning = |name: &str| if name == FRICTION { ", the factor on all coefficients of friction" } else { "" };
+                let one = |one: &Variable| (one.name.clone(), format!("{}{}", one.value, meaning(&one.name)));
+                variables.iter().map(one).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// It and what to do about it, as a sentence.
+    pub(crate) fn in_one_line(&self) -> String {
+        let hint = self.hint().map_or_else(String::new, |hint| format!("; {hint}"));
+        printable::line(&format!("{}{hint}", self.message())).into_owned()
     }
 }
 
@@ -323,7 +366,11 @@ impl fmt::Display for Failure {
         let text = match self {
             Self::Input(input) => diagnostics::faults(input),
             Self::Problem { name, faults } => diagnostics::raw_faults(name, faults),
-            other => diagnostics::note(&Note { message: other.message(), hint: other.hint() }),
+            other => {
+                let note = Note { message: other.message(), hint: other.hint() };
+                let all = other.all();
+                if all.is_empty() { diagnostics::note(&note) } else { listing(&note, all) }
+            }
         };
         formatter.write_str(&text)
     }

@@ -8,7 +8,7 @@ use crate::output::complain;
 use anstream::ColorChoice;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::gallery;
-use slideway::limits::Vary;
+use slideway::limits::{Vary, variables};
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
 use slideway::units::UnitSystem;
 use slideway::warning::{ranges_at_middle, warnings};
@@ -81,6 +81,25 @@ impl Input {
         let vary: Vary = text.parse().map_err(|faults| self.refused(faults))?;
         self.warn(vary.warnings(model))?;
         Ok(vary)
+    }
+
+    /// [`Input::vary`] of what a question needs.
+    ///
+    /// # Errors
+    /// As there, and if nothing is named.
+    pub(crate) fn wanted(&self, model: &Model, text: Option<&str>) -> Result<Vary, Failure> {
+        match text {
+            Some(text) => self.vary(model, text),
+            None => Err(self.nothing_varied(model, "--vary NAME` or `--vary NAME=FROM..TO")),
+        }
+    }
+
+    /// That no quantity is named by this option, and which ones there are.
+    pub(crate) fn nothing_varied(&self, model: &Model, option: &'static str) -> Failure {
+        match variables(model) {
+            Ok(variables) => Failure::NothingVaried { option, variables },
+            Err(faults) => self.refused(faults),
+        }
     }
 
     /// [`Input::vary`] of two quantities, with the faults of both.

@@ -78,6 +78,11 @@ impl Output {
         self.look
     }
 
+    /// Whether somebody reads it as it is written.
+    pub(crate) fn is_terminal(&self) -> bool {
+        self.file.is_none() && io::stdout().is_terminal()
+    }
+
     /// Whether text that accompanies the answer, on a standard stream, may use colours.
     pub(crate) fn style_of_text(&self) -> Style {
         Self::standard(self.look).style()

@@ -288,15 +288,13 @@ pub enum FaultKind {
     #[error("{what} needs a range: {name}=FROM..TO")]
     RangeNeeded { what: String, name: String },
     #[error("the range of {what} is empty: it begins and ends at {from}")]
-    EmptyRange { what: String, from: f64 },
+    EmptyRange { what: String, from: String },
     #[error("nothing in the mode problem depends on {what} between {from} and {to}")]
-    NothingVaries { what: String, from: f64, to: f64 },
+    NothingVaries { what: String, from: String, to: String },
     #[error("{what} cannot be both axes of a map")]
     SameAxes { what: String },
     #[error("{contacts} contacts have more contact modes than the {limit} whose limits are computed")]
     TooManyModes { contacts: usize, limit: u64 },
-    #[error("the range of {what} is reversed: it goes from {from} down to {to}")]
-    ReversedRange { what: String, from: f64, to: f64 },
     #[error(
         "the table {name} has {arguments} arguments and {values} values; it needs equal numbers of both, at least one"
     )]

@@ -1,15 +1,19 @@
 //! `slideway draw`
 
 use super::values::positive;
-use super::{Destination, ModelArguments, PictureTheme, TimeArguments};
+use super::{Destination, ModelArguments, OpenArguments, PictureTheme, TimeArguments};
 use clap::Args;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway draw klepp-2002.toml --output klepp.svg
-  slideway draw klepp-2002.toml --solution 2 --output second.png --width 1200
-  slideway draw slider-crank.toml --at phi=\"150 deg\" --solution none --output crank.svg
+  slideway draw drawer.toml                       on a terminal: into drawer.svg
+  slideway draw drawer.toml --open                and shows it
   slideway draw drawer.toml --theme dark --output drawer.png
+  slideway draw klepp-2002.toml --solution 2 --output two.png --width 1200
+  slideway draw slider-crank.toml --at phi=\"150 deg\" --solution none
+
+On a terminal, a drawing without --output goes into a new file that has the
+name of the model. In a pipe it goes to standard output.
 
 Exit codes:
   0    done
@@ -17,7 +21,8 @@ Exit codes:
   3    nothing was found within --time-limit
   130  interrupted (Ctrl-C)
 
-What was found before the time limit or the interruption is drawn, and the drawing says that it is partial.";
+After a time limit or an interruption, what was found is drawn, and the drawing
+says that it is partial.";
 
 /// Arguments of `slideway draw`.
 #[derive(Debug, Args)]
@@ -25,8 +30,7 @@ pub(crate) struct DrawArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// Which solutions: a number, `all` beside the mechanism, or `none` for the mechanism alone. Default:
-    /// all.
+    /// Which solutions to draw: the one with this number, `all` (the default), or `none` for the mechanism alone.
     #[arg(long, value_name = "N|all|none", value_parser = which)]
     pub(crate) solution: Option<Which>,
 
@@ -34,12 +38,15 @@ pub(crate) struct DrawArguments {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) theme: PictureTheme,
 
-    /// Width of the picture in pixels. By default letters are 15 pixels high, 30 in PNG.
+    /// Width of the picture in pixels. By default letters are 15 pixels high, and 30 in a PNG.
     #[arg(long, value_name = "PIXELS", value_parser = positive)]
     pub(crate) width: Option<f64>,
 
     #[command(flatten)]
     pub(crate) time: TimeArguments,
+
+    #[command(flatten)]
+    pub(crate) open: OpenArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

@@ -6,20 +6,21 @@ use slideway::drive::GREATEST_ROWS;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway drive drawer.toml                            the push it needs, and the efficiency
-  slideway drive drawer.toml --vary mu                  the push over friction
+  slideway drive drawer.toml              the push it needs, and the efficiency
+  slideway drive drawer.toml --vary mu    the push over friction
   slideway drive drawer.toml --vary L=\"0.2 m..0.5 m\" --rows 21
   slideway drive screw.toml --vary friction=0..3
-  slideway drive drawer.toml --vary mu --plot push.svg  push and efficiency over friction
+  slideway drive drawer.toml --vary mu --plot push.svg
 
-The efficiency is the power without friction over the power with friction, at the same motion;
-if the load pushes and the drives brake, it is the inverse. Without a range, the default is that of
-`slideway size`.
+The efficiency is the power without friction over the power with friction, at
+the same motion. If the load pushes and the drives brake, it is the inverse.
+A quantity without a range has the same range as in `slideway size`.
 
 Exit codes:
   0    done
   1    no effort moves it as in the model: friction locks it
-  2    invalid input: the model has no drives, the settings, the name or the range, the arguments
+  2    invalid input: the settings, the name, the range or the arguments, or a
+       model without drives
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 

@@ -12,20 +12,22 @@ Examples:
   slideway hold cam-follower.toml --load cam
   slideway hold slider-crank.toml --at phi=\"0 deg\" --load gas
 
-The rates of the model are set to zero. With --load NAME the load is multiplied by a factor, 1 being the load of the
-model; everything else is reported for the factor 1. The name of a drive stands for its effort in N or N m,
-and everything else is reported without it. A load takes precedence over a drive of the same name.
-The name gravity stands for all weights together.
+The rates of the model are set to zero. --load NAME multiplies the load by a
+factor, and the answer says for which factors it is held; 1 is the load of the
+model, for which everything else is reported. NAME can also be a drive: then its
+effort is the load, in N or N m, and everything else is reported without it. If
+a load and a drive have one name, the load is meant. `gravity` stands for all
+weights together.
 
-With --vary NAME=FROM..TO the answer is for which values it can stay at rest; over a plane of two quantities
-that is `slideway map --colour-by hold`.
+With --vary NAME=FROM..TO the answer is for which values it can stay at rest.
+For two quantities, use `slideway map --colour-by hold`.
 
 Exit codes:
   0    it can stay at rest
   1    it cannot stay at rest
   2    invalid input: the model, the settings, the files or the arguments
-  3    unknown: no state of rest was found, but not every state could be decided; or
-       not done within --time-limit: nothing is written
+  3    unknown: no state of rest was found, but not every state could be
+       decided; or not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway hold`.
@@ -38,9 +40,9 @@ pub(crate) struct HoldArguments {
     #[arg(long, value_name = "NAME")]
     pub(crate) load: Option<String>,
 
-    /// NAME: the value of this static friction parameter from which on the load is held however great it is
-    /// (by default, the factor on all static coefficients); NAME=FROM..TO: for which values of this
-    /// parameter, this coordinate or `friction` it can stay at rest.
+    /// NAME, with --load: from which value of this static friction on the load is held however great it is (without
+    /// it: from which factor on all static coefficients). NAME=FROM..TO: for which values of a parameter, a
+    /// coordinate or `friction` it can stay at rest.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: Option<String>,
 

@@ -7,11 +7,12 @@ use std::path::PathBuf;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway import clamp.dxf --output clamp.toml        write a model to complete
-  slideway import clamp.dxf --unit mm                  of a drawing that does not say its unit
+  slideway import clamp.dxf --output clamp.toml    write a model to complete
+  slideway import clamp.dxf --unit mm              if the drawing has no unit
 
-Each layer becomes a body: its greatest closed line is the outline, circles and points are its points, texts
-beside them their names. The layer `ground` gives points of ground. What is left out stands in comments.
+Each layer becomes a body: its largest closed line is the outline; circles and
+points are its points, and texts beside them their names. The layer `ground` has
+the points of ground. Comments in the model list what was left out.
 
 Exit codes:
   0    done
@@ -25,7 +26,7 @@ pub(crate) struct ImportArguments {
     /// The drawing, a text (ASCII) DXF file; `-` for standard input.
     pub(crate) file: PathBuf,
 
-    /// Unit of length of the drawing: in, ft, mm, cm, m, km, um, dm. By default the one that it says.
+    /// Unit of length of the drawing: in, ft, mm, cm, m, km, um, dm. By default the one that the drawing names.
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<Unit>,
 

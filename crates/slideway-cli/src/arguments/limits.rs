@@ -8,16 +8,18 @@ use slideway::limits::{EFFORT, Quantity};
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway limits klepp-2002.toml --vary mu_1=0..0.8
-  slideway limits klepp-2002.toml --vary mu_1 --set F_20=0 --both-directions
-  slideway limits drawer.toml --vary friction        all coefficients of friction together
+  slideway limits drawer.toml                        lists what can be varied
+  slideway limits drawer.toml --vary mu              at which friction it jams
+  slideway limits drawer.toml --vary friction        all coefficients together
   slideway limits drawer.toml --vary L=\"0.2 m..0.5 m\"
   slideway limits slider-crank.toml --vary phi=\"-80 deg..80 deg\"
-  slideway limits klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions --plot figures-4-5.svg
+  slideway limits klepp-2002.toml --vary mu_1=0..0.8 --both-directions
+  slideway limits drawer.toml --vary mu --plot limits.svg
 
 Exit codes:
   0    done
-  2    invalid input: the model, the settings, the name or the range, the arguments
+  2    invalid input: the model, the settings, the name, the range or the
+       arguments; or nothing is varied
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -27,19 +29,20 @@ pub(crate) struct LimitsArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// What to vary: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction.
+    /// What to vary: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction. Without it,
+    /// the quantities of the model are listed.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
-    pub(crate) vary: String,
+    pub(crate) vary: Option<String>,
 
     /// Examine motion in the opposite direction, too.
     #[arg(long)]
     pub(crate) both_directions: bool,
 
-    /// Modes end where a normal force exceeds this (N).
+    /// Modes end where a normal force exceeds this, in N.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub(crate) max_reaction: Option<f64>,
 
-    /// Certified searches spent in each direction on proving numbers of solutions; 0 proves nothing.
+    /// How hard to try to prove the numbers of solutions: certified searches for each direction; 0 proves nothing.
     #[arg(long, value_name = "COUNT", default_value_t = EFFORT)]
     pub(crate) effort: u64,
 

@@ -1,23 +1,24 @@
 //! `slideway map`
 
 use super::values::choice;
-use super::{ModelArguments, PictureTheme, TimeArguments};
+use super::{Destination, ModelArguments, OpenArguments, PictureTheme, TimeArguments};
 use clap::Args;
 use slideway::choice::Choice;
 use slideway::map::{ColourBy, GREATEST_SIZE};
-use std::path::PathBuf;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway map klepp-2002.toml --x mu_1=0..0.8 --y mu_2=0..0.4 --set F_20=0 --output map.svg
-  slideway map klepp-2002.toml --x mu_1=0..0.8 --y alpha=\"60 deg..88 deg\" --colour-by modes --output modes.svg
-  slideway map drawer.toml --x mu=0..1 --y L=\"200 mm..500 mm\" --colour-by margin --output drawer.png
-  slideway map slider-crank.toml --x phi=\"-180 deg..180 deg\" --y mu=0..1 --colour-by jam --output crank.json
-  slideway map bracket-on-pole.toml --x mu_static=0..0.5 --y x=\"0.1 m..0.5 m\" --colour-by hold --output hold.svg
+  slideway map drawer.toml --x mu=0..1 --y L=\"200 mm..500 mm\" --open
+  slideway map klepp-2002.toml --x mu_1=0..0.8 --y mu_2=0..0.4 -o map.svg
+  slideway map slider-crank.toml --x phi=\"-180 deg..180 deg\" --y mu=0..1 \\
+    --colour-by jam --output crank.json
+  slideway map bracket-on-pole.toml --x mu_static=0..0.5 --y x=\"0.1 m..0.5 m\" \\
+    --colour-by hold --output hold.png
 
 Exit codes:
   0    done
-  2    invalid input: the model, the settings, the names or the ranges, the arguments
+  2    invalid input: the model, the settings, the names, the ranges or the
+       arguments
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -28,13 +29,13 @@ pub(crate) struct MapArguments {
     pub(crate) model: ModelArguments,
 
     /// From left to right: a parameter, a coordinate, or `friction` for a factor on all coefficients of
-    /// friction.
+    /// friction. Without it, the quantities of the model are listed.
     #[arg(long, value_name = "NAME=FROM..TO")]
-    pub(crate) x: String,
+    pub(crate) x: Option<String>,
 
     /// From bottom to top: the same choices.
     #[arg(long, value_name = "NAME=FROM..TO")]
-    pub(crate) y: String,
+    pub(crate) y: Option<String>,
 
     /// What the colours show.
     #[arg(long, default_value = ColourBy::default().word(), value_parser = choice::<ColourBy>(), alias = "color-by")]
@@ -55,13 +56,13 @@ pub(crate) struct MapArguments {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) theme: PictureTheme,
 
-    /// The file; its extension selects the format (.svg, .png or .json).
-    #[arg(long, short, value_name = "FILE")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) open: OpenArguments,
 
-    /// Overwrite the output file if it exists.
-    #[arg(long)]
-    pub(crate) force: bool,
+    /// Write to this file; its extension selects the format (.svg, .png or .json). By default it is an SVG file: on a
+    /// terminal NAME-map.svg, elsewhere standard output.
+    #[command(flatten)]
+    pub(crate) destination: Destination,
 }
 
 /// A size such as 400x300.

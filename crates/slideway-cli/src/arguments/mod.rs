@@ -12,6 +12,7 @@ mod model;
 mod models;
 mod modes;
 mod new;
+mod open;
 mod plot;
 mod questions;
 mod report;
@@ -35,6 +36,7 @@ pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use new::NewArguments;
+pub(crate) use open::OpenArguments;
 pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use questions::TEXT as QUESTIONS;
 pub(crate) use report::ReportArguments;
@@ -60,7 +62,7 @@ pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
 
-    /// Whether to colour the output; `auto` does so on terminals, and respects NO_COLOR and CLICOLOR_FORCE.
+    /// When to use colours; `auto` does so on terminals, and respects NO_COLOR and CLICOLOR_FORCE.
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN", display_order = 900)]
     pub(crate) color: Color,
 
@@ -71,26 +73,26 @@ pub(crate) struct Arguments {
 
 const AFTER_HELP: &str = "\
 Examples:
-  slideway new drawer --L 400mm --a 150mm       write a model from a template, and ask it
-  slideway models                               list the gallery of models
-  slideway models drawer > drawer.toml          write one of them to a file
-  slideway solve drawer.toml                    all solutions of its kinetic problem
-  slideway solve drawer.toml --set mu=0.7       with more friction
-  slideway limits drawer.toml --vary mu         at which friction it jams
-  slideway size drawer.toml --vary L --margin 2 how long its guide must be
-  slideway drive drawer.toml                    what push it needs, and the efficiency
-  slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
-  slideway hold drawer.toml                     whether it stays at rest
-  slideway simulate drawer.toml --until 1s      its motion over time
-  slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
-  slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
-  slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
-  slideway import drawing.dxf -o drawer.toml    a model to complete, from a DXF drawing
-  slideway modes problem.json                   all solutions of an LCP or similar
-  slideway help questions                       which command and model for which question
+  slideway new                                    asks for a first model
+  slideway new drawer --L 400mm --a 150mm         or writes it from a template
+  slideway models drawer > drawer.toml            or from the gallery
+  slideway solve drawer.toml                      does it jam, and which forces
+  slideway solve drawer.toml --set mu=0.7         with more friction
+  slideway limits drawer.toml --vary mu           at which friction it jams
+  slideway size drawer.toml --vary L --margin 2   how long its guide must be
+  slideway drive drawer.toml                      what push it needs
+  slideway hold drawer.toml                       whether it stays at rest
+  slideway simulate drawer.toml --until 1s        its motion over time
+  slideway draw drawer.toml --open                a picture
+  slideway report drawer.toml --open              all of it as a page
+  slideway map drawer.toml --x mu=0..1 --y a=0..0.5      two quantities
+  slideway sweep drawer.toml --vary mu=0..1:101          a table
+  slideway import drawing.dxf -o drawer.toml      a model from a DXF drawing
+  slideway modes problem.json                     an LCP or a similar problem
+  slideway help questions                         which command for what
 
-Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 invalid input,
-3 undecided or out of time, 130 interrupted.";
+Exit codes: 0 done, 1 no solution (friction locks the mechanism),
+2 invalid input, 3 undecided or out of time, 130 interrupted.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -98,40 +100,40 @@ pub(crate) enum Command {
     /// Write a model from a template, and answer its first question
     #[command(after_help = new::HELP)]
     New(NewArguments),
-    /// Find all solutions of a mechanism in its state
+    /// Find all solutions of a mechanism: whether it moves, and the forces
     #[command(after_help = solve::HELP)]
     Solve(SolveArguments),
-    /// Find for which friction, load or size each contact mode exists, and where it locks
+    /// Find at which friction, load or size it jams
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
-    /// Find the dimension that gives a wanted margin against locking
+    /// Find the dimension that gives a wanted margin against jamming
     #[command(after_help = size::HELP)]
     Size(SizeArguments),
-    /// Find the force or torque each drive needs to overcome friction
+    /// Find the force or torque that each drive needs, and the efficiency
     #[command(after_help = drive::HELP)]
     Drive(DriveArguments),
-    /// Map the plane of two quantities by its solutions, contact modes or margins
+    /// Draw a map over two quantities: solutions, jams or margins
     #[command(after_help = map::HELP)]
     Map(MapArguments),
-    /// Compute all solutions at every point of a grid, or for random samples, into a table
+    /// Write a table of the solutions over a grid or random samples
     #[command(after_help = sweep::HELP, override_usage = sweep::USAGE, mut_arg("file", sweep::unless_merging))]
     Sweep(SweepArguments),
     /// Show what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
-    /// Decide whether a mechanism stays at rest, and how it begins to move if not
+    /// Decide whether a mechanism stays at rest, and under which loads
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
-    /// Simulate a mechanism over time through sliding, sticking, changes of contact mode and jamming
+    /// Simulate a mechanism over time: it slides, sticks, tips and jams
     #[command(after_help = simulate::HELP)]
     Simulate(SimulateArguments),
     /// Draw a mechanism and its solutions as SVG or PNG
     #[command(after_help = draw::HELP)]
     Draw(DrawArguments),
-    /// Write an HTML page with the model, its drawing, solutions and limits, to mail or print
+    /// Write a page with drawing, solutions and limits, to mail or print
     #[command(after_help = report::HELP)]
     Report(ReportArguments),
-    /// Find all solutions of an LCP or a similar problem, given by its matrices
+    /// Find all solutions of an LCP or a similar problem, from matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),
     /// List the gallery of models, or write one of them
@@ -168,7 +170,8 @@ and then as the first line of a model file, for editors that understand it:
 
 const COMPLETIONS_HELP: &str = "\
 Examples:
-  slideway completions bash > ~/.local/share/bash-completion/completions/slideway
+  slideway completions bash > \\
+    ~/.local/share/bash-completion/completions/slideway
   slideway completions zsh > ~/.zfunc/_slideway
   slideway completions fish > ~/.config/fish/completions/slideway.fish";
 

@@ -27,16 +27,15 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "COORDINATE=VALUE")]
     rate: Vec<String>,
 
-    /// Time of the state, `t` in expressions.
+    /// Set the time of the state, `t` in expressions.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<String>,
 
-    /// Units of the text output: as in the model, those of the SI, mm, degrees and newtons,
-    /// or inches, degrees and pounds-force. Overrides the `units` of the model file; JSON and tables are in SI units.
+    /// Units of the text output, in place of the `units` in the model file. JSON and tables are always in SI units.
     #[arg(long, value_name = "UNITS", ignore_case = true, value_parser = choice::<UnitSystem>())]
     units: Option<UnitSystem>,
 
-    /// Treat warnings as errors: what makes sense, but is perhaps not meant, such as `along = 90`.
+    /// Treat warnings as errors.
     #[arg(long)]
     pub(crate) strict: bool,
 }

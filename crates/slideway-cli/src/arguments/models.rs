@@ -6,6 +6,7 @@ use clap::Args;
 pub(super) const HELP: &str = "\
 Examples:
   slideway models                               list them
+  slideway models -v                            and what each of them shows
   slideway models drawer                        print one
   slideway models drawer --output mine.toml     write it to a new file
   slideway models telescopic-boom --stages 5    a boom with 5 stages";

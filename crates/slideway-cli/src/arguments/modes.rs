@@ -42,9 +42,11 @@ Examples:
   slideway modes --json-lines < problems.jsonl > answers.jsonl
 
 Exit codes:
-  0    solutions were found: one, several, infinitely many, or a state in a preload gap
+  0    solutions were found: one, several, infinitely many, or a state in a
+       preload gap
   1    no solution, and the search was complete
-  2    invalid input: the problem (with --json-lines: of some line), the files or the arguments
+  2    invalid input: the problem (with --json-lines: of some line), the files
+       or the arguments
   3    unknown: nothing was found, but the search was not complete
   130  interrupted (Ctrl-C): the solutions found so far are printed";
 
@@ -52,7 +54,7 @@ Exit codes:
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of the command line")]
 pub(crate) struct ModesArguments {
-    /// The problem (JSON or .npz), or `-` for standard input; with --json-lines, standard input if omitted.
+    /// The problem (JSON or .npz), or `-` for standard input. --json-lines reads standard input if it is omitted.
     #[arg(
         value_name = "PROBLEM",
         required = false,
@@ -78,21 +80,20 @@ pub(crate) struct ModesArguments {
     #[arg(long, conflicts_with = "max_found")]
     any: bool,
 
-    /// Read a problem as JSON from every line, and write each answer as JSON in one line, in the same order. For a
-    /// line that is no problem, its number and what is wrong with it are written. A time limit is for each problem.
+    /// Read a problem as JSON from each line, and write each answer as JSON in one line, in the same order. If a line
+    /// is no problem, the answer has its number and what is wrong with it. A time limit is for each problem.
     #[arg(long, conflicts_with_all = ["format", "output"])]
     pub(crate) json_lines: bool,
 
-    /// Write each solution as JSON in one line as soon as it is certain, and at last a line with the counts and whether
-    /// they are complete. What is written stays true, whatever ends the search. A set of solutions may contain what
-    /// was written before it; the last line tells which lines these are. If the unknowns are searched in several
-    /// groups, their combinations are written after the search; once time is up, at most as many as --max-solutions
-    /// says.
+    /// Write each solution as JSON in one line as soon as it is certain. The last line has the counts and says whether
+    /// they are complete. What is written stays true, whatever ends the search. A set of solutions may contain
+    /// solutions that were written before it; the last line says which. If the unknowns are searched in several
+    /// groups, their combinations are written after the search; once time is up, at most --max-solutions of them.
     #[arg(long, conflicts_with_all = ["format", "output", "json_lines", "count_only", "proof"])]
     pub(crate) stream: bool,
 
-    /// Also write a proof that the solutions are all, which reference/check_proof.py checks in exact arithmetic. For
-    /// problems that it does not read as they are given, FILE.json has the equivalent mode problem.
+    /// Also write a proof that there are no other solutions. reference/check_proof.py checks it in exact arithmetic. If
+    /// that program does not read problems of this type, FILE.json has the equivalent mode problem.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["json_lines", "any"])]
     pub(crate) proof: Option<PathBuf>,
 

@@ -12,21 +12,23 @@ use slideway::template::{self, TEMPLATES, Template};
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway new                                  asks which, then each dimension (on a terminal)
-  slideway new drawer                           asks for each dimension
+  slideway new                        asks for everything, on a terminal
+  slideway new drawer                 asks for each dimension
   slideway new drawer --L 400mm --a 150mm --mu 0.3
   slideway new peg --e \"2 mm\" --output mine.toml
-  slideway new --list                           what there is, and the rule of each
-  slideway new wedge --help                     its dimensions
+  slideway new --list                 the templates, each with its rule
+  slideway new wedge --help           the dimensions of a wedge
 
-The model is written to NAME.toml, or to the file of --output, with comments, and its first
-question is answered at once. Dimensions that are not given are as in the template. With
-`--output -` the model goes to standard output, and nothing else.
+The model goes to NAME.toml, or to the file of --output. It has comments, and
+its first question is answered at once. Dimensions that are not given are as in
+the template. `--output -` writes the model to standard output, and nothing
+else.
 
 Exit codes:
   0    the model is written, whatever the first answer says
-  2    invalid input: an unknown name, a wrong unit, dimensions that do not fit together, or
-       the file exists: nothing is written; or the first question makes no sense of the model";
+  2    invalid input: an unknown name, a wrong unit, dimensions that do not fit
+       together, or a file that exists: nothing is written. Or the first
+       question cannot be asked of the model";
 
 /// The name of the option.
 const LIST: &str = "list";
@@ -38,6 +40,8 @@ pub(crate) struct NewArguments {
     pub(crate) template: Option<&'static Template>,
     /// What is given of its parameters.
     pub(crate) settings: Settings,
+    /// A name that no template has.
+    pub(crate) unknown: Option<String>,
     /// Only list the templates.
     pub(crate) list: bool,
     /// Where the model goes; none if no template is named.
@@ -53,6 +57,7 @@ impl Args for NewArguments {
             .subcommand_value_name("NAME")
             .subcommand_help_heading("Templates")
             .disable_help_subcommand(true)
+            .allow_external_subcommands(true)
             .subcommands(TEMPLATES.iter().map(subcommand))
     }
 
@@ -83,7 +88,8 @@ impl FromArgMatches for NewArguments {
         let list = matches.get_flag(LIST);
         let chosen = matches.subcommand().and_then(|(name, given)| Some((template::find(name)?, given)));
         let Some((template, given)) = chosen else {
-            return Ok(Self { template: None, settings: Settings::default(), list, destination: None });
+            let unknown = matches.subcommand_name().map(str::to_owned);
+            return Ok(Self { template: None, unknown, settings: Settings::default(), list, destination: None });
         };
         let mut settings = Settings::default();
         for parameter in template.parameters() {
@@ -92,7 +98,7 @@ impl FromArgMatches for NewArguments {
             }
         }
         let destination = Some(Destination::from_arg_matches(given)?);
-        Ok(Self { template: Some(template), settings, list, destination })
+        Ok(Self { template: Some(template), unknown: None, settings, list, destination })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {

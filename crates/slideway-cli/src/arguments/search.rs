@@ -16,12 +16,12 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N")]
     max_nodes: Option<u64>,
 
-    /// End the search of contacts or unknowns that do not depend on others once it has more than N solutions; the
-    /// answer is then partial. The numbers of independent ones multiply.
+    /// End the search of each independent group of contacts or unknowns once it has more than N solutions; the answer
+    /// is then partial. The numbers of the groups multiply.
     #[arg(long, value_name = "N", default_value_t = Limits::default().solutions)]
     max_found: usize,
 
-    /// Threads that share a large search; the answer does not depend on their number.
+    /// Number of threads for a large search; the answer does not depend on it.
     #[arg(long, value_name = "N", default_value_t = available_threads(), hide_default_value = true)]
     threads: NonZero<usize>,
 

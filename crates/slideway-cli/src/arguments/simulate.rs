@@ -8,21 +8,25 @@ use std::path::PathBuf;
 pub(super) const HELP: &str = "\
 Examples:
   slideway simulate frictional-oscillator.toml --until 3s
-  slideway simulate stick-slip.toml --until 10s --plot stick-slip.svg --animate stick-slip.html
-  slideway simulate slider-crank.toml --until 0.2s --step 0.1ms --output motion.csv
-  slideway simulate klepp-2002-spring.toml --until 10s --set mu_1=0.6 --mode \"- + +\"
-  slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 --all-branches
+  slideway simulate stick-slip.toml --until 10s --plot stick-slip.svg
+  slideway simulate stick-slip.toml --until 10s --animate stick-slip.html
+  slideway simulate slider-crank.toml --until 0.2s --step 0.1ms -o motion.csv
+  slideway simulate klepp-2002-spring.toml --until 10s --set mu_1=0.6 \\
+    --mode \"- + +\"
+  slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 \\
+    --all-branches
 
 Exit codes:
   0    reached the end time, an event that ends the motion, or a limit of travel
   1    friction locks the mechanism: it cannot continue
-  2    invalid input: the model, the settings, the arguments, or a load without a value at some time
-  3    not finished: too many steps or events, no time left, or what follows cannot be decided
+  2    invalid input: the model, the settings, the arguments, or a load without
+       a value at some time
+  3    not finished: too many steps or events, no time left, or what follows
+       cannot be decided
   130  interrupted (Ctrl-C)
 
-In all cases the motion computed so far is printed and written, unless it cannot begin. After an
-interruption, the table goes to FILE.partial and no pictures are made.
---output writes the motion as a table in addition to the log; its extension selects the form.";
+The motion up to the end is always printed and written, unless it cannot begin.
+After an interruption the table goes to FILE.partial, and there are no pictures.";
 
 /// Arguments of `slideway simulate`.
 #[derive(Debug, Args)]
@@ -30,7 +34,7 @@ pub(crate) struct SimulateArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// End time, such as 10s, `500 ms` or an expression in parameters.
+    /// When to end, such as 10s, `500 ms` or an expression in parameters.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) until: String,
 
@@ -39,13 +43,12 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
     pub(crate) mode: Option<String>,
 
-    /// Which of several possible modes to take at each decision, counted from 1; after the last, the
-    /// preferred one.
+    /// Which of several possible modes to take at each decision, counted from 1. Decisions after the last one take
+    /// the preferred mode.
     #[arg(long, value_name = "N,M,...", value_delimiter = ',', value_parser = branch)]
     pub(crate) branch: Vec<usize>,
 
-    /// Which of several possible modes to prefer: by the rule of the book, or the one in which the fewest
-    /// joints stick.
+    /// Which of several possible modes to prefer.
     #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
     pub(crate) prefer: Preference,
 
@@ -77,7 +80,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
 
-    /// Seconds of animation for each second of motion.
+    /// How many seconds of animation each second of motion takes.
     #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "animate")]
     pub(crate) slow_motion: Option<f64>,
 
@@ -85,7 +88,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long)]
     pub(crate) all_events: bool,
 
-    /// Relative error permitted in each step.
+    /// Relative error that each step may have.
     #[arg(long, value_name = "ERROR", default_value = "1e-8", value_parser = positive)]
     pub(crate) tolerance: f64,
 

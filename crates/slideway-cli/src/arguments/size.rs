@@ -11,31 +11,41 @@ use slideway::units::Unit;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway size drawer.toml --vary L --margin 2                how long the guide must be
+  slideway size drawer.toml --vary L               how long the guide must be
+  slideway size drawer.toml --vary L --margin 2    with a safety factor of 2
   slideway size drawer.toml --vary a --margin 1.5 --both-directions
   slideway size drawer.toml --vary L --margin 2 --plot margin.svg
-  slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
-  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold
-  slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
-  slideway size drawer.toml --vary L --max-effort 30N          how long for a push of 30 N
+  slideway size drawer.toml --vary L --max-effort 30N
   slideway size drawer.toml --vary L --min-efficiency 70%
   slideway size drawer.toml --vary L --max-normal-force 25N
+  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold
+  slideway size cam-follower.toml --vary phi --margin 2 --load cam \\
+    --against self-locking
 
-The margin against locking is the factor by which all kinetic friction may grow before there is no
-solution. At rest it concerns a load, or the effort of a drive. Against self-locking it is the
-factor by which static friction may grow before the load is held however great it is. With
-`--against hold` the load must be held, and it is the factor by which static friction may be
-divided. Without a range, a coefficient of friction goes from 0 to 1 or twice its value, `friction`
-from 0 to 10, an angle that has a unit over its quarter turn (45 deg: 0 to 90 deg; 90 deg: 0 to
-180 deg), any other parameter from a fifth of its value to five times its value. For
-`--max-pressure 2MPa` the sliding joints of the model need a `pad`, their area in contact.
+The margin is a factor on friction. Its meaning depends on --against:
+  locking       kinetic friction may grow by it before no motion is possible
+  self-locking  static friction may grow by it before the load is held however
+                great it is
+  hold          static friction may be divided by it while the load is held
+                however great it is
+The load of a margin at rest can be the effort of a drive. --max-pressure needs
+a `pad`, the area in contact, at the sliding joints of the model.
+
+Without a range, a coefficient of friction goes from 0 to 1 or to twice its
+value, `friction` from 0 to 10, and an angle with a unit over its quarter turn
+(45 deg: 0 to 90 deg; 90 deg: 0 to 180 deg). Any other parameter goes from a
+fifth of its value to five times its value.
 
 Exit codes:
   0    the margin is met somewhere in the range
   1    it is met nowhere in the range
-  2    invalid input: the model, the settings, the name or the range, the arguments
+  2    invalid input: the model, the settings, the name, the range or the
+       arguments; or nothing is varied
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
+
+/// The margin of what just does not lock.
+const JUST: f64 = 1.0;
 
 /// Arguments of `slideway size`.
 #[derive(Debug, Args)]
@@ -43,19 +53,20 @@ pub(crate) struct SizeArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// What to size: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction.
+    /// What to size: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction. Without it,
+    /// the quantities of the model are listed.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
-    pub(crate) vary: String,
+    pub(crate) vary: Option<String>,
 
     #[command(flatten)]
     limit: Wanted,
 
-    /// Against what.
+    /// What the margin guards against.
     #[arg(long, default_value = FrictionMargin::default().word(), value_parser = choice::<FrictionMargin>())]
     against: FrictionMargin,
 
-    /// The load, or the drive whose effort is the load, for a margin at rest, by default the only load; the drive of
-    /// --max-effort, or the contact of --max-normal-force or --max-pressure, by default all of them.
+    /// What a margin or limit concerns: the load of a margin at rest (by default the only one), the drive of
+    /// --max-effort, or the contact of --max-normal-force or --max-pressure (by default all of them).
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
 
@@ -79,26 +90,26 @@ pub(crate) struct SizeArguments {
 
 /// What is wanted.
 #[derive(Debug, Args)]
-#[group(required = true, multiple = false)]
+#[group(multiple = false)]
 struct Wanted {
-    /// The wanted margin: a factor on friction.
+    /// The wanted margin, a factor on friction. With 1, the default, it just does not lock.
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     margin: Option<f64>,
 
-    /// Instead of a margin: no solution may need more effort of a drive than this, such as "30 N".
+    /// Instead of a margin: no drive may need more than this, such as "30 N" or "2 N m".
     #[arg(long, value_name = "EFFORT", value_parser = effort, conflicts_with = "against")]
     max_effort: Option<Limit>,
 
-    /// Instead of a margin: no solution may have a greater normal force than this, such as "2 kN".
+    /// Instead of a margin: no normal force may be greater than this, such as "2 kN".
     #[arg(long, value_name = "FORCE", value_parser = force, conflicts_with = "against")]
     max_normal_force: Option<Limit>,
 
-    /// Instead of a margin: no solution may have a greater bearing pressure than this, such as "2 MPa" or
-    /// "2 N/mm^2": normal force over length times width of the contact's `pad` in the model.
+    /// Instead of a margin: no bearing pressure may be greater than this, such as "2 MPa" or "2 N/mm^2". It is the
+    /// normal force over length times width of the contact's `pad` in the model.
     #[arg(long, value_name = "PRESSURE", value_parser = pressure, conflicts_with = "against")]
     max_pressure: Option<Limit>,
 
-    /// Instead of a margin: no solution may have a lower efficiency than this, such as 0.7 or "70 %".
+    /// Instead of a margin: the efficiency may not be lower than this, such as 0.7 or "70 %".
     #[arg(long, value_name = "RATIO", value_parser = efficiency, conflicts_with = "against")]
     min_efficiency: Option<Limit>,
 }
@@ -112,10 +123,10 @@ impl Wanted {
 }
 
 impl SizeArguments {
-    /// The wanted margin, or the limit that is to be kept.
+    /// The wanted margin, or the limit that is to be kept; by default the margin at which it just does not lock.
     pub(crate) fn wanted(&self) -> f64 {
         let limit = self.limit.of_answers().map(|limit| limit.value);
-        self.limit.margin.or(limit).unwrap_or_default()
+        self.limit.margin.or(limit).unwrap_or(JUST)
     }
 
     /// The unit in which the limit was typed, if it has one.

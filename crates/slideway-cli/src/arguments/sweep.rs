@@ -17,8 +17,8 @@ slideway sweep [OPTIONS] --vary <NAME=VALUES> <MODEL>
        slideway sweep [OPTIONS] --merge <FOLDER>";
 
 pub(super) const HELP: &str = "\
-What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for a factor on all
-coefficients of friction, or `time`. Values:
+What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for a
+factor on all coefficients of friction, or `time`. Values:
   mu=0..0.8:801            801 evenly spaced values, both ends included
   mu=0.01..1:50:log        evenly spaced logarithms
   mu=0.1,0.2,0.5           these values
@@ -30,24 +30,29 @@ and with --samples:
 Distributions of friction are cut off at zero.
 
 Examples:
-  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:801 --output klepp.csv --plot klepp.svg
-  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:81 --vary mu_2=0..0.4:41 --output klepp.npz
-  slideway sweep slider-crank.toml --vary phi=\"-80 deg..80 deg:801\" --output crank.csv
-  slideway sweep drawer.toml --vary mu=\"normal(0.6, 0.05)\" --samples 100000 --output drawer.npz
+  slideway sweep drawer.toml --vary mu=0..1:101 -o drawer.csv
+  slideway sweep drawer.toml --vary mu=0..1:101 -o mu.csv --plot mu.svg
+  slideway sweep slider-crank.toml --vary phi=\"-80 deg..80 deg:801\" -o phi.csv
+  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:81 --vary mu_2=0..0.4:41 \\
+    --output klepp.npz
+  slideway sweep drawer.toml --vary mu=\"normal(0.6, 0.05)\" --samples 100000 \\
+    --output drawer.npz
 
-On many machines, each command by any of them, in any order (built with the feature parquet):
+On many machines, each command by any of them, in any order (needs a program
+built with the feature parquet):
   slideway sweep drawer.toml --vary mu=0..1:100001 --shard 1/2 --output results/
   slideway sweep drawer.toml --vary mu=0..1:100001 --shard 2/2 --output results/
   slideway sweep --merge results/ --output drawer.npz
 
 Exit codes:
   0    done
-  2    invalid input: the model, the settings, the axes, the files or the arguments
+  2    invalid input: the model, the settings, the axes, the files or the
+       arguments; or nothing is varied
   3    not done within --time-limit
   130  interrupted (Ctrl-C)
 
-After a time limit or an interruption the finished part is kept beside --output; --resume continues.
-A shard that was ended is continued by the same command.";
+After a time limit or an interruption the finished part is kept beside --output,
+and --resume continues it. A shard is continued by the same command.";
 
 /// Arguments of `slideway sweep`.
 #[derive(Debug, Args)]
@@ -55,9 +60,10 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) model: Option<ModelArguments>,
 
-    /// What to vary, and its values; may be repeated, the last one varying fastest.
-    #[arg(long, value_name = "NAME=VALUES", required_unless_present = MERGE)]
-    vary: Vec<String>,
+    /// What to vary, and its values; may be repeated, the last one varying fastest. Without it, the quantities of the
+    /// model are listed.
+    #[arg(long, value_name = "NAME=VALUES")]
+    pub(crate) vary: Vec<String>,
 
     /// Draw N random samples instead of a grid.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]

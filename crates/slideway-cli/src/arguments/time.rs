@@ -7,8 +7,7 @@ use std::time::Duration;
 /// How long a command may take.
 #[derive(Debug, Args)]
 pub(crate) struct TimeArguments {
-    /// End the work after this time (30s, 500ms, 2min, 1.5h), as Ctrl-C does, and report what a part of it
-    /// can answer.
+    /// End the work after this time (30s, 500ms, 2min, 1.5h), as Ctrl-C does, and report what is known by then.
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time_limit: Option<Duration>,
 }

@@ -6,6 +6,7 @@ use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
+use crate::own_file::Document;
 use crate::picture::{Picture, SHARPNESS};
 use crate::watch::{Watch, outcome};
 use slideway::configuration::Configuration;
@@ -21,7 +22,9 @@ use slideway_pictures::page::reasons;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let named_after = (arguments.model.file.as_path(), ".svg");
+    let document = Document::new(&mut files, &arguments.destination, named_after, arguments.open.open)?;
     let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
     let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
     let input = Input::read(&arguments.model, output.color())?;
@@ -52,7 +55,8 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     let sheet = sheet.changed_by(&input.settings);
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
-    picture.write_scaled(written(&sheet, arguments.theme, width), sharpness, &output)?;
+    picture.write_scaled(written(&sheet, arguments.theme, width), sharpness, &document.output)?;
+    document.finish(output)?;
     let has_found = report.is_none_or(|report| report.status != Status::Unknown);
     Ok(outcome(halt, if has_found || halt.is_none() { Outcome::Done } else { Outcome::Unknown }))
 }

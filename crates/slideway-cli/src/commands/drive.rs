@@ -1,6 +1,7 @@
 //! `slideway drive`
 
-use crate::arguments::DriveArguments;
+use crate::arguments::{CheckFormat, DriveArguments};
+use crate::columns::{WIDTH, wrapped};
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::input::Input;
@@ -9,8 +10,12 @@ use crate::output::Output;
 use crate::picture;
 use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};
+use slideway::limits::{Variable, variables};
+use slideway::printable;
 use slideway_pictures::plot::{drive_figure, to_svg};
 
+/// Stands for a blank at which no line is broken.
+const TOGETHER: &str = "\u{0}";
 /// Rows of the table that a plot is made of, at least: two for each pixel of a screen.
 const PLOTTED_ROWS: usize = 801;
 
@@ -41,5 +46,17 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
         picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;
     }
     output.tell(&report, arguments.format)?;
+    if arguments.vary.is_none() && arguments.format == CheckFormat::Text && output.is_terminal() {
+        output.write(&over_what(&variables(&model).map_err(|faults| input.refused(faults))?))?;
+    }
     Ok(report.directions.first().map_or(Outcome::Done, |direction| Outcome::from(direction.status)))
+}
+
+/// Over which quantities the efforts can be tabulated, with their present values.
+fn over_what(variables: &[Variable]) -> String {
+    // A value stays on the line of its name.
+    let one = |one: &Variable| format!("{} = {}", one.name, one.value).replace(' ', TOGETHER);
+    let all: Vec<String> = variables.iter().map(one).collect();
+    let text = format!("Over one of these with `--vary NAME`: {}.", all.join(", "));
+    format!("\n{}\n", printable::lines(&wrapped(&text, WIDTH).join("\n").replace(TOGETHER, " ")))
 }

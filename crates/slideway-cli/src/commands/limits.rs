@@ -19,7 +19,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
     let output = files.answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
-    let options = LimitsOptions::new(input.vary(&model, &arguments.vary)?)
+    let options = LimitsOptions::new(input.wanted(&model, arguments.vary.as_deref())?)
         .max_reaction(arguments.max_reaction)
         .both_directions(arguments.both_directions)
         .effort(arguments.effort);

@@ -1,11 +1,12 @@
 //! `slideway map`
 
-use crate::arguments::{Destination, MapArguments};
+use crate::arguments::MapArguments;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
+use crate::own_file::Document;
 use crate::picture::Picture;
 use crate::watch::Watch;
 use slideway::Report;
@@ -14,13 +15,18 @@ use slideway_pictures::map::to_svg;
 
 /// Maps the plane of two quantities.
 pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, Failure> {
-    let destination = Destination { output: Some(arguments.output.clone()), force: arguments.force };
-    let picture = Picture::unless_json(&arguments.output)?;
-    let output = Files::new(output, &destination, Some(&arguments.model.file)).answer()?;
+    let named = arguments.destination.file();
+    let picture = named.map_or(Ok(Some(Picture::Svg)), Picture::unless_json)?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let named_after = (arguments.model.file.as_path(), "-map.svg");
+    let document = Document::new(&mut files, &arguments.destination, named_after, arguments.open.open)?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let [width, height] = arguments.size;
-    let [x, y] = input.vary_both(&model, [&arguments.x, &arguments.y])?;
+    let (Some(x), Some(y)) = (&arguments.x, &arguments.y) else {
+        return Err(input.nothing_varied(&model, "--x NAME=FROM..TO --y NAME=FROM..TO"));
+    };
+    let [x, y] = input.vary_both(&model, [x, y])?;
     let options = MapOptions::new(x, y)
         .size(width, height)
         .colour_by(arguments.colour_by)
@@ -29,10 +35,11 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = map_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
-        None => output.write(&report.json())?,
+        None => document.output.write(&report.json())?,
         Some(picture) => {
-            picture.write(to_svg(&report, &input.settings, arguments.theme.colours()), &output)?;
+            picture.write(to_svg(&report, &input.settings, arguments.theme.colours()), &document.output)?;
         }
     }
+    document.finish(output)?;
     Ok(Outcome::Done)
 }

@@ -1,24 +1,27 @@
 //! `slideway models`
 
 use crate::arguments::ModelsArguments;
+use crate::columns::{self, wrapped};
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use slideway::fault::nearest;
 use slideway::gallery::{self, GREATEST_STAGES, MODELS};
-use std::fmt::Write;
 
-/// Columns of the list.
-const WIDTH: usize = 80;
+/// What to do with the list.
+const START: &str = "`slideway models NAME > NAME.toml` writes one to start from.\n";
 
 /// Lists the gallery, or writes one of its models.
 pub(crate) fn models(arguments: &ModelsArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = Files::new(output, &arguments.destination, None).answer()?;
     output.write(&match &arguments.name {
+        None if output.look().verbose => {
+            list(MODELS.iter().map(|model| (model.name, model.summary(), model.shows()))) + START
+        }
         None => {
-            let models = MODELS.iter().map(|model| (model.name, model.summary(), model.shows()));
-            list(models) + "`slideway models NAME > NAME.toml` writes one to start from.\n"
+            let models = MODELS.iter().map(|model| (model.name, model.summary()));
+            format!("{}\n{START}With -v, this list says what each of them shows.\n", brief(models, output.style().width))
         }
         Some(name) => model(name, arguments.stages)?,
     })?;
@@ -40,33 +43,35 @@ fn model(name: &str, stages: Option<usize>) -> Result<String, Failure> {
     }
 }
 
-/// Names, what each of them is, and below that what else is told of it.
-pub(super) fn list<'a>(entries: impl Iterator<Item = (&'a str, &'a str, String)> + Clone) -> String {
-    let width = entries.clone().map(|(name, ..)| name.len()).max().unwrap_or(0);
-    let mut text = String::new();
-    for (entry, summary, shows) in entries {
-        let summary = wrapped(summary, WIDTH - width - 2);
-        let shows = wrapped(&shows, WIDTH - width - 4).into_iter().map(|line| format!("  {line}"));
-        for (index, line) in summary.into_iter().chain(shows).enumerate() {
-            let name = if index == 0 { entry } else { "" };
-            let _ = writeln!(text, "{name:width$}  {line}");
-        }
-        text.push('\n');
-    }
-    text
+/// Names, each with what it is on the same line, as far as it fits in so many columns.
+pub(super) fn brief<'a>(entries: impl Iterator<Item = (&'a str, &'a str)> + Clone, columns: usize) -> String {
+    let width = entries.clone().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let one = |(name, summary): (&str, &str)| {
+        format!("{name:width$}  {}\n", shortened(summary, columns.saturating_sub(width + 2)))
+    };
+    entries.map(one).collect()
 }
 
-/// Lines of at most `width` characters, broken between words.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
+/// The beginning of a text that fits: the first sentence, what stands before its colon, or as many words as there is
+/// room for.
+fn shortened(text: &str, width: usize) -> String {
+    let fits = |part: &&str| part.chars().count() <= width;
+    // No initial of a name ends a sentence.
+    let ends = text.match_indices(". ").find(|(at, _)| text[..*at].ends_with(char::is_lowercase));
+    let sentence = ends.map_or(text, |(at, _)| &text[..at]);
+    let name = sentence.split(": ").next().unwrap_or_default();
+    match [text, sentence, name].into_iter().find(fits) {
+        Some(part) => part.trim_end_matches('.').to_owned(),
+        None => wrapped(text, width.saturating_sub(2)).into_iter().next().unwrap_or_default() + " ...",
     }
-    lines
+}
+
+/// Names, what each of them is, and below that what else is told of it.
+pub(super) fn list<'a>(entries: impl Iterator<Item = (&'a str, &'a str, String)>) -> String {
+    let entries: Vec<(String, String)> = entries
+        .flat_map(|(name, summary, more)| {
+            [(name.to_owned(), summary.to_owned()), (String::new(), more), (String::new(), String::new())]
+        })
+        .collect();
+    columns::list(&entries, 0)
 }

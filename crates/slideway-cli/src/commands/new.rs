@@ -1,18 +1,20 @@
 //! `slideway new`
 
+mod dialogue;
+
 use super::models::list;
 use crate::arguments::{Arguments, Destination, NewArguments};
+use crate::columns::wrapped;
 use crate::failure::Failure;
 use crate::faulty_input::FaultyInput;
 use crate::files::Files;
 use crate::outcome::Outcome;
-use crate::output::{Output, complain};
-use anstream::ColorChoice;
+use crate::output::Output;
 use clap::Parser;
 use slideway::fault::{Faults, nearest};
 use slideway::model::Settings;
 use slideway::printable;
-use slideway::template::{self, FILE, TEMPLATES, Template};
+use slideway::template::{FILE, TEMPLATES, Template};
 use std::ffi::OsString;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
@@ -29,35 +31,48 @@ pub(crate) fn new(arguments: &NewArguments, output: &Output) -> Result<Outcome, 
         )?;
         return Ok(Outcome::Done);
     }
+    if let Some(name) = arguments.unknown.clone() {
+        let nearest = nearest(&name, TEMPLATES.iter().map(|template| template.name));
+        return Err(Failure::UnknownTemplate { name, nearest });
+    }
     let asks = io::stdin().is_terminal() && io::stdout().is_terminal();
     let template = match arguments.template {
         Some(template) => template,
-        None if asks => which(output.color())?,
+        None if asks => dialogue::template(output.color())?,
         None => return Err(Failure::NoTemplate),
     };
-    let file = file(template, arguments.destination.as_ref());
-    let force = arguments.destination.as_ref().is_some_and(|destination| destination.force);
-    let destination = Destination { output: Some(file.clone()), force };
-    let to_file = Files::new(output, &destination, None).answer()?;
-    let settings = if asks && arguments.settings.entries().is_empty() && file != Path::new("-") {
-        dimensions(template, output.color())?
+    let given = arguments.destination.as_ref();
+    let to_file = |file: &Path, force: bool| {
+        let destination = Destination { output: Some(file.to_owned()), force };
+        Files::new(output, &destination, None).answer()
+    };
+    let force = given.is_some_and(|destination| destination.force);
+    let named = given.and_then(|destination| destination.output.clone());
+    let asks = asks && arguments.settings.entries().is_empty() && named.as_deref() != Some(Path::new("-"));
+    let (settings, file, to_file) = if asks {
+        // Better said before the questions than after them.
+        let early = named.as_deref().map(|file| to_file(file, force)).transpose()?;
+        let settings = dialogue::dimensions(template, output.color())?;
+        match named.zip(early) {
+            Some((file, to_file)) => (settings, file, to_file),
+            None => {
+                let (file, to_file) = dialogue::file(template, output.color(), &to_file)?;
+                (settings, file, to_file)
+            }
+        }
     } else {
-        arguments.settings.clone()
+        let file = named.unwrap_or_else(|| PathBuf::from(format!("{}.toml", template.name)));
+        let to_file = to_file(&file, force)?;
+        (arguments.settings.clone(), file, to_file)
     };
     let shown = if file == Path::new("-") { format!("{}.toml", template.name) } else { quoted(&file) };
     let text = template.model(&settings, &shown).map_err(|faults| refused(template, &settings, faults))?;
     to_file.write(&text)?;
     if file != Path::new("-") {
-        output.write(&written(template, &settings, &shown))?;
+        output.write(&written(template, &settings, &shown, output.style().width))?;
         answer(template, &file, output)?;
     }
     Ok(Outcome::Done)
-}
-
-/// The file of the model: the one that is named, or that of the template's name.
-fn file(template: &Template, destination: Option<&Destination>) -> PathBuf {
-    let named = destination.and_then(|destination| destination.output.clone());
-    named.unwrap_or_else(|| PathBuf::from(format!("{}.toml", template.name)))
 }
 
 /// The first of the template's commands, run as if it had been typed.
@@ -73,7 +88,7 @@ fn answer(template: &Template, file: &Path, output: &Output) -> Result<(), Failu
 }
 
 /// What is in the file, and the command that is run on it.
-fn written(template: &Template, settings: &Settings, file: &str) -> String {
+fn written(template: &Template, settings: &Settings, file: &str, width: usize) -> String {
     let given = |name: &str| settings.entries().iter().any(|setting| setting.name == name);
     let others: Vec<String> = template
         .parameters()
@@ -84,7 +99,8 @@ fn written(template: &Template, settings: &Settings, file: &str) -> String {
     if !others.is_empty() {
         let _ = write!(text, ", as in the template: {}", others.join(", "));
     }
-    let _ = writeln!(text, ".\nRule: {}\nReturn: {}", template.rule(), template.way_back());
+    let _ = write!(text, ".\nRule: {}\nReturn: {}", template.rule(), template.way_back());
+    let mut text: String = text.lines().flat_map(|line| wrapped(line, width)).map(|line| line + "\n").collect();
     if let Some(command) = template.commands().next() {
         let _ = writeln!(text, "\n$ {}", command.replace(FILE, &printable::line(file)));
     }
@@ -108,60 +124,4 @@ fn refused(template: &Template, settings: &Settings, faults: Faults) -> Failure 
         parameter_option: "--",
         faults,
     }))
-}
-
-/// Asks which template is wanted until there is one.
-fn which(color: ColorChoice) -> Result<&'static Template, Failure> {
-    let mut question = String::from("What slides?\n");
-    for template in TEMPLATES {
-        let _ = writeln!(question, "  {:12}  {}", template.name, template.summary());
-    }
-    complain(question.trim_end(), color);
-    loop {
-        let Some(name) = reply("Name: ")? else { return Err(Failure::NoTemplate) };
-        if let Some(template) = template::find(&name) {
-            return Ok(template);
-        }
-        let nearest = nearest(&name, TEMPLATES.iter().map(|template| template.name));
-        complain(&Failure::UnknownTemplate { name, nearest }.to_string(), color);
-    }
-}
-
-/// Asks for every parameter of a template; those that are not answered stay as they are.
-///
-/// A value is checked with those before it, so that what is wrong can be put right at once.
-fn dimensions(template: &Template, color: ColorChoice) -> Result<Settings, Failure> {
-    complain(
-        &format!("{}\nRule: {}\nEnter keeps what stands in brackets.", template.summary(), template.rule()),
-        color,
-    );
-    let mut settings = Settings::default();
-    for parameter in template.parameters() {
-        loop {
-            let prompt = format!("{}, {} [{}]: ", parameter.name, parameter.meaning, parameter.value);
-            let Some(value) = reply(&prompt)? else { return Ok(settings) };
-            if value.is_empty() {
-                break;
-            }
-            let with = settings.clone().parameter(parameter.name, value);
-            match template.model(&with, FILE) {
-                Ok(_) => {
-                    settings = with;
-                    break;
-                }
-                Err(faults) => complain(&refused(template, &with, faults).to_string(), color),
-            }
-        }
-    }
-    Ok(settings)
-}
-
-/// What is typed at a prompt; none at the end of the input.
-fn reply(prompt: &str) -> Result<Option<String>, Failure> {
-    let mut line = String::new();
-    let mut stream = io::stderr();
-    let prompted = io::Write::write_all(&mut stream, prompt.as_bytes());
-    let read = prompted.and_then(|()| io::stdin().read_line(&mut line));
-    let bytes = read.map_err(|error| Failure::CannotRead { path: PathBuf::from("standard input"), error })?;
-    Ok((bytes > 0).then(|| line.trim().to_owned()))
 }

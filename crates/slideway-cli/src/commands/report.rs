@@ -6,6 +6,7 @@ use crate::files::Files;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
+use crate::own_file::Document;
 use crate::watch::Watch;
 use slideway_pictures::page::{Findings, Origin};
 use std::ffi::OsStr;
@@ -18,7 +19,9 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     if let Some(path) = &arguments.destination.output {
         be_a_page(path)?;
     }
-    let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
+    let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
+    let named_after = (arguments.model.file.as_path(), ENDINGS[0]);
+    let document = Document::new(&mut files, &arguments.destination, named_after, arguments.open.open)?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mut watch = Watch::new(arguments.time.time_limit);
@@ -31,7 +34,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         text: &input.text(),
         settings: &input.settings,
     })?;
-    output.write(&html)?;
+    document.output.write(&html)?;
+    document.finish(output)?;
     Ok(Outcome::Done)
 }
 

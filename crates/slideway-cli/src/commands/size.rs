@@ -18,7 +18,7 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let output = files.answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
-    let vary = input.vary(&model, &arguments.vary)?;
+    let vary = input.wanted(&model, arguments.vary.as_deref())?;
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = arguments.against(&model).and_then(|against| {
         let options = SizeOptions::new(vary, arguments.wanted())

@@ -130,6 +130,23 @@ impl Expression {
         self.typed_number().filter(|(_, inferred)| *inferred == Inferred::Number).map(|(value, _)| value)
     }
 
+    /// Its numbers without a unit: the step at which each stands, its value, and its place in the text.
+    pub(crate) fn bare_numbers(&self) -> impl Iterator<Item = (usize, f64, Range<usize>)> + '_ {
+        self.steps.iter().enumerate().filter_map(|(index, step)| match step.operation {
+            Operation::Number { value, inferred: Inferred::Number, .. } => Some((index, value, step.span.clone())),
+            _ => None,
+        })
+    }
+
+    /// The same, if the number at a step had a unit of this dimension.
+    pub(crate) fn assuming(&self, step: usize, dimension: Inferred) -> Self {
+        let mut assumed = self.clone();
+        if let Some(Step { operation: Operation::Number { inferred, .. }, .. }) = assumed.steps.get_mut(step) {
+            *inferred = dimension;
+        }
+        assumed
+    }
+
     /// The number, if it is nothing else, or its opposite, and has this dimension: by its unit, or as a bare
     /// number where that is wanted.
     pub(crate) fn only_number(&self, dimension: Dimension, wanted: Option<Dimension>) -> Option<f64> {

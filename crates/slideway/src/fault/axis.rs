@@ -18,9 +18,7 @@ pub enum AxisProblem {
     #[error("`{text}` is not a spacing")]
     Spacing { text: String },
     #[error("the range is empty: it begins and ends at {from}")]
-    Empty { from: f64 },
-    #[error("the range is reversed: it goes from {from} down to {to}")]
-    Reversed { from: f64, to: f64 },
+    Empty { from: String },
     #[error("logarithmic spacing needs a range above zero, but it begins at {from}")]
     NotPositive { from: f64 },
     #[error("{message}")]
@@ -63,7 +61,6 @@ impl AxisProblem {
             Self::NoCount => "write it after the range, for instance `mu=0..0.8:801`",
             Self::Spacing { .. } => "evenly spaced values are usual; `:log` spaces them logarithmically",
             Self::Empty { .. } => "for one value write NAME=VALUE",
-            Self::Reversed { .. } => "write the smaller value first",
             Self::NotPositive { .. } => "omit `:log`, or begin above zero",
             Self::WithoutSamples => "say how many, for instance `--samples 10000`",
             Self::GridWithSamples => "omit the number of values: FROM..TO; without --samples it is a grid",

@@ -8,11 +8,13 @@ pub enum Doubt {
     #[error("{what} is {value} rad, more than a full turn: a number without a unit is in radians")]
     BareAngle { what: String, value: f64 },
     #[error(
-        "{what} is {value} {si}, while the model has it in {unit}: a number without a unit is in SI units"
+        "{what} is {value} {si}, while the model uses {unit}: a number without a unit is in SI units"
     )]
     BareNumber { what: String, value: f64, si: String, unit: String },
     #[error("the lengths of the model differ by a factor of {factor}: from {least} to {greatest}")]
     LengthsFarApart { factor: String, least: String, greatest: String },
+    #[error("{what} is {length}, {factor} times the next smaller length of the model, {next}")]
+    LengthTowers { what: String, length: String, factor: String, next: String },
     #[error(
         "the drawing leaves {joint} open by {gap}: to close it, the bodies were moved out of their places"
     )]
@@ -40,6 +42,7 @@ impl Doubt {
             Self::BareAngle { .. } => "bare_angle",
             Self::BareNumber { .. } => "bare_number",
             Self::LengthsFarApart { .. } => "lengths_far_apart",
+            Self::LengthTowers { .. } => "length_towers",
             Self::GapClosed { .. } => "gap_closed",
             Self::FarFromDrawing { .. } => "far_from_drawing",
             Self::GreatFriction { .. } => "great_friction",
@@ -58,7 +61,7 @@ impl Doubt {
             Self::BareNumber { value, unit, si, .. } => {
                 format!("write `{value} {unit}`, or `{value} {si}` if that is meant")
             }
-            Self::LengthsFarApart { .. } => "look for a wrong or missing unit".to_owned(),
+            Self::LengthsFarApart { .. } | Self::LengthTowers { .. } => "look for a wrong or missing unit".to_owned(),
             Self::GapClosed { .. } => {
                 "draw both points of the joint at the same place, for instance with one name".to_owned()
             }

@@ -64,7 +64,7 @@ pub use report::{
 pub use rest::{rest_limits, rest_limits_with};
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
-pub use varied::FRICTION;
+pub use varied::{FRICTION, Variable, variables};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
 pub(crate) use vary::range_around;

@@ -51,6 +51,41 @@ pub(crate) struct Varied {
     follower: Mutex<Follower>,
 }
 
+/// A quantity that can be varied.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// Its present value, with its unit.
+    pub value: String,
+}
+
+/// The quantities of a model that [`Vary`] can name, with their present values: parameters and coordinates in the order
+/// of the file, at last [`FRICTION`], the factor on all coefficients of friction.
+///
+/// ```
+/// use slideway::{Model, gallery, limits};
+///
+/// let drawer = Model::parse(gallery::find("drawer").expect("in the gallery").text)?;
+/// let all = limits::variables(&drawer)?;
+/// assert_eq!((all[0].name.as_str(), all[0].value.as_str()), ("L", "0.4 m"));
+/// assert_eq!(all.last().map(|last| last.name.as_str()), Some("friction"));
+/// # Ok::<(), slideway::Faults>(())
+/// ```
+///
+/// # Errors
+/// Values of the model that are not allowed.
+pub fn variables(model: &Model) -> Result<Vec<Variable>, Faults> {
+    let parameters = model.parameters.iter().map(|parameter| &*parameter.name);
+    let coordinates = model.coordinates.iter().map(|coordinate| &*coordinate.name);
+    let one = |name: &str| {
+        let varied = Varied::at_rest(model, name)?;
+        Ok(Variable { name: name.to_owned(), value: varied.shown_in.show(varied.present()?) })
+    };
+    parameters.chain(coordinates).chain([FRICTION]).map(one).collect()
+}
+
 impl Varied {
     /// # Errors
     /// An unknown name; with a factor of friction whatever `solve` refuses.

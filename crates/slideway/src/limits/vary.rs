@@ -43,10 +43,10 @@ impl Vary {
         Self { name: name.to_owned(), range: Some([from.into(), to.into()]) }
     }
 
-    /// The ends of the range in SI units.
+    /// The ends of the range in SI units, the smaller one first in whichever order they are given.
     ///
     /// # Errors
-    /// A range that is reversed, empty, too great to compute with, or one of coefficients of friction that
+    /// A range that is empty, too great to compute with, or one of coefficients of friction that
     /// begins below zero; whatever `usual` refuses where there is no range.
     pub(crate) fn ends(
         &self,
@@ -62,11 +62,10 @@ impl Vary {
         if from.abs().max(to.abs()) > *MAGNITUDES.end() {
             return Err(fault(FaultKind::Overflow { quantity: format!("the range of {}", varied.name) }));
         }
-        if from > to {
-            return Err(fault(FaultKind::ReversedRange { what, from, to }));
-        }
+        // Whoever begins with the greater end means the same range.
+        let [from, to] = [from.min(to), from.max(to)];
         if from == to {
-            return Err(fault(FaultKind::EmptyRange { what, from }));
+            return Err(fault(FaultKind::EmptyRange { what, from: varied.shown_in.show(from) }));
         }
         if from < 0.0 && varied.is_itself_friction() {
             let problem = AxisProblem::NegativeCoefficients { from, to: to.min(0.0) };

@@ -229,7 +229,7 @@ fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<(Model,
 fn nothing_varies(axes: &[Axis; 2], degrees: [Degree; 2]) -> Result<(), Faults> {
     let mut faults = Faults::default();
     for (axis, _) in axes.iter().zip(degrees).filter(|(_, degree)| *degree == Degree::Constant) {
-        let [from, to] = axis.range;
+        let [from, to] = axis.range.map(|end| axis.varied.shown_in.show(end));
         faults.push(Fault::general(FaultKind::NothingVaries { what: axis.varied.in_words(), from, to }));
     }
     faults.or(())

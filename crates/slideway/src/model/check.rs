@@ -262,7 +262,7 @@ impl Model {
         self.formulas = formulas;
     }
 
-    fn inferred_parameters(&self) -> Vec<Inferred> {
+    pub(super) fn inferred_parameters(&self) -> Vec<Inferred> {
         let mut inferred = vec![Inferred::Any; self.parameters.len()];
         for &index in &self.evaluation_order {
             let of = |symbol| self.inferred(symbol, &inferred);
@@ -281,7 +281,7 @@ impl Model {
         inferred
     }
 
-    fn inferred(&self, symbol: Symbol, parameters: &[Inferred]) -> Inferred {
+    pub(super) fn inferred(&self, symbol: Symbol, parameters: &[Inferred]) -> Inferred {
         let coordinate = |index: usize, position| {
             self.coordinates.get(index).map_or(Inferred::Any, |coordinate| {
                 Inferred::Known(super::settings::dimension_of(coordinate, position))

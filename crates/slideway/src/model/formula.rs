@@ -24,7 +24,7 @@ impl Origin {
     }
 
     /// Place of a part of the expression.
-    fn part(&self, span: &Span) -> Place {
+    pub(super) fn part(&self, span: &Span) -> Place {
         match self.expression_start {
             Some(start) => Place { source: self.source.clone(), span: start + span.start..start + span.end },
             None => self.place(),

@@ -33,10 +33,11 @@
 //! # Files
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
 //! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
-//! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `value.rs` is what is
+//! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `bare.rs` tells which dimension numbers without a unit have, `value.rs` is what is
 //! given, `settings.rs` applies changes, `hinge.rs` has hinges and their friction, `press_fit.rs` splits contacts with negative play, `typed.rs` tells in which units a file was typed, `outline.rs`
 //! has the arcs of outlines.
 
+mod bare;
 mod check;
 mod dependence;
 mod file;
@@ -56,6 +57,7 @@ mod structure;
 mod typed;
 mod value;
 
+pub(crate) use bare::BareNumber;
 pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PinLaw, PreloadLine};
 pub(crate) use formula::POSITIVE;

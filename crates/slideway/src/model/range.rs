@@ -4,7 +4,7 @@ use super::{Model, Parameter};
 use crate::expression::{
     Expression, ExpressionFault, ExpressionFaultKind, Names, TO, Values, ends_of_range, parse,
 };
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::{Fault, Faults};
 use crate::interval::Interval;
 use crate::units::Unit;
 
@@ -64,7 +64,7 @@ impl Model {
     /// The parameters that are known within bounds, in the order of the file.
     ///
     /// # Errors
-    /// The faults of the model's values, reversed ranges among them.
+    /// The faults of the model's values.
     pub fn ranges(&self) -> Result<Vec<ParameterRange>, Faults> {
         if self.parameters.iter().all(|parameter| self.formula(parameter.value).range.is_none()) {
             return Ok(Vec::new());
@@ -79,29 +79,23 @@ impl Model {
         Ok(ranges.collect())
     }
 
-    /// A fault for each range that is reversed, or has an end without a value.
+    /// A fault for each range that has an end without a value.
     pub(super) fn check_ranges(&self, values: &[Option<f64>], faults: &mut Faults) {
         let values: Vec<f64> =
             self.parameters.iter().map(|parameter| values[parameter.value.index()].unwrap_or(0.0)).collect();
         for parameter in &self.parameters {
-            let place = self.formula(parameter.value).origin.place();
-            match self.range_ends(parameter, &values) {
-                Some(Ok([from, to])) if from > to => {
-                    let kind = FaultKind::ReversedRange { what: parameter.name.to_string(), from, to };
-                    faults.push(Fault::new(kind, place));
-                }
-                Some(Err(fault)) => faults.push(fault),
-                _ => {}
+            if let Some(Err(fault)) = self.range_ends(parameter, &values) {
+                faults.push(fault);
             }
         }
     }
 
-    /// The ends of a parameter's range, if it has one.
+    /// The ends of a parameter's range, if it has one, the smaller one first in whichever order they are written.
     fn range_ends(&self, parameter: &Parameter, parameters: &[f64]) -> Option<Result<[f64; 2], Fault>> {
         let formula = self.formula(parameter.value);
         let values = Values::of_parameters(parameters);
         let end = |end: &Expression| end.evaluate(&values).map_err(|fault| formula.origin.fault(fault));
         let [from, to] = formula.range.as_deref()?;
-        Some(end(from).and_then(|from| Ok([from, end(to)?])))
+        Some(end(from).and_then(|from| end(to).map(|to| [from.min(to), from.max(to)])))
     }
 }

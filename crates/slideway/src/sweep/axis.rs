@@ -111,14 +111,13 @@ impl Reader<'_> {
     }
 
     fn ends(&self, [from, to]: [&Value; 2]) -> Result<[f64; 2], AxisProblem> {
+        let given = from;
         let (from, to) = (self.value(from)?, self.value(to)?);
-        if from > to {
-            Err(AxisProblem::Reversed { from, to })
-        } else if from == to {
-            Err(AxisProblem::Empty { from })
-        } else {
-            Ok([from, to])
+        if from == to {
+            return Err(AxisProblem::Empty { from: given.to_string() });
         }
+        // Whoever begins with the greater end means the same range.
+        Ok([from.min(to), from.max(to)])
     }
 
     fn range(&self, ends: [&Value; 2]) -> Result<[f64; 2], AxisProblem> {

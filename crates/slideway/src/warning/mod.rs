@@ -14,8 +14,9 @@
 //! # Ok::<(), slideway::Faults>(())
 //! ```
 
+mod lengths;
+
 use crate::configuration::{Configuration, widest_gap_of_drawing};
-use crate::expression::Dimension;
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame, JointId};
 use crate::influence::Influence;
@@ -29,8 +30,6 @@ use std::f64::consts::TAU;
 
 /// Bare angles beyond this (rad) are taken for degrees.
 const FULL_TURN: f64 = TAU;
-/// Lengths of one model that differ by more than this factor hint at a wrong unit.
-const FAR_APART: f64 = 1e4;
 /// Gaps of the drawing beyond this part of the mechanism's size are no rounding of what was typed.
 const OPEN: f64 = 1e-3;
 /// A body this many sizes of the mechanism from its place in the drawing is far from it.
@@ -44,7 +43,7 @@ const GREAT_FRICTION: f64 = 2.0;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WarningReport {
-    /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
+    /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed", "far_from_drawing",
     /// "great_friction", "wide_friction_circle" or "nothing_presses".
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
@@ -93,7 +92,7 @@ pub fn warnings(model: &Model) -> Faults {
     let mut found = Faults::default();
     found.extend(model.doubts.iter().cloned());
     found.extend(angles(model).into_iter().filter_map(|angle| bare_angle(model, angle)));
-    found.extend(lengths_far_apart(model));
+    found.extend(lengths::doubtful_lengths(model));
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
         found.extend(wide_friction_circles(model, &mechanism));
@@ -174,32 +173,6 @@ fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
     let value = formula.expression.bare_number().filter(|value| value.abs() > FULL_TURN)?;
     let what = formula.what.to_string();
     Some(warning(Doubt::BareAngle { what, value }, formula.origin.place()))
-}
-
-/// The lengths that were typed, if they differ too much; the place is that of the one which is out of line.
-/// Corners of outlines may be as near to an axis as they like.
-fn lengths_far_apart(model: &Model) -> Option<Fault> {
-    let typed = |formula: &crate::model::Formula| {
-        let length = formula.expression.only_number(Dimension::LENGTH, formula.wanted)?.abs();
-        (length > 0.0).then(|| (length, formula.origin.place()))
-    };
-    let ids = (0..model.formulas.len()).map(FormulaId).filter(|id| model.looks.binary_search(id).is_err());
-    let mut lengths: Vec<(f64, Place)> = ids.filter_map(|id| typed(model.formula(id))).collect();
-    lengths.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let (least, greatest) = (lengths.first()?, lengths.last()?);
-    let factor = greatest.0 / least.0;
-    if factor <= FAR_APART {
-        return None;
-    }
-    let middle = lengths[lengths.len() / 2].0;
-    let place = if middle / least.0 > greatest.0 / middle { &least.1 } else { &greatest.1 };
-    let unit = model.units.of("m");
-    let doubt = Doubt::LengthsFarApart {
-        factor: number(factor),
-        least: unit.show(least.0),
-        greatest: unit.show(greatest.0),
-    };
-    Some(warning(doubt, place.clone()))
 }
 
 fn great_friction(model: &Model) -> Vec<Fault> {

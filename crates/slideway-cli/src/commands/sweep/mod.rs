@@ -45,6 +45,9 @@ fn table(model: &ModelArguments, arguments: &SweepArguments, output: &Output) ->
     let destination = files.answer()?;
     let input = Input::read(model, output.color())?;
     let model = input.model()?;
+    if arguments.vary.is_empty() {
+        return Err(input.nothing_varied(&model, "--vary NAME=FROM..TO:COUNT"));
+    }
     let options = arguments.options().map_err(|faults| input.refused(faults))?;
     input.warn(options.points.warnings(&model))?;
     let mut watch = watch(arguments, &destination);

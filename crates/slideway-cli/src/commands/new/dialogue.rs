@@ -1,0 +1,172 @@
+//! What `slideway new` asks on a terminal: which template, its dimensions, the name of the file. A slip costs one line.
+
+use crate::columns;
+use crate::failure::Failure;
+use crate::output::{Output, complain};
+use crate::own_file::free_name;
+use anstream::ColorChoice;
+use slideway::fault::{Doubt, FaultKind, Faults, nearest};
+use slideway::model::Settings;
+use slideway::printable;
+use slideway::template::{self, FILE, TEMPLATES, Template, TemplateParameter};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Asks which template is wanted until there is one.
+pub(super) fn template(color: ColorChoice) -> Result<&'static Template, Failure> {
+    let numbered = TEMPLATES.iter().enumerate();
+    let rows: Vec<(String, String)> = numbered
+        .map(|(index, one)| (format!("{:2}  {}", index + 1, one.name), one.summary().to_owned()))
+        .collect();
+    complain(&format!("What slides?\n{}", columns::list(&rows, 0)), color);
+    loop {
+        let Some(name) = reply("Number or name: ")? else { return Err(Failure::NoTemplate) };
+        let number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let found = number.map_or_else(|| template::find(&name), |index| TEMPLATES.get(index));
+        match found {
+            Some(template) => return Ok(template),
+            None if name.is_empty() => {}
+            None => say(&no_template(&name), color),
+        }
+    }
+}
+
+/// That no template has this number or name.
+fn no_template(name: &str) -> String {
+    match nearest(name, TEMPLATES.iter().map(|template| template.name)) {
+        Some(nearest) => format!("There is no template `{name}`: did you mean `{nearest}`?"),
+        None => format!("There is no template `{name}`: type a number from 1 to {}, or a name.", TEMPLATES.len()),
+    }
+}
+
+/// Asks for every parameter of a template; those that are not answered stay as they are.
+///
+/// A value is checked with those before it, so that what is wrong can be put right at once.
+pub(super) fn dimensions(template: &Template, color: ColorChoice) -> Result<Settings, Failure> {
+    let rule = format!("{} Rule: {}", template.summary(), template.rule());
+    let rule = columns::wrapped(&rule, columns::WIDTH).join("\n");
+    complain(&format!("\n{rule}\n\nEnter keeps the value in brackets."), color);
+    let mut settings = Settings::default();
+    for parameter in template.parameters() {
+        match dimension(template, parameter, &settings, color)? {
+            Answer::Value(with) => settings = with,
+            Answer::Kept => {}
+            Answer::Ended => break,
+        }
+    }
+    Ok(settings)
+}
+
+/// What was answered to the question for a parameter.
+enum Answer {
+    /// A value, which is among these settings now.
+    Value(Settings),
+    /// The value of the template is right.
+    Kept,
+    /// The input has ended.
+    Ended,
+}
+
+/// Asks for a parameter until the answer makes sense with the settings before it.
+fn dimension(
+    template: &Template,
+    parameter: TemplateParameter,
+    settings: &Settings,
+    color: ColorChoice,
+) -> Result<Answer, Failure> {
+    loop {
+        let prompt = format!("{}, {} [{}]: ", parameter.name, parameter.meaning, parameter.value);
+        let Some(value) = reply(&prompt)? else { return Ok(Answer::Ended) };
+        if value.is_empty() {
+            return Ok(Answer::Kept);
+        }
+        let with = |value: &str| settings.clone().parameter(parameter.name, value);
+        let faults = match template.model(&with(&value), FILE) {
+            Ok(_) => return Ok(Answer::Value(with(&value))),
+            Err(faults) => faults,
+        };
+        let Some(value) = with_unit(&faults) else {
+            say(&slip(&faults), color);
+            continue;
+        };
+        match reply(&format!("{value}? [Enter: yes] "))?.as_deref() {
+            None => return Ok(Answer::Ended),
+            Some("" | "y" | "Y" | "yes") => match template.model(&with(&value), FILE) {
+                Ok(_) => return Ok(Answer::Value(with(&value))),
+                Err(faults) => say(&slip(&faults), color),
+            },
+            Some(_) => {}
+        }
+    }
+}
+
+/// A number without a unit with the one that was meant, if it is the only thing that is wrong.
+fn with_unit(faults: &Faults) -> Option<String> {
+    match faults.sorted().as_slice() {
+        [one] => match &one.kind {
+            FaultKind::Doubt(Doubt::BareNumber { value, unit, .. }) => Some(format!("{value} {unit}")),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The first fault in one line.
+fn slip(faults: &Faults) -> String {
+    faults.sorted().first().map_or_else(String::new, |first| format!("Not possible: {}.", first.kind))
+}
+
+/// Asks for the name of the file until it can be written; gives it and what writes it.
+pub(super) fn file(
+    template: &Template,
+    color: ColorChoice,
+    to_file: &impl Fn(&Path, bool) -> Result<Output, Failure>,
+) -> Result<(PathBuf, Output), Failure> {
+    let usual = free_name(Path::new(template.name), ".toml", false);
+    loop {
+        let answer = reply(&format!("File [{}]: ", usual.display()))?.unwrap_or_default();
+        let mut path = if answer.is_empty() { usual.clone() } else { PathBuf::from(answer) };
+        if path.extension().is_none() {
+            path.set_extension("toml");
+        }
+        let failure = match to_file(&path, false) {
+            Ok(output) => return Ok((path, output)),
+            Err(failure) => failure,
+        };
+        if matches!(failure, Failure::OutputExists { .. }) {
+            let prompt = format!("{} exists. Overwrite it? [y/N] ", path.display());
+            if matches!(reply(&prompt)?.as_deref(), Some("y" | "Y" | "yes")) {
+                return to_file(&path, true).map(|output| (path, output));
+            }
+        } else {
+            say(&sentence(&failure), color);
+        }
+    }
+}
+
+/// A failure as a sentence.
+fn sentence(failure: &Failure) -> String {
+    let line = failure.in_one_line();
+    let mut letters = line.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    let end = if line.ends_with(['.', '?']) { "" } else { "." };
+    format!("{first}{}{end}", letters.as_str())
+}
+
+/// Says something in one line.
+fn say(text: &str, color: ColorChoice) {
+    complain(&printable::line(text), color);
+}
+
+/// What is typed at a prompt; none at the end of the input.
+fn reply(prompt: &str) -> Result<Option<String>, Failure> {
+    let mut line = String::new();
+    let mut stream = io::stderr();
+    let prompted = stream.write_all(printable::line(prompt).as_bytes());
+    let read = prompted.and_then(|()| io::stdin().read_line(&mut line));
+    let bytes = read.map_err(|error| Failure::CannotRead { path: PathBuf::from("standard input"), error })?;
+    if bytes == 0 {
+        let _ = stream.write_all(b"\n");
+    }
+    Ok((bytes > 0).then(|| line.trim().to_owned()))
+}

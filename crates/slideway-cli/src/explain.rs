@@ -1,0 +1,118 @@
+//! What is wrong with the arguments, in the words of [`clap`]; where a name is not known, with all that there are.
+
+use crate::arguments::Arguments;
+use crate::columns;
+use crate::diagnostics::{self, Note};
+use crate::outcome::Outcome;
+use crate::output::{Look, Output, complain};
+use crate::refuse;
+use anstream::ColorChoice;
+use clap::builder::Styles;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Arg, Command, CommandFactory};
+use slideway::fault::nearest;
+use slideway::printable;
+use std::borrow::Cow;
+use std::ffi::OsString;
+use std::io::{self, Write};
+
+/// Says what is wrong with the arguments, or the help or version that they ask for, and ends the program.
+///
+/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so
+/// that whatever is still in it comes from the arguments.
+pub(crate) fn explain(error: &clap::Error) -> ! {
+    let is_printable = |word: OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
+    if !error.use_stderr() {
+        let printed = error.print().and_then(|()| io::stdout().flush());
+        let told = Output::standard(Look { color: ColorChoice::Auto, verbose: false })
+            .told(printed)
+            .map(|()| Outcome::Done);
+        let outcome = told.unwrap_or_else(|failure| refuse(&failure, ColorChoice::Auto));
+        std::process::exit(i32::from(outcome as u8));
+    }
+    if let Some(text) = with_all_names(error) {
+        complain(&text, ColorChoice::Auto);
+        std::process::exit(error.exit_code());
+    }
+    if std::env::args_os().all(is_printable) {
+        error.exit();
+    }
+    let plain = Arguments::command().styles(Styles::plain()).try_get_matches().err();
+    let text = plain.map_or_else(String::new, |plain| plain.render().ansi().to_string());
+    complain(printable::lines(&text).trim_end(), ColorChoice::Never);
+    std::process::exit(error.exit_code());
+}
+
+/// That there is no such command, or that a template has no such dimension, and what there is.
+fn with_all_names(error: &clap::Error) -> Option<String> {
+    let (command, path) = command(std::env::args_os());
+    let quoted = |kind| match error.get(kind) {
+        Some(ContextValue::String(name)) => Some(name.clone()),
+        _ => None,
+    };
+    let (message, hint, all) = match error.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let name = quoted(ContextKind::InvalidSubcommand)?;
+            let commands: Vec<&Command> = command.get_subcommands().filter(|one| !one.is_hide_set()).collect();
+            let hint = meant(nearest(&name, commands.iter().map(|one| one.get_name())), "slideway help questions");
+            let all = commands.iter().map(|one| row(one.get_name(), one.get_about())).collect();
+            (format!("there is no command `{name}`"), hint, all)
+        }
+        ErrorKind::UnknownArgument if path.first().is_some_and(|first| first == "new") && path.len() == 2 => {
+            let name = quoted(ContextKind::InvalidArg)?;
+            let options: Vec<&Arg> = command.get_arguments().filter(|one| is_dimension(one)).collect();
+            let bare = name.trim_start_matches('-').to_owned();
+            let near = nearest(&bare, options.iter().filter_map(|one| one.get_long()));
+            let hint = meant(near.map(|near| format!("--{near}")), &format!("slideway new {} --help", path[1]));
+            let long = |one: &Arg| format!("--{}", one.get_long().unwrap_or_default());
+            let all = options.iter().map(|one| row(&long(one), one.get_help())).collect();
+            (format!("the template {} has no `{name}`", path[1]), hint, all)
+        }
+        _ => return None,
+    };
+    Some(listing(&Note { message, hint: Some(hint) }, all))
+}
+
+/// A complaint, and below it a list of what there is.
+pub(crate) fn listing(note: &Note, all: Vec<(String, String)>) -> String {
+    let all: Vec<(String, String)> = all
+        .into_iter()
+        .map(|(name, meaning)| (printable::line(&name).into_owned(), printable::line(&meaning).into_owned()))
+        .collect();
+    format!("{}\n\n{}", diagnostics::note(note), columns::list(&all, 2).trim_end())
+}
+
+fn meant(near: Option<String>, help: &str) -> String {
+    match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("`{help}` says more about these"),
+    }
+}
+
+fn row(name: &str, meaning: Option<&clap::builder::StyledStr>) -> (String, String) {
+    (name.to_owned(), meaning.map(ToString::to_string).unwrap_or_default())
+}
+
+/// Whether an option of a template stands for a dimension, not for what all commands have.
+fn is_dimension(option: &Arg) -> bool {
+    option.get_value_names().is_some_and(|names| names.iter().any(|name| name.as_str() == "VALUE"))
+}
+
+/// The command that is named, and the words that name it.
+fn command(words: impl Iterator<Item = OsString>) -> (Command, Vec<String>) {
+    let mut command = Arguments::command();
+    let mut path = Vec::new();
+    let mut is_value = false;
+    for word in words.skip(1) {
+        let word = word.to_string_lossy().into_owned();
+        match command.find_subcommand(&word).cloned() {
+            Some(found) => {
+                command = found;
+                path.push(word);
+            }
+            None if word.starts_with('-') || is_value => is_value = !is_value,
+            None => break,
+        }
+    }
+    (command, path)
+}
