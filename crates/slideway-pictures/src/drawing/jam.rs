@@ -4,16 +4,16 @@
 //! reactions meet the push in one place, which lies in the overlap of both cones, and so any push finds reactions that
 //! balance it. Of any other mechanism each force is drawn within its own cone.
 
+use super::Painter;
 use super::outline::{clipped, turned, unit};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
-use super::Painter;
 use slideway::ids::{ContactId, Frame};
 use slideway::mechanism::Effort;
 use slideway::model::SliderKind;
 
 /// How long a cone is drawn by itself, and how far beyond the place where the forces meet.
-const CONE: f64 = 70.0;
+const CONE: f64 = 95.0;
 const BEYOND: f64 = 45.0;
 /// The greatest distance of that place from a contact with which it is drawn.
 const FARTHEST: f64 = 700.0;
@@ -74,17 +74,18 @@ impl Painter<'_> {
         let cones: Vec<Cone> =
             (0..self.mechanism.contacts.len()).filter_map(|index| self.cone(ContactId(index))).collect();
         if let ([one, other], Some(push)) = (&cones[..], self.only_push())
-            && let Some(meeting) = meeting([one, other], push)
+            && let Some((meeting, sizes)) = meeting([one, other], push)
         {
             self.overlap([one, other], push, meeting);
-            for cone in [one, other] {
-                self.force_in_cone(cone, cone.towards(meeting), cone.force.norm() * scale);
+            let effort = self.states.efforts[0].abs();
+            for (cone, size) in [one, other].into_iter().zip(sizes) {
+                self.force_in_cone(cone, cone.towards(meeting), size * effort * scale);
             }
             return;
         }
-        for cone in &cones {
+        for cone in cones.iter().filter(|cone| cone.mu > 0.0) {
             let sense = if cone.is_outside { -1.0 } else { 1.0 };
-            self.area(Class::Cone, cone.part(sense * CONE));
+            self.area(Class::Cone, cone.part(sense * CONE / cone.mu.hypot(1.0)));
         }
         for cone in &cones {
             self.force_in_cone(cone, unit(cone.force, cone.normal), cone.force.norm() * scale);
@@ -115,7 +116,9 @@ impl Painter<'_> {
         let ([_], [drive]) = (&self.mechanism.bodies[..], &self.mechanism.drives[..]) else { return None };
         let Effort::Force { at, direction, turns, .. } = drive.effort else { return None };
         let effort = self.states.efforts.first().filter(|effort| **effort != 0.0)?;
-        if at.frame == Frame::Ground || !self.sliders.iter().all(takes_no_couple) {
+        // Another free motion would go with an acceleration: then these forces are no balance.
+        let is_free = self.mechanism.coordinates.len() > 1;
+        if is_free || at.frame == Frame::Ground || !self.sliders.iter().all(takes_no_couple) {
             return None;
         }
         let direction = if turns { self.configuration.direction(at.frame, direction) } else { direction };
@@ -150,9 +153,9 @@ impl Painter<'_> {
     }
 }
 
-/// A place on the line of a push that lies in both cones, in the middle of where it does, and in which reactions that press
-/// balance it; none if there is none, or none nearby.
-fn meeting(cones: [&Cone; 2], push: [Point; 2]) -> Option<Point> {
+/// A place on the line of a push that lies in both cones, in the middle of where it does, and the reactions that balance a
+/// push of 1 there; none if there is no such place, or none nearby.
+fn meeting(cones: [&Cone; 2], push: [Point; 2]) -> Option<(Point, [f64; 2])> {
     let [place, direction] = push;
     let mut ends: Vec<f64> = cones.iter().flat_map(|cone| cone.crossings(push)).collect();
     ends.sort_by(f64::total_cmp);
@@ -160,13 +163,15 @@ fn meeting(cones: [&Cone; 2], push: [Point; 2]) -> Option<Point> {
     let between = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
     let middles = between.chain(beyond).map(|at| place + direction * at);
     middles
-        .filter(|middle| cones.iter().all(|cone| cone.holds(*middle) && (middle - cone.apex).norm() < FARTHEST))
-        .find(|middle| balances(cones.map(|cone| cone.towards(*middle)), direction))
+        .filter(|middle| {
+            cones.iter().all(|cone| cone.holds(*middle) && (middle - cone.apex).norm() < FARTHEST)
+        })
+        .find_map(|middle| Some((middle, balancing(cones.map(|cone| cone.towards(middle)), direction)?)))
 }
 
-/// Whether positive multiples of two directions and a third add up to nothing.
-fn balances([one, other]: [Point; 2], push: Point) -> bool {
+/// The positive multiples of two directions that add up to nothing with a third; none if there are none.
+fn balancing([one, other]: [Point; 2], push: Point) -> Option<[f64; 2]> {
     let area = one.perp(&other);
-    let [of_one, of_other] = [-push.perp(&other) / area, push.perp(&one) / area];
-    of_one > 0.0 && of_other > 0.0
+    let sizes = [-push.perp(&other) / area, push.perp(&one) / area];
+    sizes.iter().all(|size| *size > 0.0 && size.is_finite()).then_some(sizes)
 }

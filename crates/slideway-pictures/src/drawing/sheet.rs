@@ -296,14 +296,16 @@ impl Drawn<'_> {
                 "The line of {push} passes through the overlap of both friction cones: however hard it pushes, friction holds it."
             ),
             [push] if locking.is_balance => {
-                format!("However great {push} is, these contact forces, within their friction cones, balance it.")
+                format!(
+                    "However great {push} is, these contact forces, within their friction cones, balance it."
+                )
             }
             _ if locking.is_balance => format!(
                 "However great {} are in this proportion, these contact forces, within their friction cones, balance them.",
                 names.join(", ")
             ),
             _ => format!(
-                "Friction presses these contacts together by itself: at {} times the friction it causes all of the normal forces from which it comes.",
+                "Friction itself presses these contacts together: at {} times this friction it makes all of its own normal force.",
                 number(locking.factor)
             ),
         }

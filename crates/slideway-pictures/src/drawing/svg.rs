@@ -270,7 +270,10 @@ pub fn rules(colour: &Colour) -> String {
     rule(".s-action-line", format!("fill: none; stroke-dasharray: 9 3 2 3; {}", pen(reaction, 1.0)));
     rule(".s-push-line", format!("fill: none; stroke-dasharray: 9 3 2 3; {}", pen(load, 1.4)));
     rule(".s-cone", format!("fill: {friction}; fill-opacity: 0.14; stroke: {friction}; stroke-width: 0.7;"));
-    rule(".s-overlap", format!("fill: {friction}; fill-opacity: 0.3; stroke: {friction}; stroke-width: 1.2;"));
+    rule(
+        ".s-overlap",
+        format!("fill: {friction}; fill-opacity: 0.3; stroke: {friction}; stroke-width: 1.2;"),
+    );
     rule(".s-break", format!("fill: none; {}", pen(load, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));

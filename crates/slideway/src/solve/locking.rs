@@ -93,10 +93,8 @@ fn balance(stages: &Stages, mode: &[ContactState], pressures: &DVector<f64>, fac
     let normal_forces: Vec<f64> =
         mode.iter().zip(pressures.iter()).map(|(state, size)| state.sign() * size).collect();
     #[expect(clippy::cast_possible_truncation, reason = "a sign")]
-    let signs: Vec<i8> = normal_forces
-        .iter()
-        .map(|force| if *force == 0.0 { 0 } else { force.signum() as i8 })
-        .collect();
+    let signs: Vec<i8> =
+        normal_forces.iter().map(|force| if *force == 0.0 { 0 } else { force.signum() as i8 }).collect();
     Locking {
         pattern: pattern(mode),
         joints: joint_modes(mechanism, configuration, &signs),
