@@ -19,6 +19,7 @@ draw() {
 }
 
 draw drawer.svg models/drawer.toml
+draw drawer-jam.svg models/drawer.toml --set mu=0.7
 draw klepp-2002.svg models/klepp-2002.toml
 draw klepp-2002-dark.svg models/klepp-2002.toml --theme dark
 draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set direction=-1

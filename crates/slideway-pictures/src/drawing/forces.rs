@@ -41,7 +41,7 @@ pub(crate) fn forces_on(mechanism: &Mechanism) -> &'static str {
 impl Slide {
     /// The sign of forces and velocities that are drawn, where those of the block against the guide are positive: they
     /// are those of the guide where the block is ground.
-    fn action(&self) -> f64 {
+    pub(super) fn action(&self) -> f64 {
         if self.block_frame == Frame::Ground { -1.0 } else { 1.0 }
     }
 }

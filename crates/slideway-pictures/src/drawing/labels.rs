@@ -237,6 +237,7 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> 
             Class::Reaction
             | Class::Friction
             | Class::PinForce
+            | Class::ContactForce
             | Class::Load
             | Class::Drive
             | Class::Velocity => IMPORTANT,
@@ -244,6 +245,7 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> 
             Class::Hatch => 3.0,
             Class::Slot => 0.4,
             Class::Leader => 1.0,
+            Class::Cone | Class::Overlap => 0.4,
             _ => EDGE,
         };
         match &element.shape {

@@ -137,6 +137,16 @@ impl Painter<'_> {
 
     /// Forces and torques, the efforts of the drives, the forces of pads, and weights.
     pub(super) fn loads(&mut self) {
+        if !self.options.locking {
+            self.known_loads();
+            self.weights();
+        }
+        for (index, drive) in self.mechanism.drives.iter().enumerate() {
+            self.drive(index, drive);
+        }
+    }
+
+    fn known_loads(&mut self) {
         let mechanism = self.mechanism;
         for (index, load) in mechanism.loads.iter().enumerate() {
             match &load.kind {
@@ -155,10 +165,6 @@ impl Painter<'_> {
                 _ => {}
             }
         }
-        for (index, drive) in mechanism.drives.iter().enumerate() {
-            self.drive(index, drive);
-        }
-        self.weights();
     }
 
     /// The force of a pad on the block that it meets, where they meet.
@@ -308,6 +314,7 @@ impl Painter<'_> {
 
     /// "W = 300 N", or the name alone.
     fn named(&self, name: &str, value: Option<f64>, si: &str) -> String {
+        let value = value.filter(|_| !self.options.locking);
         value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", self.shown(value, si)))
     }
 

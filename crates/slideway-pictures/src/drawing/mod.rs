@@ -13,6 +13,7 @@ mod dimensions;
 mod faces;
 mod forces;
 mod hinges;
+mod jam;
 mod labels;
 mod loads;
 mod looks;
@@ -44,6 +45,7 @@ use slideway::configuration::Configuration;
 use slideway::ids::JointId;
 use slideway::mechanism::Mechanism;
 use slideway::report::Solution;
+use slideway::solve::Locking;
 use slideway::units::Unit;
 
 /// Size of names.
@@ -108,6 +110,17 @@ impl ContactStates {
         }
     }
 
+    /// What locks a mechanism: forces of which only the proportions are known.
+    pub fn locked(locking: &Locking) -> Self {
+        let forces = locking.normal_forces.iter().zip(&locking.friction_forces);
+        let state = |(normal, friction): (&f64, &f64)| ContactState {
+            side: if *normal == 0.0 { 0.0 } else { normal.signum() },
+            forces: Some(ContactForces { normal: *normal, friction: *friction, couple: 0.0 }),
+            ..ContactState::default()
+        };
+        Self { contacts: forces.map(state).collect(), efforts: locking.efforts.clone(), pins: Vec::new() }
+    }
+
     fn side(&self, contact: usize) -> f64 {
         self.contacts.get(contact).map_or(0.0, |state| state.side.clamp(-1.0, 1.0))
     }
@@ -133,6 +146,9 @@ pub struct SceneOptions {
     pub force_scale: Option<f64>,
     /// Sliding velocities.
     pub velocities: bool,
+    /// The forces of contacts and drives alone, without values, as what locks the mechanism: those of contacts within
+    /// their friction cones.
+    pub locking: bool,
     /// Labels are kept within these bounds, and left out if they find no place.
     pub within: Option<Bounds>,
 }
@@ -182,7 +198,9 @@ pub fn scene(
     painter.joints();
     painter.connections();
     painter.loads();
-    if options.force_scale.is_some() {
+    if options.locking {
+        painter.jam();
+    } else if options.force_scale.is_some() {
         painter.contact_forces();
         painter.pin_forces();
         painter.open_contacts();
@@ -208,8 +226,14 @@ impl SceneOptions {
             dimensions: true,
             force_scale: None,
             velocities: true,
+            locking: false,
             within: None,
         }
+    }
+
+    /// The forces of contacts and drives that lock a mechanism, so many drawing units for a newton.
+    pub fn locking(force_scale: f64) -> Self {
+        Self { locking: true, velocities: false, ..Self::contact_mode(force_scale) }
     }
 
     /// A contact mode with its forces, `force_scale` drawing units for a newton.

@@ -107,3 +107,29 @@ pub(super) fn upper_side(across: Point) -> f64 {
     let is_upper = if across.y.abs() > 1e-3 { across.y < 0.0 } else { across.x > 0.0 };
     if is_upper { 1.0 } else { -1.0 }
 }
+
+/// The part of a convex polygon within another one (Sutherland and Hodgman's clipping).
+pub(super) fn clipped(polygon: &[Point], within: &[Point]) -> Vec<Point> {
+    let count = within.len();
+    let middle = within.iter().sum::<Point>() / (count.max(1) as f64);
+    let mut left = polygon.to_vec();
+    for corner in 0..count {
+        let [from, to] = [within[corner], within[(corner + 1) % count]];
+        let inwards = turned(to - from);
+        let inwards = inwards * inwards.dot(&(middle - from)).signum();
+        let inside = |place: &Point| (place - from).dot(&inwards);
+        let mut kept = Vec::new();
+        for index in 0..left.len() {
+            let [one, next] = [left[index], left[(index + 1) % left.len()]];
+            let [of_one, of_next] = [inside(&one), inside(&next)];
+            if of_one >= 0.0 {
+                kept.push(one);
+            }
+            if (of_one > 0.0 && of_next < 0.0) || (of_one < 0.0 && of_next > 0.0) {
+                kept.push(one + (next - one) * (of_one / (of_one - of_next)));
+            }
+        }
+        left = kept;
+    }
+    left
+}

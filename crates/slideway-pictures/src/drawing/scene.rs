@@ -51,6 +51,14 @@ pub enum Class {
     PinForce,
     /// The line along which that acts.
     ActionLine,
+    /// The friction cone of a contact.
+    Cone,
+    /// What two friction cones have in common.
+    Overlap,
+    /// The whole force of a contact, normal force and friction together.
+    ContactForce,
+    /// The line of a push.
+    PushLine,
     /// A load, a weight, or the effort of a drive.
     Load,
     /// A sign that an arrow is shorter than its scale says.
@@ -141,6 +149,8 @@ pub struct Scene {
     pub magnification: Option<f64>,
     /// By how much friction circles of hinges are magnified; none without them.
     pub friction_circles: Option<f64>,
+    /// Whether the overlap of two friction cones is drawn, with the line of a push through it.
+    pub has_overlap: bool,
 }
 
 impl Bounds {

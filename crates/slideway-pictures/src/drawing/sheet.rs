@@ -13,7 +13,8 @@ use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{CoordinateState, Solution, SolveReport, Status};
+use slideway::report::{CoordinateState, JointMode, Solution, SolveReport};
+use slideway::solve::{Locking, locking};
 use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
@@ -64,6 +65,11 @@ fn pins(solution: &Solution, mechanism: &Mechanism) -> Option<String> {
     };
     let pins: Vec<String> = solution.hinges.iter().filter_map(one).collect();
     (!pins.is_empty()).then(|| format!("Pins, force and friction couple: {}", pins.join("; ")))
+}
+
+/// "guide tipped: lower right, upper left"
+fn joint_modes(joints: &[JointMode]) -> impl Iterator<Item = String> {
+    joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode))
 }
 
 /// Which solutions are drawn.
@@ -237,6 +243,7 @@ impl Drawn<'_> {
             }
             Shown::All => {
                 let mut panels = vec![self.overview()];
+                panels.extend(self.jam());
                 let numbered = solutions.iter().enumerate().map(|(index, solution)| {
                     self.solution(solution, format!("Solution {} of {count}", index + 1), false)
                 });
@@ -255,14 +262,53 @@ impl Drawn<'_> {
         let options = SceneOptions { force_scale, ..SceneOptions::overview() };
         let states = ContactStates::default();
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let lines = match self.report {
-            Some(report) if report.status == Status::None => {
-                vec![report.verdict_in_words()]
-            }
-            _ => Vec::new(),
-        };
-        let caption = Caption { heading: "The mechanism, to scale".to_owned(), lines };
+        let caption = Caption { heading: "The mechanism, to scale".to_owned(), lines: Vec::new() };
         Panel { scene, caption, force_scale }
+    }
+
+    /// Why a mechanism without solution jams, if it is friction that locks it and that is known.
+    fn jam(&self) -> Option<Panel> {
+        let locking = locking(self.report?, self.mechanism, self.configuration)?;
+        let states = ContactStates::locked(&locking);
+        let forces = locking.normal_forces.iter().zip(&locking.friction_forces);
+        let greatest = forces.map(|(normal, friction)| normal.hypot(*friction)).fold(0.0, f64::max);
+        let options = SceneOptions::locking(LONGEST_FORCE / greatest);
+        let with_play = |play: bool| {
+            let options = SceneOptions { play, ..options };
+            scene(self.mechanism, self.configuration, &states, self.view, &options)
+        };
+        // The play that is drawn moves the push against the cones: it is left out where that hides their overlap.
+        let [tipped, to_scale] = [true, false].map(with_play);
+        let scene = if to_scale.has_overlap && !tipped.has_overlap { to_scale } else { tipped };
+        let mut lines = vec![self.why(&locking, scene.has_overlap)];
+        lines.extend(joint_modes(&locking.joints));
+        lines.push("The arrows show proportions, not sizes.".to_owned());
+        lines.extend(scale_of_play(&scene));
+        let heading = format!("Why it jams:  {}", signs(&locking.pattern));
+        Some(Panel { scene, caption: Caption { heading, lines }, force_scale: None })
+    }
+
+    /// Why the forces of a mode lock a mechanism.
+    fn why(&self, locking: &Locking, has_overlap: bool) -> String {
+        let names: Vec<&str> = self.mechanism.drives.iter().map(|drive| &*drive.name).collect();
+        match &names[..] {
+            [push] if has_overlap => format!(
+                "The line of {push} passes through the overlap of both friction cones: however hard it pushes, friction holds it."
+            ),
+            [push] if locking.is_balance => {
+                format!(
+                    "However great {push} is, these contact forces, within their friction cones, balance it."
+                )
+            }
+            _ if locking.is_balance => format!(
+                "However great {} are in this proportion, these contact forces, within their friction cones, balance them.",
+                names.join(", ")
+            ),
+            _ => format!(
+                "Friction itself presses these contacts together: at {} times this friction it makes all of its own normal force.",
+                number(locking.factor)
+            ),
+        }
     }
 
     fn solution(&self, solution: &Solution, heading: String, names: bool) -> Panel {
@@ -272,8 +318,7 @@ impl Drawn<'_> {
         let states = ContactStates::of(solution);
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
         let signs = signs(&solution.pattern);
-        let mut lines: Vec<String> =
-            solution.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode)).collect();
+        let mut lines: Vec<String> = joint_modes(&solution.joints).collect();
         lines.push(solution.attainability.in_words());
         lines.extend(pins(solution, self.mechanism));
         lines.extend(scale_of_play(&scene));
@@ -465,6 +510,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     let words = [
         (Class::Reaction, format!("normal reaction on {forces_on}")),
         (Class::Friction, format!("friction on {forces_on}")),
+        (Class::ContactForce, format!("force on {forces_on}, within its friction cone")),
         (Class::PinForce, "force of a pin, tangent to its friction circle".to_owned()),
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),

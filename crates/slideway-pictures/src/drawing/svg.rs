@@ -165,6 +165,10 @@ pub fn class_name(class: Class) -> &'static str {
         Class::FrictionCircle => "s-friction-circle",
         Class::PinForce => "s-pin-force",
         Class::ActionLine => "s-action-line",
+        Class::Cone => "s-cone",
+        Class::Overlap => "s-overlap",
+        Class::ContactForce => "s-contact-force",
+        Class::PushLine => "s-push-line",
         Class::Load => "s-load",
         Class::Break => "s-break",
         Class::Drive => "s-drive",
@@ -255,6 +259,7 @@ pub fn rules(colour: &Colour) -> String {
         (".s-reaction", reaction),
         (".s-friction", friction),
         (".s-pin-force", reaction),
+        (".s-contact-force", reaction),
         (".s-load", load),
         (".s-drive", load),
         (".s-velocity", velocity),
@@ -263,6 +268,12 @@ pub fn rules(colour: &Colour) -> String {
     }
     rule(".s-friction-circle", format!("fill: none; {}", pen(friction, 1.4)));
     rule(".s-action-line", format!("fill: none; stroke-dasharray: 9 3 2 3; {}", pen(reaction, 1.0)));
+    rule(".s-push-line", format!("fill: none; stroke-dasharray: 9 3 2 3; {}", pen(load, 1.4)));
+    rule(".s-cone", format!("fill: {friction}; fill-opacity: 0.14; stroke: {friction}; stroke-width: 0.7;"));
+    rule(
+        ".s-overlap",
+        format!("fill: {friction}; fill-opacity: 0.3; stroke: {friction}; stroke-width: 1.2;"),
+    );
     rule(".s-break", format!("fill: none; {}", pen(load, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));

@@ -9,6 +9,7 @@ mod drawing;
 mod random_mechanisms;
 
 mod gallery;
+mod jam;
 mod looks;
 mod random;
 mod raster;

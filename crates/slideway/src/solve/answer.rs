@@ -432,13 +432,7 @@ impl<'a> Answer<'a> {
     }
 
     pub(super) fn joint_modes(&self, signs: &[i8]) -> Vec<report::JointMode> {
-        let one = |(joint, slider): (JointId, &Slider)| {
-            let tangent = self.configuration.slide(self.mechanism, slider).tangent;
-            let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-            let mode = joint_mode_in_words(self.mechanism, slider, tangent, &signs);
-            report::JointMode { name: self.mechanism.joints[joint.index()].name.to_string(), mode }
-        };
-        self.sliders().map(one).collect()
+        joint_modes(self.mechanism, self.configuration, signs)
     }
 
     fn hinges(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Vec<report::Hinge> {
@@ -599,4 +593,20 @@ fn pattern_summary(outcomes: &PatternOutcomes, rejected: u64) -> report::Pattern
         rejected,
         gap_patterns: outcomes.gap_counts.total(),
     }
+}
+
+/// The contact mode of each sliding joint, by the signs of all normal forces.
+pub(super) fn joint_modes(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    signs: &[i8],
+) -> Vec<report::JointMode> {
+    let one = |joint: &crate::mechanism::Joint| {
+        let JointKind::Slider(slider) = &joint.kind else { return None };
+        let tangent = configuration.slide(mechanism, slider).tangent;
+        let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
+        let mode = joint_mode_in_words(mechanism, slider, tangent, &signs);
+        Some(report::JointMode { name: joint.name.to_string(), mode })
+    };
+    mechanism.joints.iter().filter_map(one).collect()
 }

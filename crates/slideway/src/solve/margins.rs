@@ -145,6 +145,18 @@ fn common_coefficient(mechanism: &Mechanism) -> Option<f64> {
     coefficients.all(|mu| mu == first).then_some(first)
 }
 
+/// Of a mechanism without solution: the mode that locks last as all friction grows to the present one, and at what part
+/// of it; none if none locks, or past the limit of work.
+pub(super) fn locking_mode(data: ProblemData<'_>) -> Option<(Vec<ContactState>, f64)> {
+    let falling = Growth::over(FALLING, data, &|_| true)?;
+    let ends = falling.existence.modes.into_iter().flat_map(|mode| {
+        let ModeInterval { pattern, from, to } = mode;
+        [(pattern.clone(), from), (pattern, to)]
+    });
+    let locking = ends.filter(|(_, end)| end.cause == EndCause::Singular);
+    locking.map(|(pattern, end)| (pattern, end.at)).max_by(|one, other| one.1.total_cmp(&other.1))
+}
+
 /// The contact whose friction alone changes the number of solutions at the smallest factor.
 fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
     let contacts = data.mechanism.contacts.iter().enumerate();

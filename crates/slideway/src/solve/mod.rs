@@ -28,6 +28,7 @@ mod found;
 mod friction;
 mod from_rest;
 mod hinges;
+mod locking;
 mod margins;
 mod mode_problem;
 mod no_sliding;
@@ -48,6 +49,7 @@ pub(crate) use hinges::{
     block_instance, directions, factors_with_one_solution, friction_of_contacts, locking_factor,
     turning_hinges, unknowns_of,
 };
+pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
 pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,

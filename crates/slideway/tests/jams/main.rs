@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
 mod drawer;
+mod locking;
 mod wedging;
 
 use slideway::gallery;

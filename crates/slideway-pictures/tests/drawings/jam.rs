@@ -1,0 +1,99 @@
+//! Why a mechanism jams: what its drawing shows, and says.
+
+use crate::Case;
+use slideway::model::Settings;
+use slideway_pictures::drawing::{Class, Point, Shape, Sheet, Shown, sheet};
+
+fn drawn(name: &str, parameters: &[(&str, &str)]) -> Sheet {
+    let settings =
+        parameters.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    let case = Case::new(slideway::gallery::find(name).unwrap().text, &settings);
+    sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap()
+}
+
+fn shapes(sheet: &Sheet, class: Class) -> Vec<&Shape> {
+    let elements = sheet.scene.elements.iter().filter(|element| element.class == class);
+    elements.map(|element| &element.shape).collect()
+}
+
+fn areas(sheet: &Sheet, class: Class) -> Vec<&[Point]> {
+    let areas = shapes(sheet, class).into_iter().filter_map(|shape| match shape {
+        Shape::Area(corners) => Some(corners.as_slice()),
+        _ => None,
+    });
+    areas.collect()
+}
+
+/// Whether a place lies within a convex polygon: on one side of all its edges.
+fn lies_in(place: Point, corners: &[Point]) -> bool {
+    let side = |index: usize| {
+        let [from, to] = [corners[index], corners[(index + 1) % corners.len()]];
+        (to - from).perp(&(place - from))
+    };
+    let sides: Vec<f64> = (0..corners.len()).map(side).collect();
+    sides.iter().all(|side| *side >= -1e-6) || sides.iter().all(|side| *side <= 1e-6)
+}
+
+/// The angle of a cone at its apex is that of friction, and the three forces meet in one place within both cones: then,
+/// and only then, are they a balance, whatever their size.
+#[test]
+fn the_push_meets_both_reactions_within_both_cones() {
+    for (name, mu, parameters) in [
+        ("drawer", 0.7, vec![("mu", "0.7")]),
+        ("drawer", 2.0, vec![("mu", "2")]),
+        ("drawer", 0.7, vec![("mu", "0.7"), ("h", "0.1 m")]),
+        ("cam-follower", 0.9, vec![("mu", "0.9"), ("d", "0")]),
+    ] {
+        let sheet = drawn(name, &parameters);
+        let cones = areas(&sheet, Class::Cone);
+        let [overlap] = areas(&sheet, Class::Overlap)[..] else { panic!("{name}: an overlap") };
+        assert_eq!(cones.len(), 2, "{name}");
+        let lines: Vec<[Point; 2]> = shapes(&sheet, Class::ActionLine)
+            .into_iter()
+            .map(|shape| match shape {
+                Shape::Line(places) => [places[0], places[1]],
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        let meeting = lines[0][1];
+        for (cone, line) in cones.iter().zip(&lines) {
+            let [one, other] = [cone[1] - cone[0], cone[2] - cone[0]];
+            assert!((0.5 * one.angle(&other) - f64::atan(mu)).abs() < 1e-6, "{name}");
+            assert_eq!(*line, [cone[0], meeting]);
+            assert!(lies_in(meeting, cone) && overlap.iter().all(|corner| lies_in(*corner, cone)), "{name}");
+        }
+        let [Shape::Line(push)] = shapes(&sheet, Class::PushLine)[..] else { panic!("{name}: the push") };
+        assert!((push[1] - push[0]).normalize().perp(&(meeting - push[0])).abs() < 1e-6, "{name}");
+        assert!(lies_in(meeting, overlap), "{name}");
+        let said = "overlap of both friction cones: however hard it pushes, friction holds it.";
+        assert!(sheet.description.contains(said), "{}", sheet.description);
+    }
+}
+
+/// Bodies that are joined are pushed through their joints: each force stands in its own cone.
+#[test]
+fn other_mechanisms_have_each_force_in_its_cone() {
+    let sheet = drawn("klepp-2002", &[("F_20", "0"), ("direction", "-1")]);
+    assert!(areas(&sheet, Class::Overlap).is_empty());
+    let arrows = shapes(&sheet, Class::ContactForce);
+    let cones = areas(&sheet, Class::Cone);
+    assert_eq!((cones.len(), arrows.len()), (3, 4), "the fourth arrow is that of the key");
+    for (cone, arrow) in cones.iter().zip(arrows) {
+        let Shape::Arrow { from, to } = arrow else { panic!("{arrow:?}") };
+        assert_eq!(*to, cone[0]);
+        let [one, other] = [1, 2].map(|corner| (cone[corner] - cone[0]).perp(&(from - cone[0])));
+        assert!(one * other <= 0.0, "{from} lies between the edges of {cone:?}");
+    }
+    assert!(sheet.description.contains("Friction itself presses these contacts together: at 0.8816 times"));
+}
+
+/// What moves has no such picture, nor what only tips; and the verdict stands on the sheet once.
+#[test]
+fn only_what_friction_locks_has_the_picture() {
+    assert!(!drawn("drawer", &[]).description.contains("Why it jams"));
+    let tips =
+        Case::new(include_str!("../../../../docs/src/examples/guided-tips.toml"), &Settings::default());
+    let sheet = sheet(&tips.mechanism, &tips.configuration, tips.report.as_ref(), Shown::All).unwrap();
+    assert!(!sheet.description.contains("Why it jams"));
+    assert_eq!(drawn("drawer", &[("mu", "0.7")]).description.matches("No solution").count(), 1);
+}
