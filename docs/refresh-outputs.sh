@@ -8,6 +8,8 @@
 #
 #   ```console exit=1                 begins with a command, `$ slideway ...`; what it prints follows. It must end with
 #                                     this exit code (0 if none is given), or the script stops.
+#   ```console paragraphs=2           shows the first two paragraphs of what is printed, and `...` for the others.
+#   ```console once                   of a help, names the options that an earlier block of the page shows with the same words.
 #   ```toml file=docs/src/examples/engine.toml        shows the file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,16 +29,56 @@ fault() {
     exit 1
 }
 
+# first N: the first N paragraphs of standard input.
+first() {
+    awk -v n="$1" 'BEGIN { RS = "" } NR <= n { print (NR > 1 ? "\n" : "") $0 } END { if (NR > n) print "..." }'
+}
+
+# once: standard input without the options that are in $scratch/options, to which it adds the others.
+once() {
+    awk -v known="$scratch/options" '
+        function flush() {
+            if (option == "") return
+            if (option in seen) {
+                match(option, /--[a-z-]+/)
+                named = named (named == "" ? "" : ", ") substr(option, RSTART, RLENGTH)
+            } else {
+                printf "%s", option
+                gsub(/\n/, "\001", option)
+                print option >known
+            }
+            option = ""
+        }
+        BEGIN {
+            while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] }
+            close(known)
+            for (line in seen) { shown = line; gsub(/\n/, "\001", shown); print shown >known }
+        }
+        /^(  -[a-zA-Z], |      )--/ { flush(); option = $0 "\n"; next }
+        /^[^ ]/ {
+            flush()
+            if (named != "") print "  as above: " named "\n"
+            named = ""
+        }
+        option != "" { option = option $0 "\n"; next }
+        { print }
+        END { flush(); if (named != "") print "  as above: " named }'
+}
+
 # show FENCE COMMAND: the command and its output.
 show() {
-    local expected=${1#*exit=} code=0 printed
-    [ "$expected" != "$1" ] || expected=0
+    local expected=0 code=0 printed
+    [[ $1 != *exit=* ]] || expected=${1#*exit=} expected=${expected%% *}
     case $2 in
         '$ slideway '*) ;;
         *) fault "a console block begins with '\$ slideway', not with: $2" ;;
     esac
     printed=$(cd "$scratch/run" && eval "${2#\$ }" </dev/null 2>&1) || code=$?
     [ "$code" -eq "$expected" ] || fault "$2: exit code $code, expected $expected; printed: $printed"
+    case $1 in
+        *paragraphs=*) printed=$(first "${1#*paragraphs=}" <<<"$printed") ;;
+        *once*) printed=$(once <<<"$printed") ;;
+    esac
     printf '%s\n%s\n' "$2" "$printed"
 }
 
@@ -60,6 +102,7 @@ rewrite() {
 }
 
 for page in "$@"; do
+    : >"$scratch/options"
     rewrite <"$page" >"$scratch/page"
     cmp -s "$scratch/page" "$page" || cat "$scratch/page" >"$page"
 done
