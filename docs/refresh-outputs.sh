@@ -8,7 +8,8 @@
 #
 #   ```console exit=1                 begins with a command, `$ slideway ...`; what it prints follows. It must end with
 #                                     this exit code (0 if none is given), or the script stops.
-#   ```console paragraphs=2           shows the first two paragraphs of what is printed, and `...` for the others.
+#   ```console paragraphs=2           shows the first two paragraphs of what is printed, and `...` for the others;
+#   ```console lines=9                the first nine lines.
 #   ```console once                   of a help, names the options that an earlier block of the page shows with the same words.
 #   ```toml file=docs/src/examples/engine.toml        shows the file.
 set -euo pipefail
@@ -29,9 +30,9 @@ fault() {
     exit 1
 }
 
-# first N: the first N paragraphs of standard input.
+# first N END: the first N parts of standard input, each of which ends with END (nothing: with an empty line).
 first() {
-    awk -v n="$1" 'BEGIN { RS = "" } NR <= n { print (NR > 1 ? "\n" : "") $0 } END { if (NR > n) print "..." }'
+    awk -v n="$1" -v RS="$2" 'NR <= n { print (NR > 1 && RS == "" ? "\n" : "") $0 } END { if (NR > n) print "..." }'
 }
 
 # once: standard input without the options that are in $scratch/options, to which it adds the others.
@@ -76,7 +77,8 @@ show() {
     printed=$(cd "$scratch/run" && eval "${2#\$ }" </dev/null 2>&1) || code=$?
     [ "$code" -eq "$expected" ] || fault "$2: exit code $code, expected $expected; printed: $printed"
     case $1 in
-        *paragraphs=*) printed=$(first "${1#*paragraphs=}" <<<"$printed") ;;
+        *paragraphs=*) printed=$(first "${1#*paragraphs=}" "" <<<"$printed") ;;
+        *lines=*) printed=$(first "${1#*lines=}" $'\n' <<<"$printed") ;;
         *once*) printed=$(once <<<"$printed") ;;
     esac
     printf '%s\n%s\n' "$2" "$printed"

@@ -35,6 +35,7 @@ draw bell-crank.svg models/bell-crank.toml
 draw four-bar.svg models/four-bar.toml
 draw quick-return.svg models/quick-return.toml
 draw over-centre-clamp.svg models/over-centre-clamp.toml
+draw bracket-on-pole.svg models/bracket-on-pole.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
