@@ -10,7 +10,8 @@
 #                                     this exit code (0 if none is given), or the script stops.
 #   ```console paragraphs=2           shows the first two paragraphs of what is printed, and `...` for the others;
 #   ```console lines=9                the first nine lines.
-#   ```console once                   of a help, names the options that an earlier block of the page shows with the same words.
+#   ```console once                   of a help, names the options that an earlier block of the page shows with the same words, and
+#                                     leaves out the examples.
 #   ```toml file=docs/src/examples/engine.toml        shows the file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -35,35 +36,32 @@ first() {
     awk -v n="$1" -v RS="$2" 'NR <= n { print (NR > 1 && RS == "" ? "\n" : "") $0 } END { if (NR > n) print "..." }'
 }
 
-# once: standard input without the options that are in $scratch/options, to which it adds the others.
+# once: a help on standard input without its examples, and without the options that are in $scratch/options, to which it adds the others.
 once() {
     awk -v known="$scratch/options" '
-        function flush() {
-            if (option == "") return
+        function end_option() {
             if (option in seen) {
                 match(option, /--[a-z-]+/)
                 named = named (named == "" ? "" : ", ") substr(option, RSTART, RLENGTH)
-            } else {
+            } else if (option != "") {
                 printf "%s", option
                 gsub(/\n/, "\001", option)
-                print option >known
+                print option >>known
             }
             option = ""
         }
-        BEGIN {
-            while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] }
-            close(known)
-            for (line in seen) { shown = line; gsub(/\n/, "\001", shown); print shown >known }
-        }
-        /^(  -[a-zA-Z], |      )--/ { flush(); option = $0 "\n"; next }
-        /^[^ ]/ {
-            flush()
+        function end_section() {
+            end_option()
             if (named != "") print "  as above: " named "\n"
             named = ""
         }
+        BEGIN { while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] } }
+        /^[^ ]/ { end_section(); left_out = /^Examples:/ }
+        left_out { next }
+        /^(  -[a-zA-Z], |      )--/ { end_option(); option = $0 "\n"; next }
         option != "" { option = option $0 "\n"; next }
         { print }
-        END { flush(); if (named != "") print "  as above: " named }'
+        END { end_section() }'
 }
 
 # show FENCE COMMAND: the command and its output.
