@@ -8,7 +8,8 @@
 #
 #   ```console exit=1                 begins with a command, `$ slideway ...`; what it prints follows. It must end with
 #                                     this exit code (0 if none is given), or the script stops.
-#   ```console paragraphs=2           shows the first two paragraphs of what is printed, and `...` for the others;
+#   ```console answer                 shows the second paragraph of what is printed, which has the answer, and `...` for the others;
+#   ```console paragraphs=2           the first two paragraphs;
 #   ```console lines=9                the first nine lines.
 #   ```console once                   of a help, names the options that an earlier block of the page shows with the same words, and
 #                                     leaves out the examples.
@@ -31,9 +32,11 @@ fault() {
     exit 1
 }
 
-# first N END: the first N parts of standard input, each of which ends with END (nothing: with an empty line).
-first() {
-    awk -v n="$1" -v RS="$2" 'NR <= n { print (NR > 1 && RS == "" ? "\n" : "") $0 } END { if (NR > n) print "..." }'
+# part FROM TO END: of standard input the parts FROM to TO, each of which ends with END (nothing: with an empty line).
+part() {
+    awk -v from="$1" -v to="$2" -v RS="$3" '
+        NR >= from && NR <= to { print (NR > from && RS == "" ? "\n" : "") $0 }
+        END { if (NR > to) print "..." }'
 }
 
 # once: a help on standard input without its examples, and without the options that are in $scratch/options, to which it adds the others.
@@ -75,8 +78,9 @@ show() {
     printed=$(cd "$scratch/run" && eval "${2#\$ }" </dev/null 2>&1) || code=$?
     [ "$code" -eq "$expected" ] || fault "$2: exit code $code, expected $expected; printed: $printed"
     case $1 in
-        *paragraphs=*) printed=$(first "${1#*paragraphs=}" "" <<<"$printed") ;;
-        *lines=*) printed=$(first "${1#*lines=}" $'\n' <<<"$printed") ;;
+        *answer*) printed=$(part 2 2 "" <<<"$printed") ;;
+        *paragraphs=*) printed=$(part 1 "${1#*paragraphs=}" "" <<<"$printed") ;;
+        *lines=*) printed=$(part 1 "${1#*lines=}" $'\n' <<<"$printed") ;;
         *once*) printed=$(once <<<"$printed") ;;
     esac
     printf '%s\n%s\n' "$2" "$printed"
