@@ -39,12 +39,13 @@ part() {
         END { if (NR > to) print "..." }'
 }
 
-# once: a help on standard input without its examples, and without the options that are in $scratch/options, to which it adds the others.
+# once: a help on standard input without its examples, and without the arguments and options that are in $scratch/options, to
+# which it adds the others.
 once() {
     awk -v known="$scratch/options" '
         function end_option() {
             if (option in seen) {
-                match(option, /--[a-z-]+/)
+                match(option, /--[a-z-]+|[<[][A-Z]+[]>]/)
                 named = named (named == "" ? "" : ", ") substr(option, RSTART, RLENGTH)
             } else if (option != "") {
                 printf "%s", option
@@ -61,7 +62,7 @@ once() {
         BEGIN { while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] } }
         /^[^ ]/ { end_section(); left_out = /^Examples:/ }
         left_out { next }
-        /^(  -[a-zA-Z], |      )--/ { end_option(); option = $0 "\n"; next }
+        /^(  -[a-zA-Z], |      )--|^  [<[]/ { end_option(); option = $0 "\n"; next }
         option != "" { option = option $0 "\n"; next }
         { print }
         END { end_section() }'
