@@ -84,6 +84,7 @@ show() {
         *lines=*) printed=$(part 1 "${1#*lines=}" $'\n' <<<"$printed") ;;
         *once*) printed=$(once <<<"$printed") ;;
     esac
+    [ -n "$printed" ] || fault "$2: nothing of what is printed is shown"
     printf '%s\n%s\n' "$2" "$printed"
 }
 
