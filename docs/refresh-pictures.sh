@@ -4,7 +4,7 @@
 #   cargo build --release && docs/refresh-pictures.sh
 #
 # SLIDEWAY=path runs another binary. The same program makes the same bytes. Look at each picture that changes before
-# committing it.
+# committing it. (page.png alone is taken of the page in the browser, by `node web/tools/picture.js`.)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 slideway=${SLIDEWAY:-target/release/slideway}
