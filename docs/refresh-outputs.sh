@@ -8,6 +8,11 @@
 #
 #   ```console exit=1                 begins with a command, `$ slideway ...`; what it prints follows. It must end with
 #                                     this exit code (0 if none is given), or the script stops.
+#   ```console answer                 shows the second paragraph of what is printed, which has the answer, and `...` for the others;
+#   ```console paragraphs=2           the first two paragraphs;
+#   ```console lines=9                the first nine lines.
+#   ```console once                   of a help, names the options that an earlier block of the page shows with the same words, and
+#                                     leaves out the examples.
 #   ```toml file=docs/src/examples/engine.toml        shows the file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,16 +32,59 @@ fault() {
     exit 1
 }
 
+# part FROM TO END: of standard input the parts FROM to TO, each of which ends with END (nothing: with an empty line).
+part() {
+    awk -v from="$1" -v to="$2" -v RS="$3" '
+        NR >= from && NR <= to { print (NR > from && RS == "" ? "\n" : "") $0 }
+        END { if (NR > to) print "..." }'
+}
+
+# once: a help on standard input without its examples, and without the arguments and options that are in $scratch/options, to
+# which it adds the others.
+once() {
+    awk -v known="$scratch/options" '
+        function end_option() {
+            if (option in seen) {
+                match(option, /--[a-z-]+|[<[][A-Z]+[]>]/)
+                named = named (named == "" ? "" : ", ") substr(option, RSTART, RLENGTH)
+            } else if (option != "") {
+                printf "%s", option
+                gsub(/\n/, "\001", option)
+                print option >>known
+            }
+            option = ""
+        }
+        function end_section() {
+            end_option()
+            if (named != "") print "  as above: " named "\n"
+            named = ""
+        }
+        BEGIN { while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] } }
+        /^[^ ]/ { end_section(); left_out = /^Examples:/ }
+        left_out { next }
+        /^(  -[a-zA-Z], |      )--|^  [<[]/ { end_option(); option = $0 "\n"; next }
+        option != "" { option = option $0 "\n"; next }
+        { print }
+        END { end_section() }'
+}
+
 # show FENCE COMMAND: the command and its output.
 show() {
-    local expected=${1#*exit=} code=0 printed
-    [ "$expected" != "$1" ] || expected=0
+    local expected=0 code=0 printed
+    [[ $1 != *exit=* ]] || expected=${1#*exit=} expected=${expected%% *}
     case $2 in
         '$ slideway '*) ;;
         *) fault "a console block begins with '\$ slideway', not with: $2" ;;
     esac
     printed=$(cd "$scratch/run" && eval "${2#\$ }" </dev/null 2>&1) || code=$?
     [ "$code" -eq "$expected" ] || fault "$2: exit code $code, expected $expected; printed: $printed"
+    case $1 in
+        *answer*) printed=$(part 2 2 "" <<<"$printed") ;;
+        *paragraphs=*) printed=$(part 1 "${1#*paragraphs=}" "" <<<"$printed") ;;
+        *lines=*) printed=$(part 1 "${1#*lines=}" $'\n' <<<"$printed") ;;
+        *once*) printed=$(once <<<"$printed") ;;
+    esac
+    [ -n "$printed" ] || fault "$2: nothing of what is printed is shown"
     printf '%s\n%s\n' "$2" "$printed"
 }
 
@@ -60,6 +108,7 @@ rewrite() {
 }
 
 for page in "$@"; do
+    : >"$scratch/options"
     rewrite <"$page" >"$scratch/page"
     cmp -s "$scratch/page" "$page" || cat "$scratch/page" >"$page"
 done

@@ -4,7 +4,7 @@
 #   cargo build --release && docs/refresh-pictures.sh
 #
 # SLIDEWAY=path runs another binary. The same program makes the same bytes. Look at each picture that changes before
-# committing it.
+# committing it. (page.png alone is taken of the page in the browser, by `node web/tools/picture.js`.)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 slideway=${SLIDEWAY:-target/release/slideway}
@@ -36,6 +36,7 @@ draw bell-crank.svg models/bell-crank.toml
 draw four-bar.svg models/four-bar.toml
 draw quick-return.svg models/quick-return.toml
 draw over-centre-clamp.svg models/over-centre-clamp.toml
+draw bracket-on-pole.svg models/bracket-on-pole.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.

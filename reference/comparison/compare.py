@@ -127,7 +127,7 @@ def main():
     compile_rivals(folder)
     program = build_slideway()
     quick = arguments.quick
-    default = folder / "quick.md" if quick or arguments.families else ROOT / "docs" / "src" / "comparison-results.md"
+    default = folder / "quick.md" if quick or arguments.families else ROOT / "reference" / "comparison" / "tables.md"
     options = {
         "--folder": folder,
         "--slideway": program,

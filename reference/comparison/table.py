@@ -139,7 +139,7 @@ def markdown(data, families):
 
 # Tables of the comparison
 
-How long each code took; [Comparison with other codes](comparison.md) says what is compared, and how.
+How long each code took; [Comparison with other codes](../../docs/src/comparison.md) says what is compared, and how.
 
 ## The machine
 

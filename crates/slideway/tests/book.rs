@@ -103,7 +103,8 @@ fn constants(page: &str) -> Vec<[&str; 3]> {
 #[test]
 fn tolerances_of_the_book_are_those_of_the_sources() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let page = fs::read_to_string(top.join("docs/src/tolerances.md")).unwrap();
+    let pages = ["docs/src/tolerances.md", "docs/decisions/effort-of-the-search.md"];
+    let page = pages.map(|page| fs::read_to_string(top.join(page)).unwrap()).concat();
     let constants = constants(&page);
     assert!(constants.len() > 50, "the page has tables");
     for [module, name, value] in constants {
