@@ -2,7 +2,6 @@
 //! contacts, directions of the forces of hinges (theory of hinges, section 9).
 
 use super::directions::{directions, most_directions};
-use super::release::really_beginning;
 use super::rest::{Over, possible, static_friction};
 use super::setup::Setup;
 use super::state::{Pattern, State, StateQuestion, StaticFriction, side_options, sides};
@@ -29,7 +28,8 @@ pub(crate) struct MotionState {
 const QUESTION: StateQuestion = StateQuestion { moving: true, factor: Some(0.0), wedged: false };
 
 /// All such states; with them the number of patterns that were not decided. Bounds of friction in what sticks beside hinges
-/// that turn are left to [`whole_slack`].
+/// that turn are left to [`whole_slack`]. What begins to move may do so without an acceleration yet, at the threshold of
+/// its friction: whether it really begins shows in what follows.
 ///
 /// # Errors
 /// More states than are tried.
@@ -75,7 +75,6 @@ fn sides_within(setup: &Setup, motions: &DMatrix<f64>) -> Result<Vec<Vec<Contact
 fn state_of(setup: &Setup, pattern: &Pattern) -> Result<Option<MotionState>, Unsolved> {
     let Some(state) = State::new(setup, pattern, QUESTION) else { return Ok(None) };
     let Some(region) = possible(state.region(&static_friction(setup)))? else { return Ok(None) };
-    let Some(region) = really_beginning(&state, region)? else { return Ok(None) };
     let (_, point) = region.highest()?;
     let at = |function: &AffineExpression| state.function(function).at(&point);
     let push = |(slider, push): (usize, Option<AffineExpression>)| {

@@ -138,7 +138,7 @@ fn really_slipping(setup: &Setup, state: &State<'_>, region: Region) -> Result<O
 }
 
 /// The region, unless a joint that should begin to move does not accelerate anywhere in it.
-pub(super) fn really_beginning(state: &State<'_>, region: Region) -> Result<Option<Region>, Unsolved> {
+fn really_beginning(state: &State<'_>, region: Region) -> Result<Option<Region>, Unsolved> {
     for acceleration in &state.beginning() {
         let [_, greatest] = region.extent(&state.function(acceleration))?;
         if greatest.is_some_and(|greatest| greatest <= TOLERANCE) {

@@ -69,7 +69,6 @@ fn a_cart_breaks_away_beside_a_rough_pin() {
 
 /// The cart is pushed until it slides, and the body then turns.
 #[test]
-#[ignore = "no continuation is found at the threshold of what rests beside a rough pin at rest"]
 fn a_cart_that_is_pushed_breaks_away_beside_a_rough_pin_at_rest() {
     compare("pushed", PUSHED, &[("F", "6 N/s")]);
 }

@@ -8,6 +8,7 @@ mod closed_forms;
 mod dead_centre;
 mod from_rest;
 mod gallery;
+mod gaps;
 mod limits;
 mod margins;
 mod motion;

@@ -12,12 +12,13 @@ use crate::fault::Faults;
 use crate::ids::ContactId;
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::Mechanism;
+use crate::modes::Side;
 use crate::motion::moving::amounts::Amounts;
 use crate::motion::moving::equations::Equations;
 use crate::motion::moving::switching::Switching;
 use crate::motion::moving::watch::{Watch, Watched};
 use crate::pattern::phase::sliding_joints;
-use crate::pattern::{HingePhase, JointPhase, Phase, direction};
+use crate::pattern::{ContactPhase, HingePhase, JointPhase, Phase, direction};
 use crate::report::Verdict;
 use crate::standstill::{MotionState, Pattern, Setup, motion_states, sticking_slack};
 use nalgebra::DVector;
@@ -152,8 +153,8 @@ impl Candidate {
             hinge.force = equations.hinge_force(index)?;
         }
         let accelerations = equations.accelerations().to_vec();
-        let smooth = frictionless(event.mechanism);
-        let without_friction = entered(&smooth, event.configuration, &phase)?.determinant();
+        let (smooth, pressed) = (frictionless(event.mechanism), without_gaps(&phase));
+        let without_friction = entered(&smooth, event.configuration, &pressed)?.determinant();
         let orientation = equations.determinant().sign() * without_friction.sign();
         Some(Self { phase, accelerations, orientation, continues: false })
     }
@@ -199,6 +200,11 @@ pub(super) fn frictionless(mechanism: &Mechanism) -> Mechanism {
     }
     smooth.friction_circles.iter_mut().for_each(|circle| circle.radius = 0.0);
     smooth
+}
+
+/// A phase of a mechanism without friction: no preload leaves a gap there, and no side matters.
+fn without_gaps(phase: &Phase) -> Phase {
+    Phase { contacts: vec![ContactPhase::Pressed(Side::Positive); phase.contacts.len()], ..phase.clone() }
 }
 
 /// The equations of a phase at an instant, if they have a solution.
