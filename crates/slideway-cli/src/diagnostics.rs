@@ -2,6 +2,7 @@
 //!
 //! They tell of names and texts from elsewhere. All of them become printable here, before colours come in.
 
+use crate::columns::wrapped;
 use crate::faulty_input::FaultyInput;
 use annotate_snippets::{
     Annotation, AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet, Title,
@@ -11,10 +12,16 @@ use slideway::model::SettingKind;
 use slideway::printable;
 use slideway::raw_problem::{RawFault, RawFaults};
 use std::borrow::Cow;
+use std::io;
 use std::ops::Range;
+use terminal_size::{Width, terminal_size_of};
 
 /// At most so many faults are shown in full.
 const SHOWN: usize = 50;
+/// Columns before a message: `warning: `.
+const TITLE: usize = 9;
+/// Columns before a hint: ` = help: ` behind the number of a line.
+const HINT: usize = 12;
 /// How the texts of arguments are called.
 const COMMAND_LINE: &str = "command line";
 
@@ -35,12 +42,23 @@ pub(crate) fn note(note: &Note) -> String {
 
 /// What is wrong.
 fn title(level: Level<'static>, message: &str) -> Title<'static> {
-    level.primary_title(printable::line(message).into_owned())
+    level.primary_title(on_screen(message, TITLE))
 }
 
 /// What to do about it.
 fn help(hint: &str) -> Message<'static> {
-    Level::HELP.message(printable::line(hint).into_owned())
+    Level::HELP.message(on_screen(hint, HINT))
+}
+
+/// A text on one line or, on a terminal, on as many as fit beside so many columns before it.
+fn on_screen(text: &str, before: usize) -> String {
+    let text = printable::line(text);
+    match terminal_size_of(io::stderr()) {
+        Some((Width(columns), _)) if columns > 0 => {
+            wrapped(&text, usize::from(columns).saturating_sub(before)).join("\n")
+        }
+        _ => text.into_owned(),
+    }
 }
 
 /// Where it is.

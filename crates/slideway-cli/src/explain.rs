@@ -53,8 +53,10 @@ fn with_all_names(error: &clap::Error) -> Option<String> {
     let (message, hint, all) = match error.kind() {
         ErrorKind::InvalidSubcommand => {
             let name = quoted(ContextKind::InvalidSubcommand)?;
-            let commands: Vec<&Command> = command.get_subcommands().filter(|one| !one.is_hide_set()).collect();
-            let hint = meant(nearest(&name, commands.iter().map(|one| one.get_name())), "slideway help questions");
+            let commands: Vec<&Command> =
+                command.get_subcommands().filter(|one| !one.is_hide_set()).collect();
+            let hint =
+                meant(nearest(&name, commands.iter().map(|one| one.get_name())), "slideway help questions");
             let all = commands.iter().map(|one| row(one.get_name(), one.get_about())).collect();
             (format!("there is no command `{name}`"), hint, all)
         }
@@ -63,7 +65,8 @@ fn with_all_names(error: &clap::Error) -> Option<String> {
             let options: Vec<&Arg> = command.get_arguments().filter(|one| is_dimension(one)).collect();
             let bare = name.trim_start_matches('-').to_owned();
             let near = nearest(&bare, options.iter().filter_map(|one| one.get_long()));
-            let hint = meant(near.map(|near| format!("--{near}")), &format!("slideway new {} --help", path[1]));
+            let hint =
+                meant(near.map(|near| format!("--{near}")), &format!("slideway new {} --help", path[1]));
             let long = |one: &Arg| format!("--{}", one.get_long().unwrap_or_default());
             let all = options.iter().map(|one| row(&long(one), one.get_help())).collect();
             (format!("the template {} has no `{name}`", path[1]), hint, all)

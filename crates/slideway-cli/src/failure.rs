@@ -313,7 +313,9 @@ impl Failure {
                 TEMPLATES.iter().map(|one| (one.name.to_owned(), one.summary().to_owned())).collect()
             }
             Self::NothingVaried { variables, .. } => {
-                let meaning = |name: &str| if name == FRICTION { ", the factor on all coefficients of friction" } else { "" };
+                let meaning = |name: &str| {
+                    if name == FRICTION { ", the factor on all coefficients of friction" } else { "" }
+                };
                 let one = |one: &Variable| (one.name.clone(), format!("{}{}", one.value, meaning(&one.name)));
                 variables.iter().map(one).collect()
             }

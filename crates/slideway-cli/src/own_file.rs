@@ -60,7 +60,8 @@ impl Document {
 /// NAME with this ending, NAME-2, NAME-3 and so on: the first that does not exist. The name is that of the model, the
 /// folder the present one.
 pub(crate) fn free_name(model: &Path, ending: &str, overwrite: bool) -> PathBuf {
-    let stem = model.file_stem().and_then(|stem| stem.to_str()).filter(|stem| *stem != "-").unwrap_or("model");
+    let stem =
+        model.file_stem().and_then(|stem| stem.to_str()).filter(|stem| *stem != "-").unwrap_or("model");
     let first = PathBuf::from(format!("{stem}{ending}"));
     if overwrite || !first.exists() {
         return first;

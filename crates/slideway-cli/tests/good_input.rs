@@ -6,6 +6,8 @@ mod command;
 
 use command::{command, slideway, slideway_reading, top};
 use serde_json::Value;
+use slideway::gallery::MODELS;
+use slideway::template::TEMPLATES;
 use std::process::Stdio;
 
 const KLEPP: &str = "models/klepp-2002.toml";
@@ -353,4 +355,61 @@ fn an_imported_model_is_to_be_completed() {
     assert_eq!((model.code, model.stdout.as_str()), (2, ""));
     assert!(model.stderr.contains("line 1 should be a group code"), "{}", model.stderr);
     assert_eq!(slideway(&["check", "docs/src/examples/bracket.toml"]).code, 0);
+}
+
+/// At 80 columns no line of any help is longer, and its examples and remarks are laid out for that.
+#[test]
+fn helps_fit_eighty_columns() {
+    let help = |words: &[&str], columns: &str| {
+        let output = command(words).env("COLUMNS", columns).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let top = help(&["--help"], "80");
+    let commands = top.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let names = commands.take_while(|line| !line.is_empty()).filter(|line| !line.starts_with("    "));
+    let mut all: Vec<Vec<&str>> = vec![vec![]];
+    all.extend(names.filter_map(|line| line.split_whitespace().next()).map(|name| vec![name]));
+    all.extend(TEMPLATES.iter().map(|template| vec!["new", template.name]));
+    assert!(all.len() > 25, "{all:?}");
+    for words in all {
+        let of = |option: &'static str, columns| match words.as_slice() {
+            ["help" | "questions"] => help(&["help", "questions"], columns),
+            words => help(&[words, &[option]].concat(), columns),
+        };
+        for text in [of("--help", "80"), of("-h", "80")] {
+            let longest = text.lines().max_by_key(|line| line.chars().count()).unwrap_or_default();
+            assert!(longest.chars().count() <= 80, "{words:?}: {longest}");
+            assert!(!text.is_empty(), "{words:?}");
+        }
+        let remarks = |text: &str| text.find("\nExamples:").map(|at| text[at..].to_owned());
+        assert_eq!(remarks(&of("--help", "80")), remarks(&of("--help", "100")), "{words:?}");
+    }
+}
+
+/// What others call the same is understood.
+#[test]
+fn other_words_for_a_command_are_understood() {
+    for (one, other) in [("hold", "rest"), ("hold", "standstill"), ("drive", "effort"), ("modes", "matrices")]
+    {
+        let help = |name: &str| slideway(&[name, "-h"]).stdout;
+        assert_eq!(help(one), help(other));
+        assert!(!help(one).is_empty());
+    }
+}
+
+/// One line for each model of the gallery, each with its own name; with `--verbose` what each shows, too.
+#[test]
+fn the_gallery_is_a_line_a_model() {
+    let output = command(&["models"]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
+    assert_eq!(lines.len(), MODELS.len());
+    for (line, model) in lines.iter().zip(MODELS) {
+        assert!(line.starts_with(&format!("{} ", model.name)) && line.chars().count() <= 100, "{line}");
+        let begins = line[model.name.len()..].trim().trim_end_matches(" ...");
+        assert!(model.summary().starts_with(begins) && begins.split(' ').count() > 1, "{line}");
+    }
+    let long = slideway(&["models", "--verbose"]).stdout;
+    let one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(MODELS.iter().all(|model| one_line(&long).contains(&one_line(&model.shows()))));
 }

@@ -281,28 +281,97 @@ fn files_hold_no_controls_and_json_gives_the_title_back() {
 #[test]
 fn a_new_model_is_asked_for() {
     let folder = Folder::new("new");
-    // A misspelt name, the L of the template, a wrong unit, and the end of the input (Ctrl-D) before mu.
-    let typed = "drawr\ndrawer\n\n300 kg\n300 mm\n\u{4}";
+    folder.write("taken.toml", "mine");
+    // A misspelt name, a number that no template has, the first one; the L of the template, a wrong unit, a number
+    // without one, which is not right, then a right one; an end of the input (Ctrl-D) before mu; a file that is there.
+    let typed = "drawr\n11\n1\n\n300 kg\n30\nn\n300\n\n\u{4}taken\nn\nmine\n";
     let (told, code) = typing(typed, &mut folder.command(&["new"]));
     assert_eq!(code, 0, "{told}");
     let (told, _) = without_styles(&told);
     for says in [
-        "did you mean `drawer`?",
+        " 1  drawer        A drawer, or anything else that is guided over a length and\n",
+        "10  peg           A peg",
+        "Number or name: There is no template `drawr`: did you mean `drawer`?\n",
+        "Number or name: There is no template `11`: type a number from 1 to 10, or a name.\n",
         "L, length over which it is guided [400 mm]: ",
-        "a mass where a length is expected",
-        "a, distance of the push from the middle [150 mm]: ",
-        "mu, friction coefficient of the guide [0.3]: ",
-        "Wrote drawer.toml, as in the template: L = 400 mm, mu = 0.3, width = 0 mm,",
-        "$ slideway drive drawer.toml",
+        "Not possible: a mass where a length is expected.\n",
+        "a, distance of the push from the middle [150 mm]: 30 mm? [Enter: yes] a, distance",
+        "a, distance of the push from the middle [150 mm]: 300 mm? [Enter: yes] mu, ",
+        "mu, friction coefficient of the guide [0.3]: \n",
+        "File [drawer.toml]: taken.toml exists. Overwrite it? [y/N] File [drawer.toml]: ",
+        "Wrote mine.toml, as in the template: L = 400 mm, mu = 0.3, width = 0 mm,",
+        "$ slideway drive mine.toml",
         // P = Q/(1 - 2 mu a/L)
-        "push needs 36.364 N instead of 20 N",
+        "36.36",
     ] {
         assert!(told.contains(says), "{says}: {told}");
     }
-    let text = fs::read_to_string(folder.0.join("drawer.toml")).unwrap();
+    let text = fs::read_to_string(folder.0.join("mine.toml")).unwrap();
     assert!(text.contains("\na = \"300 mm\" ") && text.contains("\nL = \"400 mm\" "), "{text}");
+    assert_eq!(fs::read_to_string(folder.0.join("taken.toml")).unwrap(), "mine");
     // With a value on the command line nothing is asked.
     let (told, code) = on_terminal(&mut folder.command(&["new", "peg", "--mu", "0.1"]));
     assert_eq!(code, 0, "{told}");
     assert!(told.starts_with("Wrote peg.toml, as in the template: h = 60 mm, l = 15 mm,"), "{told}");
+}
+
+/// On a terminal a picture or page would be of no use: it goes into a file, none that exists, and the program of the
+/// system opens it if that is asked for.
+#[test]
+fn pictures_and_pages_name_their_files() {
+    let folder = Folder::new("own-files");
+    folder.write("drawer.toml", &titled("drawer.toml", "A drawer"));
+    // What opens files here says which.
+    folder.write("xdg-open", "#!/bin/sh\nprintf %s \"$1\" > opened\n");
+    fs::set_permissions(folder.0.join("xdg-open"), std::os::unix::fs::PermissionsExt::from_mode(0o755))
+        .unwrap();
+    let told = |arguments: &str| {
+        let (told, code) = on_terminal(folder.command(&words(arguments)).env("PATH", &folder.0));
+        assert_eq!(code, 0, "{arguments}: {told}");
+        told.lines().last().unwrap().rsplit("\u{1b}[K").next().unwrap().to_owned()
+    };
+    let text = |file: &str| fs::read_to_string(folder.0.join(file)).unwrap();
+    assert_eq!(told("draw drawer.toml"), "Wrote drawer.svg.");
+    assert!(text("drawer.svg").starts_with("<svg"));
+    assert_eq!(told("draw drawer.toml --set mu=0.7"), "Wrote drawer-2.svg.");
+    assert_ne!(text("drawer.svg"), text("drawer-2.svg"));
+    assert_eq!(told("draw drawer.toml --set mu=0.7 --force"), "Wrote drawer.svg.");
+    assert_eq!(text("drawer.svg"), text("drawer-2.svg"));
+    assert_eq!(told("map drawer.toml --x mu=0..1 --y a=0..0.5 --size 8x8"), "Wrote drawer-map.svg.");
+    assert!(!folder.0.join("opened").exists());
+    assert_eq!(told("report drawer.toml --open"), "Wrote drawer.html.");
+    assert!(text("drawer.html").contains("</html>"));
+    let opened = || Path::new(&text("opened")).file_name().unwrap().to_owned();
+    if cfg!(target_os = "linux") {
+        assert_eq!(opened(), "drawer.html");
+    }
+    // In a pipe it is written there, unless it is to be opened.
+    let piped = folder.command(&["draw", "drawer.toml"]).output().unwrap();
+    assert!(piped.stdout.starts_with(b"<svg"));
+    let piped = folder.command(&["draw", "drawer.toml", "--open"]).env("PATH", &folder.0).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&piped.stdout), "Wrote drawer-3.svg.\n");
+    if cfg!(target_os = "linux") {
+        assert_eq!(opened(), "drawer-3.svg");
+        // Without such a program it is written all the same.
+        let absent = folder
+            .command(&["draw", "drawer.toml", "--open"])
+            .env("PATH", folder.0.join("nowhere"))
+            .output()
+            .unwrap();
+        assert_eq!(absent.status.code(), Some(2));
+        let complaint = String::from_utf8_lossy(&absent.stderr).into_owned();
+        assert!(complaint.contains("drawer-4.svg` is written, but cannot be opened"), "{complaint}");
+    }
+}
+
+/// What could be asked further stands below an answer that somebody reads.
+#[test]
+fn drive_names_what_it_could_be_tabulated_over() {
+    let folder = Folder::new("drive");
+    folder.write("drawer.toml", &titled("drawer.toml", "A drawer"));
+    let (told, _) = on_terminal(&mut folder.command(&["drive", "drawer.toml"]));
+    let told = without_styles(&told).0;
+    let last = told.trim_end().rsplit("\n\n").next().unwrap().replace('\n', " ");
+    assert!(last.starts_with("Over one of these with `--vary NAME`: L = 0.4 m, a = 0.3 m, "), "{told}");
+    assert!(last.ends_with("x = 0 m, friction = 1."), "{told}");
 }

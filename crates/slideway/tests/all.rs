@@ -19,6 +19,7 @@ mod motion_outcomes;
 mod motion_reference;
 mod motions;
 mod mutations;
+mod ranges;
 mod raw_extremes;
 mod raw_problem;
 mod settings;

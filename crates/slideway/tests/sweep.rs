@@ -398,12 +398,26 @@ fn negative_friction_is_refused_point_by_point() {
     assert!(tally.refusals[&PointStatus::Refused].1.contains("at least zero"), "{tally:?}");
 }
 
+/// Whoever begins with the greater end means the same range.
+#[test]
+fn both_orders_of_an_axis_have_one_table() {
+    let table = |sweep: &Sweep| format!("{:?}", rows(sweep));
+    for [one, other] in [["mu=0.8..0.2:4", "mu=0.2..0.8:4"], ["mu=0.8..0.2:4:log", "mu=0.2..0.8:4:log"]] {
+        let of = |axis: &str| table(&Sweep::new(&model("drawer"), &grid(&[axis])).unwrap());
+        assert_eq!(of(one), of(other));
+    }
+    let sampling = Sampling { count: 5, spread: Spread::Random, seed: 1 };
+    for [one, other] in [["mu=0.8..0.2", "mu=0.2..0.8"], ["mu=uniform(0.8, 0.2)", "mu=uniform(0.2, 0.8)"]] {
+        let of = |axis: &str| table(&Sweep::new(&model("drawer"), &samples(sampling, &[axis])).unwrap());
+        assert_eq!(of(one), of(other));
+    }
+}
+
 #[rstest]
 #[case("mu", "not of the form NAME=VALUES")]
 #[case("mu=0..0.8", "does not say how many values")]
 #[case("mu=0..0.8:1", "is not a number of values (2 or more)")]
 #[case("mu=0..0.8:x", "is not a number of values (2 or more)")]
-#[case("mu=0.8..0:11", "reversed")]
 #[case("mu=0.8..0.8:11", "empty")]
 #[case("mu=0..0.8:11:log", "above zero")]
 #[case("mu=0..0.8:11:cubic", "is not a spacing")]
@@ -429,7 +443,6 @@ fn faults_of_axes(#[case] axis: &str, #[case] part: &str) {
 #[case("mu=normal(0.3, 0)", "standard deviation must be positive")]
 #[case("mu=lognormal(-0.3, 0.1)", "median must be positive")]
 #[case("mu=uniform(-0.3, -0.1)", "lies below zero")]
-#[case("mu=uniform(0.3, 0.1)", "reversed")]
 fn faults_of_distributions(#[case] axis: &str, #[case] part: &str) {
     let sampling = Sampling { count: 10, spread: Spread::Random, seed: 0 };
     let sweep =

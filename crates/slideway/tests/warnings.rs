@@ -3,7 +3,7 @@
 use slideway::fault::{Doubt, FaultKind, Place, Source};
 use slideway::limits::Vary;
 use slideway::warning::warnings;
-use slideway::{Model, Settings, check, gallery};
+use slideway::{Model, Settings, check, gallery, template};
 
 fn drawer() -> &'static str {
     gallery::find("drawer").expect("in the gallery").text
@@ -27,10 +27,112 @@ fn names(found: &[(Doubt, Option<Place>)]) -> Vec<&'static str> {
 }
 
 #[test]
-fn the_gallery_has_none() {
+fn the_gallery_and_the_templates_have_none() {
     for entry in gallery::MODELS {
         assert_eq!(of_text(entry.text), [], "{}", entry.name);
     }
+    for template in template::TEMPLATES {
+        assert_eq!(of_text(template.text), [], "{}", template.name);
+    }
+}
+
+/// A drawer in millimetres whose width is 500 m, from an independent review.
+const KITCHEN: &str = include_str!("../../slideway-cli/tests/doubtful/kitchen-drawer.toml");
+
+/// The same with a width in millimetres, and other words in places of some.
+fn kitchen(changes: &[(&str, &str)]) -> String {
+    let mut text = KITCHEN.replace("width = 500", "width = \"500 mm\"");
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    text
+}
+
+/// What a warning says, and the text at its place.
+fn told(text: &str) -> Vec<(String, &str)> {
+    let one = |(doubt, place): (Doubt, Option<Place>)| {
+        let span = place.expect("a place").span;
+        (doubt.to_string(), &text[span])
+    };
+    of_text(text).into_iter().map(one).collect()
+}
+
+#[test]
+fn a_number_without_a_unit_among_lengths_in_millimetres_is_told_wherever_it_stands() {
+    assert_eq!(of_text(&kitchen(&[])), []);
+    for (from, to, what, at) in [
+        ("width = \"500 mm\"", "width = 500", "width is 500 m,", "500"),
+        ("width = \"500 mm\"", "width = \"500\"", "width is 500 m,", "\"500\""),
+        ("width = \"500 mm\"", "half = 250\nwidth = \"2*half\"", "half is 250 m,", "250"),
+        ("[\"-depth/2\", 0]", "[-225, 0]", "is -225 m,", "-225"),
+        ("[\"-depth/2\", 0]", "[\"20 - depth/2\", 0]", "the number in ", "20"),
+        ("[\"-depth/2\", 0]", "[\"-450*cos(60 deg)\", 0]", "the number in ", "450"),
+        ("\"width\"] }", "500] }", "is 500 m,", "500"),
+        ("length = \"L\"", "length = 300", "is 300 m,", "300"),
+        ("slide = \"rail\"", "slide = \"rail\"\nvalue = 0.05", "is 0.05 m,", "0.05"),
+    ] {
+        let text = kitchen(&[(from, to)]);
+        let found = told(&text);
+        assert_eq!(found.len(), 1, "{to}: {found:?}");
+        assert!(found[0].0.contains(what), "{to}: {found:?}");
+        assert_eq!((found[0].1, names(&of_text(&text))), (at, vec!["bare_number"]), "{to}");
+    }
+    // Numbers that multiply, zero, and what has another dimension are as they should be.
+    for (from, to) in [
+        ("\"-depth/2\"", "\"-0.5*depth\""),
+        ("[\"-depth/2\", 0]", "[\"0 - depth/2\", 0]"),
+        ("mass = \"8 kg\"", "mass = 8"),
+        ("rate = \"0.2 m/s\"", "rate = 0.2"),
+        ("mu = 0.2", "mu = 0.2\nidle = 7"),
+    ] {
+        assert_eq!(of_text(&kitchen(&[(from, to)])), [], "{to}");
+    }
+    // In a model in metres a number without a unit is right.
+    assert_eq!(
+        of_text(
+            &kitchen(&[]).replace("500 mm", "0.5 m").replace("450 mm", "0.45 m").replace("\"300 mm\"", "0.3")
+        ),
+        []
+    );
+    // What a setting replaces counts no more, what it brings does; its place is there.
+    let model = Model::parse(KITCHEN).expect("a sound model");
+    let set =
+        |value: &str| of(&model.with(&Settings::default().parameter("width", value)).expect("a length"));
+    assert_eq!(set("480 mm"), []);
+    let found = set("480");
+    assert_eq!(names(&found), ["bare_number"]);
+    assert_eq!(found[0].1, Some(Place { source: Source::Setting(0), span: 6..9 }));
+    // A program's number is in metres on purpose.
+    assert_eq!(of(&model.with(&Settings::default().parameter("width", 0.48)).expect("a length")), []);
+}
+
+/// A thousandth of each is near its neighbours, 450 mm and 500 mm.
+#[test]
+fn a_length_that_is_a_thousand_times_its_neighbours_is_told() {
+    for (from, to, at) in [
+        ("\"500 mm\"", "\"500 m\"", vec!["\"500 m\""]),
+        ("\"300 mm\"", "\"300 m\"", vec!["\"300 m\""]),
+        ("\"300 mm\"", "\"300000 mm\"", vec!["\"300000 mm\""]),
+        // Two without a unit, which are most of the lengths.
+        ("\"500 mm\"\ndepth = \"450 mm\"", "500\ndepth = 450", vec!["500", "450"]),
+    ] {
+        let text = kitchen(&[(from, to)]);
+        let found: Vec<&str> = told(&text).into_iter().map(|(_, at)| at).collect();
+        assert_eq!(found, at, "{to}");
+    }
+    // All in metres, and one of them in millimetres without saying so.
+    let metres = kitchen(&[("\"500 mm\"", "0.5"), ("\"450 mm\"", "450"), ("\"300 mm\"", "0.3")]);
+    assert_eq!(
+        told(&metres),
+        [("depth is 450 m, 900 times the next smaller length of the model, 0.5 m".to_owned(), "450")]
+    );
+    // Long rails, ways that are travelled, small clearances and pins are no mistakes.
+    assert_eq!(of_text(&kitchen(&[("\"300 mm\"", "\"30 m\"")])), []);
+    let far = ("slide = \"rail\"", "slide = \"rail\"\nvalue = \"900 mm\"");
+    assert_eq!(of_text(&kitchen(&[far, ("mu = \"mu\"", "mu = \"mu\"\ntravel = [\"-90 m\", \"90 m\"]")])), []);
+    let pin = gallery::find("toggle-press").expect("in the gallery").text.replace("\"12 mm\"", "\"0.1 mm\"");
+    assert_eq!(of_text(&pin), []);
 }
 
 #[test]
@@ -98,7 +200,7 @@ fn a_friction_circle_may_not_hold_the_next_hinge() {
     assert_eq!(with("\"839 mm\""), []);
     // Each of the three pins; the one of the ram is on a link, too.
     assert_eq!(names(&with("\"839.5 mm\"")), ["wide_friction_circle"; 3]);
-    let found = with("12");
+    let found = with("\"12 m\"");
     let told = found[0].0.to_string();
     assert!(
         told.starts_with("the friction circle of O has a radius of 1429.7 mm") && told.contains("100 mm"),

@@ -109,8 +109,9 @@ pub(crate) enum Command {
     /// Find the dimension that gives a wanted margin against jamming
     #[command(after_help = size::HELP)]
     Size(SizeArguments),
+    // Words that others use for the same are understood, but stand nowhere.
     /// Find the force or torque that each drive needs, and the efficiency
-    #[command(after_help = drive::HELP)]
+    #[command(after_help = drive::HELP, alias = "effort")]
     Drive(DriveArguments),
     /// Draw a map over two quantities: solutions, jams or margins
     #[command(after_help = map::HELP)]
@@ -122,7 +123,7 @@ pub(crate) enum Command {
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
     /// Decide whether a mechanism stays at rest, and under which loads
-    #[command(after_help = hold::HELP)]
+    #[command(after_help = hold::HELP, aliases = ["rest", "standstill"])]
     Hold(HoldArguments),
     /// Simulate a mechanism over time: it slides, sticks, tips and jams
     #[command(after_help = simulate::HELP)]
@@ -134,7 +135,7 @@ pub(crate) enum Command {
     #[command(after_help = report::HELP)]
     Report(ReportArguments),
     /// Find all solutions of an LCP or a similar problem, from matrices
-    #[command(after_help = modes::HELP)]
+    #[command(after_help = modes::HELP, aliases = ["matrices", "lcp"])]
     Modes(ModesArguments),
     /// List the gallery of models, or write one of them
     #[command(after_help = models::HELP)]

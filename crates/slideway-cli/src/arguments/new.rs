@@ -89,7 +89,13 @@ impl FromArgMatches for NewArguments {
         let chosen = matches.subcommand().and_then(|(name, given)| Some((template::find(name)?, given)));
         let Some((template, given)) = chosen else {
             let unknown = matches.subcommand_name().map(str::to_owned);
-            return Ok(Self { template: None, unknown, settings: Settings::default(), list, destination: None });
+            return Ok(Self {
+                template: None,
+                unknown,
+                settings: Settings::default(),
+                list,
+                destination: None,
+            });
         };
         let mut settings = Settings::default();
         for parameter in template.parameters() {

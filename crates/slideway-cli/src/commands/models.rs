@@ -9,6 +9,8 @@ use crate::output::Output;
 use slideway::fault::nearest;
 use slideway::gallery::{self, GREATEST_STAGES, MODELS};
 
+/// Stands for words that have no room.
+const MORE: &str = " ...";
 /// What to do with the list.
 const START: &str = "`slideway models NAME > NAME.toml` writes one to start from.\n";
 
@@ -21,7 +23,10 @@ pub(crate) fn models(arguments: &ModelsArguments, output: &Output) -> Result<Out
         }
         None => {
             let models = MODELS.iter().map(|model| (model.name, model.summary()));
-            format!("{}\n{START}With -v, this list says what each of them shows.\n", brief(models, output.style().width))
+            format!(
+                "{}\n{START}With -v, this list says what each of them shows.\n",
+                brief(models, output.style().width)
+            )
         }
         Some(name) => model(name, arguments.stages)?,
     })?;
@@ -62,7 +67,7 @@ fn shortened(text: &str, width: usize) -> String {
     let name = sentence.split(": ").next().unwrap_or_default();
     match [text, sentence, name].into_iter().find(fits) {
         Some(part) => part.trim_end_matches('.').to_owned(),
-        None => wrapped(text, width.saturating_sub(2)).into_iter().next().unwrap_or_default() + " ...",
+        None => wrapped(text, width.saturating_sub(MORE.len())).into_iter().next().unwrap_or_default() + MORE,
     }
 }
 

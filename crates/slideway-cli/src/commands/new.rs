@@ -100,7 +100,8 @@ fn written(template: &Template, settings: &Settings, file: &str, width: usize) -
         let _ = write!(text, ", as in the template: {}", others.join(", "));
     }
     let _ = write!(text, ".\nRule: {}\nReturn: {}", template.rule(), template.way_back());
-    let mut text: String = text.lines().flat_map(|line| wrapped(line, width)).map(|line| line + "\n").collect();
+    let mut text: String =
+        text.lines().flat_map(|line| wrapped(line, width)).map(|line| line + "\n").collect();
     if let Some(command) = template.commands().next() {
         let _ = writeln!(text, "\n$ {}", command.replace(FILE, &printable::line(file)));
     }

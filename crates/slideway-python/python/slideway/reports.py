@@ -2994,7 +2994,7 @@ class WarningReport(Record):
     """A warning as a report tells it."""
 
     kind: str
-    """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "gap_closed", "far_from_drawing",
+    """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed", "far_from_drawing",
     "great_friction", "wide_friction_circle" or "nothing_presses"."""
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""

@@ -133,7 +133,9 @@ impl Expression {
     /// Its numbers without a unit: the step at which each stands, its value, and its place in the text.
     pub(crate) fn bare_numbers(&self) -> impl Iterator<Item = (usize, f64, Range<usize>)> + '_ {
         self.steps.iter().enumerate().filter_map(|(index, step)| match step.operation {
-            Operation::Number { value, inferred: Inferred::Number, .. } => Some((index, value, step.span.clone())),
+            Operation::Number { value, inferred: Inferred::Number, .. } => {
+                Some((index, value, step.span.clone()))
+            }
             _ => None,
         })
     }
@@ -141,7 +143,8 @@ impl Expression {
     /// The same, if the number at a step had a unit of this dimension.
     pub(crate) fn assuming(&self, step: usize, dimension: Inferred) -> Self {
         let mut assumed = self.clone();
-        if let Some(Step { operation: Operation::Number { inferred, .. }, .. }) = assumed.steps.get_mut(step) {
+        if let Some(Step { operation: Operation::Number { inferred, .. }, .. }) = assumed.steps.get_mut(step)
+        {
             *inferred = dimension;
         }
         assumed

@@ -7,9 +7,7 @@
 pub enum Doubt {
     #[error("{what} is {value} rad, more than a full turn: a number without a unit is in radians")]
     BareAngle { what: String, value: f64 },
-    #[error(
-        "{what} is {value} {si}, while the model uses {unit}: a number without a unit is in SI units"
-    )]
+    #[error("{what} is {value} {si}, while the model uses {unit}: a number without a unit is in SI units")]
     BareNumber { what: String, value: f64, si: String, unit: String },
     #[error("the lengths of the model differ by a factor of {factor}: from {least} to {greatest}")]
     LengthsFarApart { factor: String, least: String, greatest: String },
@@ -61,7 +59,9 @@ impl Doubt {
             Self::BareNumber { value, unit, si, .. } => {
                 format!("write `{value} {unit}`, or `{value} {si}` if that is meant")
             }
-            Self::LengthsFarApart { .. } | Self::LengthTowers { .. } => "look for a wrong or missing unit".to_owned(),
+            Self::LengthsFarApart { .. } | Self::LengthTowers { .. } => {
+                "look for a wrong or missing unit".to_owned()
+            }
             Self::GapClosed { .. } => {
                 "draw both points of the joint at the same place, for instance with one name".to_owned()
             }

@@ -49,7 +49,11 @@ impl Model {
             let place = if alone.is_some() { formula.origin.place() } else { formula.origin.part(&span) };
             Some(BareNumber { formula: id, value: alone.unwrap_or(value), place, is_all: alone.is_some() })
         };
-        (0..self.formulas.len()).map(FormulaId).filter(|id| self.formula(*id).is_written()).filter_map(one).collect()
+        (0..self.formulas.len())
+            .map(FormulaId)
+            .filter(|id| self.formula(*id).is_written())
+            .filter_map(one)
+            .collect()
     }
 
     /// Whether all dimensions fit if one number of a formula has this one.
@@ -74,7 +78,8 @@ impl Model {
                 if self.formula(id).wanted.is_some_and(|wanted| !found.fits(wanted)) {
                     return false;
                 }
-                if let Some(parameter) = uses.parameter[id.index()].filter(|_| self.formula(id).wanted.is_none())
+                if let Some(parameter) =
+                    uses.parameter[id.index()].filter(|_| self.formula(id).wanted.is_none())
                     && matches!(found, Inferred::Known(_))
                 {
                     changed.insert(parameter, found);
@@ -82,7 +87,8 @@ impl Model {
                 }
             }
             let Some((_, parameter)) = next.pop_first() else { return true };
-            formulas = uses.users[parameter].iter().map(|&user| (user, &self.formula(user).expression)).collect();
+            formulas =
+                uses.users[parameter].iter().map(|&user| (user, &self.formula(user).expression)).collect();
         }
     }
 

@@ -30,9 +30,12 @@ struct Length {
 pub(super) fn doubtful_lengths(model: &Model) -> Vec<Fault> {
     let bare = model.bare_numbers(Dimension::LENGTH);
     let unit = model.units.typed("m").filter(|unit| unit.scale() != 1.0);
-    let mut found: Vec<Fault> =
-        unit.iter().flat_map(|unit| bare.iter().filter_map(|number| without_unit(model, number, unit))).collect();
-    let told: Vec<Place> = found.iter().chain(&model.doubts).filter_map(|fault| fault.place.clone()).collect();
+    let mut found: Vec<Fault> = unit
+        .iter()
+        .flat_map(|unit| bare.iter().filter_map(|number| without_unit(model, number, unit)))
+        .collect();
+    let told: Vec<Place> =
+        found.iter().chain(&model.doubts).filter_map(|fault| fault.place.clone()).collect();
     let lengths: Vec<Length> =
         typed(model, &bare).into_iter().filter(|length| !told.contains(&length.place)).collect();
     found.retain(|fault| !model.doubts.iter().any(|doubt| doubt.place == fault.place));
@@ -53,8 +56,12 @@ fn without_unit(model: &Model, number: &BareNumber, unit: &Unit) -> Option<Fault
     };
     let what = name(model, number.formula);
     let what = if number.is_all { what } else { format!("the number in {what}") };
-    let doubt =
-        Doubt::BareNumber { what, value: number.value, si: unit.si().to_owned(), unit: unit.name().to_owned() };
+    let doubt = Doubt::BareNumber {
+        what,
+        value: number.value,
+        si: unit.si().to_owned(),
+        unit: unit.name().to_owned(),
+    };
     Some(warning(doubt, number.place.clone()))
 }
 
@@ -90,26 +97,38 @@ fn towering(model: &Model, lengths: &[Length]) -> Vec<Fault> {
     };
     let (below, above) = sizes.split_at(gap);
     let all_bare = above.iter().all(|length| length.bare) && !below.iter().any(|length| length.bare);
-    if factor(gap) < TOWERING || !(above.len() < below.len() || all_bare) {
+    if factor(gap) <= TOWERING || !(above.len() < below.len() || all_bare) {
         return Vec::new();
     }
-    let unit = model.units.of("m");
+    let next = below[gap - 1];
     let one = |length: &&Length| {
         let doubt = Doubt::LengthTowers {
             what: name(model, length.formula),
-            length: unit.show(length.size),
-            factor: number(length.size / below[gap - 1].size),
-            next: unit.show(below[gap - 1].size),
+            length: as_typed(model, length),
+            factor: number(length.size / next.size),
+            next: as_typed(model, next),
         };
         warning(doubt, length.place.clone())
     };
     above.iter().map(one).collect()
 }
 
+/// A length in the unit that it was typed in, as far as that is known.
+fn as_typed(model: &Model, length: &Length) -> String {
+    let parameter = model.parameters.iter().find(|parameter| parameter.value == length.formula);
+    let own = parameter.and_then(|parameter| model.units.typed_parameter(&parameter.name));
+    match own {
+        _ if length.bare => Unit::si_unit("m").show(length.size),
+        Some(unit) => unit.show(length.size),
+        None => model.units.of("m").show(length.size),
+    }
+}
+
 /// The formulas of lengths that are no dimensions of parts, with the parameters that they use: clearances, pins, ways
 /// and positions.
 fn no_dimensions(model: &Model) -> BTreeSet<FormulaId> {
-    let of_contacts = model.contacts().flat_map(|contact| contact.play.into_iter().chain(contact.misalignment));
+    let of_contacts =
+        model.contacts().flat_map(|contact| contact.play.into_iter().chain(contact.misalignment));
     let of_joints = model.joints.iter().flat_map(|joint| match &joint.kind {
         JointKind::Slider(slider) => slider.travel.into_iter().flatten().collect(),
         JointKind::Hinge(hinge) => of_pin(hinge),

@@ -146,7 +146,6 @@ fn faults_of_ranges_are_told_at_their_place() {
         let settings = Settings::default().parameter("mu_1", value);
         model("klepp-2002").with(&settings).expect_err("a fault").sorted()[0].clone()
     };
-    assert!(matches!(fault("0.2..0.1").kind, FaultKind::ReversedRange { .. }));
     let unknown = fault("0.2..frction");
     assert_eq!(unknown.place.expect("a place").span, 10..17);
     for value in ["0.1..0.2 m", "0.1..", "..0.2", "0.1..0.2..0.3"] {

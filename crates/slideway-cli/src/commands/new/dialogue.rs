@@ -35,7 +35,9 @@ pub(super) fn template(color: ColorChoice) -> Result<&'static Template, Failure>
 fn no_template(name: &str) -> String {
     match nearest(name, TEMPLATES.iter().map(|template| template.name)) {
         Some(nearest) => format!("There is no template `{name}`: did you mean `{nearest}`?"),
-        None => format!("There is no template `{name}`: type a number from 1 to {}, or a name.", TEMPLATES.len()),
+        None => {
+            format!("There is no template `{name}`: type a number from 1 to {}, or a name.", TEMPLATES.len())
+        }
     }
 }
 

@@ -1,0 +1,42 @@
+//! Ranges whose greater end stands first are taken as they are meant: every question has the same answer.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use slideway::limits::{LimitsOptions, Vary, limits, rest_limits};
+use slideway::map::{MapOptions, map};
+use slideway::model::Settings;
+use slideway::standstill::HoldOptions;
+use slideway::{Model, Report, drive, gallery, size, solve};
+
+fn model(name: &str) -> Model {
+    Model::parse(gallery::find(name).unwrap().text).unwrap()
+}
+
+#[test]
+fn both_orders_of_a_range_have_one_answer() {
+    let drawer = model("drawer");
+    let bracket = model("bracket-on-pole");
+    let of_both = |answer: &dyn Fn(Vary) -> String, both: [&str; 2]| {
+        let [one, other] = both.map(|text| answer(text.parse().unwrap()));
+        assert_eq!(one, other, "{both:?}");
+        assert!(!one.is_empty());
+    };
+    let lengths = ["L=0.5 m..300 mm", "L=300 mm..0.5 m"];
+    of_both(&|vary| limits(&drawer, &LimitsOptions::new(vary)).unwrap().json(), lengths);
+    of_both(&|vary| size::size(&drawer, &size::SizeOptions::new(vary, 2.0)).unwrap().json(), lengths);
+    let drive_over = |vary| drive::drive(&drawer, &drive::DriveOptions::default().vary(vary)).unwrap().json();
+    of_both(&drive_over, lengths);
+    of_both(
+        &|vary| rest_limits(&bracket, &vary, &HoldOptions::default()).unwrap().json(),
+        ["mu_static=0.5..0", "mu_static=0..0.5"],
+    );
+    let over_both = |y: Vary| {
+        let x = Vary::between("mu", 1.0, 0.0);
+        map(&drawer, &MapOptions::new(x, y).size(4, 4)).unwrap().json()
+    };
+    of_both(&over_both, lengths);
+    let known = |range: &str| {
+        let model = drawer.with(&Settings::default().parameter("mu", range)).unwrap();
+        solve::solve(&model).unwrap().json()
+    };
+    assert_eq!(known("0.3..0.2"), known("0.2..0.3"));
+}
