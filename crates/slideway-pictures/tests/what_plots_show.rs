@@ -9,7 +9,9 @@ use slideway::model::{Model, Settings};
 use slideway::motion::{Cause, SimulateOptions, simulate};
 use slideway::size::{SizeOptions, size};
 use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
-use slideway_pictures::plot::{Figure, PointKind, Stroke, drive_figure, limits_figure, size_figure, to_svg};
+use slideway_pictures::plot::{
+    Branch, Curve, Figure, Panel, PointKind, Stroke, drive_figure, limits_figure, size_figure, to_svg,
+};
 use slideway_pictures::theme::LIGHT;
 
 fn model(name: &str, settings: &Settings) -> Model {
@@ -177,7 +179,7 @@ fn what_coincides_is_one_line_with_both_names() {
     let count = |class: &str| panel.matches(&format!("class=\"{class}\"")).count();
     // It reverses at 0.0954 s, 0.2941 s and 0.4928 s (book, chapter Motion): four phases.
     assert_eq!((count("curve"), count("coincident")), (4, 4), "one line for each phase");
-    assert!(legend.contains(">floor.front and floor.rear coincide<"), "{legend}");
+    assert!(legend.contains(">floor.front and floor.rear coincide at this scale<"), "{legend}");
     assert!(!legend.contains(">floor.front<"), "{legend}");
     let kinds: Vec<PointKind> =
         portrait_figure(&history).panels[0].points.iter().map(|point| point.kind).collect();
@@ -199,6 +201,45 @@ fn what_coincides_is_one_line_with_both_names() {
     }
     // 4.905 N are 80 px long, so that 3.68 N would be 60 px, the longest that the scale may be.
     assert!(page.contains(">2 N</text></svg>") || page.contains(">2 N</text>\n</svg>"), "a scale of forces");
+}
+
+/// What differs by 2 % is not said to coincide, and no curve is drawn anywhere but at its own values: those of two motions
+/// that both begin at zero and grow apart, as 1.02 is from 1.
+#[test]
+fn curves_that_differ_are_told_apart() {
+    let curve = |branch: usize, slope: f64| Curve {
+        branch,
+        quantity: 0,
+        points: (0..=100).map(|step| [f64::from(step), slope * f64::from(step)]).collect(),
+        ends: Default::default(),
+    };
+    let branch = |name: &str| Branch { name: name.to_owned(), colour: 0, stroke: Stroke::Solid };
+    let figure = |slope: f64| Figure {
+        branches: vec![branch("one"), branch("other")],
+        panels: vec![Panel { curves: vec![curve(0, 1.0), curve(1, slope)], ..Panel::default() }],
+        ..Figure::default()
+    };
+    let (apart, same) = (svg(&figure(1.02)), svg(&figure(1.0)));
+    assert!(!apart.contains("coincide"), "{apart}");
+    assert_eq!(apart.matches("class=\"curve\"").count(), 2);
+    let ends: Vec<f64> = apart
+        .split("class=\"curve\"")
+        .skip(1)
+        .map(|path| path.split(" d=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a path"))
+        .map(|path| {
+            path.split(['M', 'L'])
+                .nth(1)
+                .expect("a place")
+                .split(' ')
+                .nth(1)
+                .expect("y")
+                .trim()
+                .parse()
+                .expect("a number")
+        })
+        .collect();
+    assert!((ends[0] - ends[1]).abs() < 0.1, "both begin at zero: {ends:?}");
+    assert!(same.contains(">one and other coincide at this scale<"));
 }
 
 /// The numbers of an attribute of an SVG element.
@@ -246,23 +287,28 @@ fn efforts_and_efficiency_over_friction() {
     let report = drive(&drawer, &options).expect("a report");
     let figure = drive_figure(&report).expect("a course");
     let titles: Vec<&str> = figure.panels.iter().map(|panel| &*panel.title).collect();
-    assert_eq!(titles[..2], ["Moving as in the model: effort", "Moving as in the model: efficiency"]);
     // Beyond 2/3 friction holds what the load would push, so there is no efficiency.
-    assert_eq!(
-        titles[3],
-        "Moving in the opposite direction with the same loads: efficiency; \u{2212} +: held by friction"
-    );
-    let of = |panel: usize, value: &dyn Fn(f64) -> f64| {
-        let curve = &figure.panels[panel].curves[0];
+    assert_eq!(titles, ["Effort", "Efficiency; \u{2212} +: held by friction"]);
+    let ways = ["moving as in the model", "moving in the opposite direction with the same loads"];
+    assert_eq!(figure.quantities, ways);
+    let of = |panel: usize, quantity: usize, value: &dyn Fn(f64) -> f64| {
+        let mut curves = figure.panels[panel].curves.iter();
+        let curve = curves.find(|curve| curve.quantity == quantity).expect("a curve");
         assert!(curve.points.len() > 20, "{curve:?}");
         for [mu, shown] in &curve.points {
             assert!((shown - value(*mu)).abs() < 1e-9 * value(*mu).abs(), "{mu}: {shown}");
         }
     };
-    of(0, &|mu| 20.0 / (1.0 - 1.5 * mu));
-    of(1, &|mu| 100.0 * (1.0 - 1.5 * mu));
-    of(2, &|mu| 20.0 / (1.0 + 1.5 * mu));
+    of(0, 0, &|mu| 20.0 / (1.0 - 1.5 * mu));
+    of(0, 1, &|mu| 20.0 / (1.0 + 1.5 * mu));
+    of(1, 0, &|mu| 100.0 * (1.0 - 1.5 * mu));
+    let picture = svg(&figure);
+    assert_eq!(
+        (picture.matches("class=\"panel\"").count(), picture.matches("class=\"legend\"").count()),
+        (2, 1)
+    );
     let [zone] = &figure.panels[0].zones[..] else { panic!("one excluded interval") };
+    assert_eq!(zone.meaning, "excluded: no solution, moving as in the model");
     assert!((zone.from - 2.0 / 3.0).abs() < 1e-12 && zone.to == 1.0, "{zone:?}");
     assert!(texts(&svg(&figure)).iter().any(|text| text == "0.66666667: grows without bound"));
     assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report")), None);

@@ -72,6 +72,7 @@ pub fn motion_figure(history: &History) -> Figure {
         panels,
         branches: builder.branches,
         quantities: vec![String::new()],
+        one_legend: false,
     }
 }
 

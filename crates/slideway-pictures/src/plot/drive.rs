@@ -7,19 +7,16 @@ use crate::drawing::signs;
 use slideway::drive::{Approach, BlowUp, Course, CourseDirection, CourseRow, DriveReport, Sense};
 use slideway::report::{Verdict, precise};
 
-/// The figure of a [`DriveReport`] with a course: for each direction of motion and each unit a panel with the efforts, with and without friction, and one with the efficiency;
-/// none without a course. Its rows should be dense.
+/// The figure of a [`DriveReport`] with a course: for each unit a panel with the efforts, with and without friction, and
+/// one with the efficiency, each with both directions of motion, which markers tell apart; none without a course. Its
+/// rows should be dense.
 pub fn drive_figure(report: &DriveReport) -> Option<Figure> {
     let course = report.course.as_ref()?;
     let mut builder = Builder { report, course, branches: Vec::new(), colours: ModeColours::default() };
     let mut units: Vec<&str> = report.drives.iter().map(|drive| drive.unit).collect();
     units.dedup();
-    let mut panels = Vec::new();
-    for direction in &course.directions {
-        panels.extend(units.iter().map(|unit| builder.efforts(direction, unit)));
-        let efficiency = builder.efficiency(direction);
-        panels.extend(Some(efficiency).filter(|panel| !panel.curves.is_empty()));
-    }
+    let mut panels: Vec<Panel> = units.iter().map(|unit| builder.efforts(unit)).collect();
+    panels.extend(Some(builder.efficiency()).filter(|panel| !panel.curves.is_empty()));
     without_empty_ends(&mut panels);
     let shown = format!("effort over {}", in_words(&course.vary.name));
     Some(Figure {
@@ -27,8 +24,31 @@ pub fn drive_figure(report: &DriveReport) -> Option<Figure> {
         subtitle: "Modes: signs of the normal forces of all contacts in their order".to_owned(),
         panels,
         branches: builder.branches,
-        quantities: report.drives.iter().map(|drive| drive.name.clone()).collect(),
+        quantities: quantities(report, course),
+        one_legend: true,
     })
+}
+
+/// What the markers of curves mean: the drives in each direction of motion.
+fn quantities(report: &DriveReport, course: &Course) -> Vec<String> {
+    let is_single = report.drives.len() == 1;
+    let of_direction = |direction: &CourseDirection| {
+        let way = way(direction);
+        let name = |drive: &slideway::drive::DriveName| match (is_single, course.directions.len()) {
+            (_, 1) => drive.name.clone(),
+            (true, _) => format!("moving {way}"),
+            (false, _) => format!("{}, moving {way}", drive.name),
+        };
+        report.drives.iter().map(name).collect::<Vec<_>>()
+    };
+    course.directions.iter().flat_map(of_direction).collect()
+}
+
+fn way(direction: &CourseDirection) -> &'static str {
+    match direction.direction {
+        Sense::Model => "as in the model",
+        Sense::Reversed => "in the opposite direction with the same loads",
+    }
 }
 
 struct Builder<'r> {
@@ -75,71 +95,72 @@ fn stroke(row: &CourseRow) -> Stroke {
 }
 
 impl Builder<'_> {
-    fn efforts(&mut self, direction: &CourseDirection, unit: &str) -> Panel {
-        let mut curves = Vec::new();
-        let shown = self.report.units.of(unit);
-        let all = self.report.drives.iter().enumerate();
+    fn efforts(&mut self, unit: &str) -> Panel {
+        let (report, course) = (self.report, self.course);
+        let shown = report.units.of(unit);
+        let all = report.drives.iter().enumerate();
         let drives: Vec<usize> =
             all.filter(|(_, drive)| drive.unit == unit).map(|(index, _)| index).collect();
-        for stretch in stretches(direction) {
-            let branch = self.branch(&stretch, direction);
+        let mut curves = Vec::new();
+        for (number, direction) in course.directions.iter().enumerate() {
+            let first = number * report.drives.len();
+            for stretch in stretches(direction) {
+                let branch = self.branch(&stretch, direction);
+                for &drive in &drives {
+                    let value =
+                        |row: &CourseRow| row.efforts.as_ref().map(|efforts| shown.number_of(efforts[drive]));
+                    curves.push(self.curve(&stretch.rows, (branch, first + drive), stretch.ends, value));
+                }
+            }
+            let frictionless = self.entry("without friction", 6, Stroke::Dotted);
             for &drive in &drives {
-                let value =
-                    |row: &CourseRow| row.efforts.as_ref().map(|efforts| shown.number_of(efforts[drive]));
-                curves.push(self.curve(&stretch.rows, (branch, drive), stretch.ends, value));
+                let value = |row: &CourseRow| {
+                    row.frictionless.as_ref().map(|efforts| shown.number_of(efforts[drive]))
+                };
+                let rows: Vec<&CourseRow> = direction.rows.iter().collect();
+                curves.push(self.curve(&rows, (frictionless, first + drive), [End::Plain; 2], value));
             }
         }
-        let frictionless = self.entry("without friction", 6, Stroke::Dotted);
-        for &drive in &drives {
-            let value =
-                |row: &CourseRow| row.frictionless.as_ref().map(|efforts| shown.number_of(efforts[drive]));
-            let rows: Vec<&CourseRow> = direction.rows.iter().collect();
-            curves.push(self.curve(&rows, (frictionless, drive), [End::Plain; 2], value));
-        }
-        let name = match &self.report.drives[..] {
+        let name = match &report.drives[..] {
             [only] => format!("effort of {}", only.name),
             _ => "effort".to_owned(),
         };
         let y = Axis { name, unit: shown.name().to_owned(), ..Axis::default() };
-        Panel { curves, marked: self.marked(direction), ..self.panel(direction, "effort", y) }
+        Panel { curves, marked: self.marked(), ..self.panel("Effort".to_owned(), y) }
     }
 
     /// The efficiency in per cent, where it has a meaning.
-    fn efficiency(&mut self, direction: &CourseDirection) -> Panel {
+    fn efficiency(&mut self) -> Panel {
+        let course = self.course;
         let mut curves = Vec::new();
-        for stretch in stretches(direction) {
-            let branch = self.branch(&stretch, direction);
-            let value = |row: &CourseRow| Some(100.0 * row.efficiency?.value?);
-            let curve = self.curve(&stretch.rows, (branch, 0), [End::Plain; 2], value);
-            curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
+        let mut title = "Efficiency".to_owned();
+        for (number, direction) in course.directions.iter().enumerate() {
+            let quantity = number * self.report.drives.len();
+            for stretch in stretches(direction) {
+                let branch = self.branch(&stretch, direction);
+                let value = |row: &CourseRow| Some(100.0 * row.efficiency?.value?);
+                let curve = self.curve(&stretch.rows, (branch, quantity), [End::Plain; 2], value);
+                curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
+            }
+            for (pattern, why) in without_efficiency(direction) {
+                title += &format!("; {}: {why}", signs(pattern));
+            }
         }
         let y = Axis { name: "efficiency".to_owned(), unit: "%".to_owned(), ..Axis::default() };
-        let without: Vec<String> = without_efficiency(direction)
-            .into_iter()
-            .map(|(pattern, why)| format!("; {}: {why}", signs(pattern)))
-            .collect();
-        Panel { curves, ..self.panel(direction, &format!("efficiency{}", without.concat()), y) }
+        Panel { curves, ..self.panel(title, y) }
     }
 
-    fn panel(&self, direction: &CourseDirection, what: &str, y: Axis) -> Panel {
+    fn panel(&self, title: String, y: Axis) -> Panel {
         let vary = &self.course.vary;
-        let way = match direction.direction {
-            Sense::Model => "as in the model",
-            Sense::Reversed => "in the opposite direction with the same loads",
+        let scale = vary.shown_in.scale();
+        let x = Axis {
+            name: vary.name.clone(),
+            unit: vary.shown_in.name().to_owned(),
+            range: Some([vary.from / scale, vary.to / scale]),
+            logarithmic: false,
         };
-        let scale = self.course.vary.shown_in.scale();
-        Panel {
-            title: format!("Moving {way}: {what}"),
-            x: Axis {
-                name: vary.name.clone(),
-                unit: self.course.vary.shown_in.name().to_owned(),
-                range: Some([vary.from / scale, vary.to / scale]),
-                logarithmic: false,
-            },
-            y,
-            zones: self.zones(direction),
-            ..Panel::default()
-        }
+        let zones = self.course.directions.iter().flat_map(|direction| self.zones(direction)).collect();
+        Panel { title, x, y, zones, ..Panel::default() }
     }
 
     fn curve(
@@ -173,11 +194,11 @@ impl Builder<'_> {
         })
     }
 
-    fn marked(&self, direction: &CourseDirection) -> Vec<MarkedValue> {
+    fn marked(&self) -> Vec<MarkedValue> {
         let mut marked: Vec<MarkedValue> = Vec::new();
-        for blow_up in &direction.blow_ups {
+        for blow_up in self.course.directions.iter().flat_map(|direction| &direction.blow_ups) {
             let at = blow_up.at / self.course.vary.shown_in.scale();
-            if marked.last().is_none_or(|last| last.at != at) {
+            if marked.iter().all(|known| known.at != at) {
                 let label = format!("{}: grows without bound", precise(at).replace('-', "\u{2212}"));
                 marked.push(MarkedValue { at, label, asymptote: true });
             }
@@ -188,11 +209,13 @@ impl Builder<'_> {
     /// Values without a solution, up to the growth without bound beside them, and those without a position.
     fn zones(&self, direction: &CourseDirection) -> Vec<Zone> {
         let scale = self.course.vary.shown_in.scale();
+        let is_single = self.course.directions.len() == 1;
+        let way = if is_single { String::new() } else { format!(", moving {}", way(direction)) };
         let zone = |from: f64, to: f64, hatching: Hatching, meaning: &str| Zone {
             from: from / scale,
             to: to / scale,
             hatching,
-            meaning: meaning.to_owned(),
+            meaning: format!("{meaning}{way}"),
         };
         let is_locked =
             |row: &CourseRow| row.pattern.is_none() && row.range.is_none() && row.frictionless.is_some();

@@ -16,6 +16,8 @@ pub struct Figure {
     pub branches: Vec<Branch>,
     /// Names of what several curves of one branch show; told apart by markers if there are several.
     pub quantities: Vec<String>,
+    /// Whether one legend below all panels stands for those of each.
+    pub one_legend: bool,
 }
 
 impl Figure {

@@ -51,6 +51,7 @@ impl LegendSample {
 }
 
 /// The entries of a legend.
+#[derive(Default)]
 pub(super) struct Legend {
     pub(super) entries: Vec<(LegendSample, String)>,
 }
@@ -80,6 +81,13 @@ impl Legend {
         panel.bars.iter().for_each(|bar| legend.add(LegendSample::Filled(bar.colour), &bar.meaning));
         panel.bands.iter().for_each(|band| legend.add(LegendSample::Filled(band.colour), &band.meaning));
         legend
+    }
+
+    /// With the entries of another one, lines before everything else.
+    pub(super) fn with(mut self, other: Self) -> Self {
+        other.entries.into_iter().for_each(|(sample, text)| self.add(sample, &text));
+        self.entries.sort_by_key(|(sample, _)| !sample.is_curve());
+        self
     }
 
     /// Adds an entry; each text has one.
@@ -153,7 +161,7 @@ fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(LegendSample, S
             };
             let names: Vec<String> = several.iter().map(name).collect();
             let colours = several.iter().map(|branch| branches[*branch].colour).collect();
-            (LegendSample::Several(colours), format!("{} coincide", names.join(" and ")))
+            (LegendSample::Several(colours), format!("{} coincide at this scale", names.join(" and ")))
         }
     };
     // Stretches of the same branches that differ in their strokes coincide alike.

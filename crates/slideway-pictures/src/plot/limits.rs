@@ -49,6 +49,7 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
         panels,
         branches: builder.branches,
         quantities: curves.series.iter().map(|series| series.name.clone()).collect(),
+        one_legend: false,
     }
 }
 

@@ -119,11 +119,21 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
     let height = if figure.panels.len() == 1 { SINGLE_HEIGHT } else { STACKED_HEIGHT };
     let space = figure.panels.iter().map(|panel| panel::space_on_the_left(figure, panel, height));
     let left = space.fold(0.0, f64::max);
+    let mut legend = Legend::default();
     for (index, panel) in figure.panels.iter().enumerate() {
         let top = if index == 0 { y } else { y + BETWEEN };
         let layout = PanelLayout::new((figure, panel), [MARGIN + left, WIDTH - MARGIN], top, height);
         layout.draw(theme, &mut svg);
-        y = Legend::of(figure, &layout).draw(theme, layout.bottom() + 6.0, &mut svg);
+        legend = if figure.one_legend {
+            legend.with(Legend::of(figure, &layout))
+        } else {
+            Legend::of(figure, &layout)
+        };
+        let is_due = !figure.one_legend || index + 1 == figure.panels.len();
+        y = layout.bottom() + if is_due { 6.0 } else { 0.0 };
+        if is_due {
+            y = legend.draw(theme, y, &mut svg);
+        }
     }
     svg.document([WIDTH, y + MARGIN], &figure.title, theme.background)
 }

@@ -8,8 +8,6 @@ use std::collections::HashMap;
 const STEP: f64 = 6.0;
 /// Curves that are close together for a shorter way merely cross (px).
 const SHORT: f64 = 48.0;
-/// Pieces that are shorter follow their neighbours (px).
-const STUB: f64 = 12.0;
 
 /// A line that is drawn, for one curve or for several.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,7 +62,6 @@ pub(super) fn lines(curves: &[Curve], parts: &[Vec<Vec<[f64; 2]>>], distance: f6
             })
             .collect();
         let lengths: Vec<f64> = track.pieces.iter().map(Piece::length).collect();
-        without_stubs(&mut leaders, &lengths);
         without_crossings(&mut leaders, &lengths);
         for (piece, leader) in leaders.into_iter().enumerate() {
             tracks[index].pieces[piece].drawn_by = leader;
@@ -120,7 +117,7 @@ fn lines_of(
     parts: &[Vec<Vec<[f64; 2]>>],
 ) -> Vec<Line> {
     let track = &tracks[index];
-    let mut branches: Vec<Vec<usize>> = (track.pieces.iter())
+    let branches: Vec<Vec<usize>> = (track.pieces.iter())
         .map(|piece| {
             let near = hidden.near(tracks, piece.middle(), distance);
             let by_this = near.filter(|(_, piece)| piece.drawn_by == Some(index));
@@ -130,8 +127,6 @@ fn lines_of(
             others
         })
         .collect();
-    let lengths: Vec<f64> = track.pieces.iter().map(Piece::length).collect();
-    without_stubs(&mut branches, &lengths);
     let mut lines: Vec<Line> = Vec::new();
     let mut before: Option<(usize, [usize; 2])> = None;
     // A line that leaves another one begins on it.
@@ -174,16 +169,6 @@ fn runs<T: PartialEq>(values: &[T], lengths: &[f64]) -> Vec<(std::ops::Range<usi
         (range.clone(), lengths[range].iter().sum())
     };
     values.chunk_by(|one, other| one == other).map(run).collect()
-}
-
-/// Lets short runs of equal values have the value of what is before them.
-fn without_stubs<T: Clone + PartialEq>(values: &mut [T], lengths: &[f64]) {
-    for (run, length) in runs(values, lengths) {
-        if run.start > 0 && length < STUB {
-            let before = values[run.start - 1].clone();
-            values[run].fill(before);
-        }
-    }
 }
 
 /// Lets curves stay where others merely cross them; a whole curve may be short.

@@ -23,6 +23,8 @@ const DASH: f64 = 9.0;
 const HEAD: f64 = 5.0;
 /// Curves keep to this distance of their points (px).
 const TOLERANCE: f64 = 0.05;
+/// Curves coincide where they are not farther apart than both may be from their points (px).
+const SAME: f64 = 2.0 * TOLERANCE;
 /// Room for the half of the last number of the axis, which is centred at the edge (px).
 pub(super) const LAST: f64 = 12.0;
 
@@ -104,7 +106,7 @@ impl<'f> PanelLayout<'f> {
         let (frame, y) = (placed.rectangle(), placed.y());
         let mut layout = Self { figure, panel, placed, frame, x, y, flags, lines: Vec::new(), top };
         let parts: Vec<Vec<Vec<[f64; 2]>>> = panel.curves.iter().map(|curve| layout.parts(curve)).collect();
-        layout.lines = lines(&panel.curves, &parts, CURVE);
+        layout.lines = lines(&panel.curves, &parts, SAME);
         layout
     }
 

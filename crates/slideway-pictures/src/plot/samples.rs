@@ -99,6 +99,7 @@ impl SamplesPlot {
             panels: panels.map(|(series, counts)| self.panel(series, counts, samples)).collect(),
             branches: Vec::new(),
             quantities: vec![String::new()],
+            one_legend: false,
         }
     }
 

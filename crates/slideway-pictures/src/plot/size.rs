@@ -75,6 +75,7 @@ pub fn size_figure(report: &SizeReport) -> Figure {
         panels: vec![panel],
         branches,
         quantities: vec![String::new()],
+        one_legend: false,
     }
 }
 

@@ -298,6 +298,7 @@ impl SweepPlot {
             panels,
             branches: legend,
             quantities: self.series.iter().map(|series| series.name.clone()).collect(),
+            one_legend: false,
         }
     }
 
