@@ -30,6 +30,9 @@ const LEAST: f64 = 1e-15;
 /// Equations are combined where all sectors have at most this half angle, in rad.
 const SMALL: f64 = 0.3;
 
+/// More steps than a singular value decomposition takes.
+const SVD_STEPS: usize = 1_000;
+
 /// A point of the relaxation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RelaxedPoint {
@@ -122,12 +125,11 @@ pub(super) fn relax(
 ) -> Relaxed {
     let jumping: Vec<usize> =
         (0..problem.contacts()).filter(|&contact| shares(problem, piece, contact)).collect();
-    let rows = problem.rows();
-    let all = rows + 1 + jumping.len();
     let combination = combination(problem, piece);
+    let equations = combination.as_ref().map_or(problem.rows(), DMatrix::nrows);
     let columns = columns(problem, piece, &jumping, combination.as_ref());
-    let mut right = vec![0.0; all];
-    right[rows] = 1.0;
+    let mut right = vec![0.0; columns.all];
+    right[equations] = 1.0;
     let program = LinearProgram::new(&columns.vectors, right, columns.cost);
     let count = program.columns();
     let bounds = Bounds { lower: vec![0.0; count], upper: vec![f64::INFINITY; count] };
@@ -135,10 +137,10 @@ pub(super) fn relax(
     let LinearOutcome::Feasible(values) = program.solve(&mut basis, &bounds, pivots, proceed) else {
         return Relaxed::Unsolved;
     };
-    let errors: f64 = values[count - 2 * rows..].iter().sum();
+    let errors: f64 = values[count - 2 * equations..].iter().sum();
     if errors > LEAST {
         let multipliers = basis.multipliers(&program);
-        let vector = -DVector::from_column_slice(&multipliers[..rows]);
+        let vector = -DVector::from_column_slice(&multipliers[..equations]);
         let vector = combination.as_ref().map_or(vector.clone(), |combination| combination.tr_mul(&vector));
         if excludes(problem, piece, vector.as_slice()) {
             return Relaxed::Empty;
@@ -164,13 +166,24 @@ fn sides(state: Option<ContactState>) -> &'static [Side] {
 
 /// The combination `P` of the equations of a small piece: the inverse of the slopes in its middle, and for each
 /// hinge the component along its sector, and the one across it divided by the half angle.
+///
+/// Where those slopes are nearly singular, as near locking and folds, the inverse would be the same equation many times:
+/// `u . A = 0`, with the left singular vector `u`. It stands alone then, divided by the square of the half angle, by which it
+/// varies in the piece, and the pseudo-inverse leaves it out of the others.
 fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
-    if piece.half_angle() > SMALL {
+    let half_angle = piece.half_angle();
+    if half_angle > SMALL {
         return None;
     }
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
     let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
-    let mut combination = matrix(problem, &piece.states, &slopes).try_inverse()?;
+    let slopes = matrix(problem, &piece.states, &slopes);
+    let spread = half_angle.powi(2);
+    let is_regular = |inverse: &DMatrix<f64>| inverse.norm() * slopes.norm() * spread < 1.0;
+    let (mut combination, alone) = match slopes.clone().try_inverse().filter(is_regular) {
+        Some(inverse) => (inverse, DMatrix::zeros(0, problem.rows())),
+        None => divided(slopes, spread)?,
+    };
     for (hinge, sector) in piece.sectors.iter().enumerate() {
         let ([x, y], [one, other]) = (sector.middle(), problem.rows_of_hinge(hinge));
         if [x, y] != [0.0; 2] {
@@ -180,7 +193,25 @@ fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
             combination.set_row(other, &((second * x - first * y) / half_angle));
         }
     }
-    combination.iter().all(|value| value.is_finite()).then_some(combination)
+    let all = DMatrix::from_fn(problem.rows() + alone.nrows(), problem.rows(), |row, column| {
+        row.checked_sub(problem.rows()).map_or_else(|| combination[(row, column)], |row| alone[(row, column)])
+    });
+    all.iter().all(|value| value.is_finite()).then_some(all)
+}
+
+/// The pseudo-inverse of a matrix without the singular values below this share of the greatest, and their left vectors divided
+/// by that share.
+fn divided(matrix: DMatrix<f64>, share: f64) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+    let size = matrix.amax();
+    if !size.is_normal() {
+        return None;
+    }
+    let svd = (matrix / size).try_svd(true, true, 4.0 * f64::EPSILON, SVD_STEPS)?;
+    let cut = share * svd.singular_values.max();
+    let small: Vec<usize> =
+        (0..svd.singular_values.len()).filter(|&at| svd.singular_values[at] <= cut).collect();
+    let alone = svd.u.as_ref()?.select_columns(&small).transpose() / (share * size);
+    Some((svd.pseudo_inverse(cut).ok()? / size, alone))
 }
 
 /// The columns of the program, with combined equations.
@@ -191,9 +222,10 @@ fn columns<'p>(
     combination: Option<&'p DMatrix<f64>>,
 ) -> Columns<'p> {
     let rows = problem.rows();
-    let all = rows + 1 + jumping.len();
+    let equations = combination.map_or(rows, DMatrix::nrows);
+    let all = equations + 1 + jumping.len();
     // Of both sides of contacts, the rays of hinges, the load with its jumps, and errors.
-    let most = 6 * rows + 1 + 2 * jumping.len();
+    let most = 4 * rows + 2 * equations + 1 + 2 * jumping.len();
     let mut columns = Columns {
         combination,
         meanings: Vec::with_capacity(most),
@@ -222,7 +254,7 @@ fn columns<'p>(
         }
     }
     add_loads(&mut columns, problem, piece, jumping);
-    for row in 0..rows {
+    for row in 0..equations {
         for sign in [1.0, -1.0] {
             let mut column = vec![0.0; all];
             column[row] = sign;
@@ -237,7 +269,7 @@ fn add_loads(columns: &mut Columns<'_>, problem: &BlockProblem, piece: &Piece, j
     if problem.has_no_load() {
         return;
     }
-    let rows = problem.rows();
+    let first = columns.all - jumping.len();
     let mut load: Vec<f64> = centre(problem.load(), 0).iter().map(|value| -value).collect();
     for (contact, &state) in piece.states.iter().enumerate().filter(|(contact, _)| !jumping.contains(contact))
     {
@@ -258,7 +290,7 @@ fn add_loads(columns: &mut Columns<'_>, problem: &BlockProblem, piece: &Piece, j
     for (at, both) in jumps.into_iter().enumerate() {
         for mut column in both {
             column.resize(columns.all, 0.0);
-            column[rows + 1 + at] = size;
+            column[first + at] = size;
             columns.add(Meaning::Other, 1.0 / size, column, 0.0);
         }
     }

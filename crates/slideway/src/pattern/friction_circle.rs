@@ -249,19 +249,20 @@ impl Pinned<'_> {
                 open.extend(self.divided((&sectors, FINEST), &end).ok_or(Unsolved)?);
                 continue;
             };
+            let extent = ends.each_ref().map(|end| end.value);
+            let is_known = |found: &[Extent], side: usize| covers(found, [bounds(extent)[side]; 2]);
             for (side, end) in ends.iter().enumerate() {
-                if !covers(&found, [end.value; 2])
+                if !is_known(&found, side)
                     && let Ok(Some(inner)) = self.climbed(function, (end, side))
                 {
                     note(&mut found, inner);
                 }
             }
-            let extent = ends.each_ref().map(|end| end.value);
-            if covers(&found, extent) {
+            if covers(&found, bounds(extent)) {
                 continue;
             }
-            let missed = ends.iter().find(|end| !covers(&found, [end.value; 2])).unwrap_or(&ends[0]);
-            match self.divided((&sectors, FINEST), missed) {
+            let missed = usize::from(is_known(&found, 0) && !is_known(&found, 1));
+            match self.divided((&sectors, FINEST), &ends[missed]) {
                 Some(parts) => open.extend(parts),
                 None => note(&mut found, extent),
             }
@@ -413,11 +414,13 @@ fn hull(one: Extent, other: Extent) -> Extent {
     [end(0, f64::min), end(1, f64::max)]
 }
 
-/// Whether an extent lies within the union of others.
-fn covers(found: &[Extent], extent: Extent) -> bool {
-    let bounds =
-        |[least, greatest]: Extent| [least.unwrap_or(f64::NEG_INFINITY), greatest.unwrap_or(f64::INFINITY)];
-    let [mut from, to] = bounds(extent);
+/// The ends of an extent as numbers.
+fn bounds([least, greatest]: Extent) -> [f64; 2] {
+    [least.unwrap_or(f64::NEG_INFINITY), greatest.unwrap_or(f64::INFINITY)]
+}
+
+/// Whether all from one number to another lies within the union of extents.
+fn covers(found: &[Extent], [mut from, to]: [f64; 2]) -> bool {
     let mut sorted: Vec<[f64; 2]> = found.iter().copied().map(bounds).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let reaches = |end: f64, other: f64| end >= other || end + AGREEMENT * end.abs().max(1.0) >= other;
