@@ -28,7 +28,7 @@ pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
 pub use text::followed;
-pub(crate) use text::{LOCKED, count, locked, spaced, tips};
+pub(crate) use text::{count, locked, spaced, tips};
 pub use undetermined::{OpenRange, Undetermined};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
@@ -433,6 +433,10 @@ pub struct Margins {
     /// where none comes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moves_below: Option<Unlocking>,
+    /// Where there is no solution: the mode that locks last as all friction grows to the present one; absent where none
+    /// does, and of redundant guides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub locking: Option<LockedMode>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_contact: Option<CriticalContact>,

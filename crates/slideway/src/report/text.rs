@@ -417,12 +417,9 @@ impl Text<'_> {
             self.table(&["signs", "contact mode", "determinant", ""], &rows);
             return;
         }
-        let locked = self.report.closest_modes.iter().filter(|mode| mode.oriented_determinant <= 0.0);
-        let nearest =
-            locked.max_by(|one, other| one.oriented_determinant.total_cmp(&other.oriented_determinant));
-        if let Some(mode) = nearest {
+        if let Some(locking) = self.report.margins.as_ref().and_then(|margins| margins.locking.as_ref()) {
             self.line("It is wedged in this contact mode:");
-            self.modes(&mode.joints);
+            self.modes(&locking.joints);
         }
     }
 }
@@ -632,7 +629,7 @@ pub fn followed(steps: usize) -> String {
 }
 
 /// What it means that there is no solution of the equations.
-pub(crate) const LOCKED: &str = "friction locks it";
+const LOCKED: &str = "friction locks it";
 
 /// What it means that there is no solution: of a mechanism with guided sliders these have no state in which
 /// they are tipped.

@@ -29,7 +29,12 @@ pub(crate) const AT_ONCE: f64 = 1e-9;
 
 /// Adds the margins to a report, if there are few enough modes, and each can be followed. The one of every
 /// load needs bounds of the exact numbers.
-pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Option<&EnclosedModeProblem>) {
+pub(super) fn add(
+    report: &mut SolveReport,
+    data: ProblemData<'_>,
+    enclosed: Option<&EnclosedModeProblem>,
+    joints: &dyn Fn(&[i8]) -> Vec<report::JointMode>,
+) {
     if report.status == Status::Continuum {
         report.margins_missing = Some(MarginsMissing::Undetermined);
         return;
@@ -73,6 +78,11 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>, enclosed: Opt
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
         moves_below: all.counts.first().filter(|count| count.is_empty()).and_then(|_| moves_below(data)),
+        locking: all
+            .counts
+            .first()
+            .filter(|count| count.is_empty())
+            .and_then(|_| locking_in_words(data, joints)),
         critical_contact: critical_contact(data),
     });
 }
@@ -143,6 +153,18 @@ fn common_coefficient(mechanism: &Mechanism) -> Option<f64> {
     let mut coefficients = mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
     let first = coefficients.next()?;
     coefficients.all(|mu| mu == first).then_some(first)
+}
+
+/// The mode that locks a mechanism without solution, in words.
+fn locking_in_words(
+    data: ProblemData<'_>,
+    joints: &dyn Fn(&[i8]) -> Vec<report::JointMode>,
+) -> Option<report::LockedMode> {
+    let (mode, _) = data.mechanism.excess.is_empty().then(|| locking_mode(data)).flatten()?;
+    let pattern = pattern(&mode);
+    let sign = |state: u8| i8::from(state == b'+') - i8::from(state == b'-');
+    let signs: Vec<i8> = pattern.bytes().map(sign).collect();
+    Some(report::LockedMode { joints: joints(&signs), pattern })
 }
 
 /// Of a mechanism without solution: the mode that locks last as all friction grows to the present one, and at what part

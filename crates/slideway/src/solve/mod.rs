@@ -185,7 +185,7 @@ pub fn solve_with(
     report.rates_not_given = rates_not_given(model);
     sharing::add(&mut report, &stages, options.margins)?;
     if options.margins {
-        margins::add(&mut report, stages.data(), enclosed.as_ref().ok());
+        margins::add(&mut report, stages.data(), enclosed.as_ref().ok(), &|signs| answer.joint_modes(signs));
         from_rest::add(&mut report, model, progress);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);

@@ -28,7 +28,8 @@ impl Sweep {
             },
         }];
         let what = if self.has_branches() { "points" } else { "samples" };
-        let several: u64 = tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
+        let several: u64 =
+            tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
         for (count, is) in [(several, "with several solutions"), (all - tally.solved(), "not solved")] {
             if count > 0 {
                 sentences.push(format!("{} {is}.", counted(count, what.trim_end_matches('s'))));

@@ -121,7 +121,8 @@ fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     let options = HoldOptions::default().load("Q");
     let pins = held(&lever("mu = 0.3\nradius = 0.1", BELL_CRANK), &options).text(Style::PLAIN.verbose(true));
     assert!(
-        pins.contains("It is self-locking from 2.5 times this static friction.") && !pins.contains("mu_static"),
+        pins.contains("It is self-locking from 2.5 times this static friction.")
+            && !pins.contains("mu_static"),
         "{pins}"
     );
     let press = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
@@ -201,7 +202,9 @@ fn ranges_without_an_end_on_one_side_are_decided() {
     let report = held(&text, &HoldOptions::default());
     assert_eq!(report.undecided, 0);
     let forces = report.at_rest.expect("it rests").reactions.contacts;
-    let ends: Vec<[bool; 2]> =
-        forces.iter().map(|contact| [contact.normal_force.least, contact.normal_force.greatest].map(|end| end.is_some())).collect();
+    let ends: Vec<[bool; 2]> = forces
+        .iter()
+        .map(|contact| [contact.normal_force.least, contact.normal_force.greatest].map(|end| end.is_some()))
+        .collect();
     assert_eq!(ends, [[false; 2], [false; 2]]);
 }

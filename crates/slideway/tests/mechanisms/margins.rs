@@ -3,7 +3,7 @@
 use crate::answers::{model, parameters, report};
 use slideway::Report;
 use slideway::model::Settings;
-use slideway::report::{Margins, ModeEndCause, SolveReport};
+use slideway::report::{Margins, ModeEndCause, SolveReport, Style};
 use slideway::solve::solve;
 
 fn margins(report: &SolveReport) -> &Margins {
