@@ -90,7 +90,8 @@ impl Page<'_, LimitsReport> {
         self.line("");
         if let Some(summary) = &report.summary {
             self.headline(summary);
-            report.conclusion.iter().for_each(|sentence| self.line(sentence));
+            let stretches = report.conclusion.iter().filter(|_| report.conclusion.len() > 1);
+            stretches.for_each(|sentence| self.line(sentence));
         } else {
             report.conclusion.iter().for_each(|sentence| self.headline(sentence));
         }

@@ -4,13 +4,13 @@ use super::Report;
 use crate::printable;
 use serde::Serialize;
 
-/// A report with its answer before it.
+/// A report with its answer behind it: the version of the layout comes first.
 #[derive(Serialize)]
 pub(crate) struct Answered<'r, R> {
-    #[serde(skip_serializing_if = "String::is_empty")]
-    answer: String,
     #[serde(flatten)]
     report: &'r R,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    answer: String,
 }
 
 impl<'r, R: Report> Answered<'r, R> {
