@@ -9,7 +9,7 @@ use slideway::modes::SearchOptions;
 use slideway::motion::{self, SimulateOptions, Thorough};
 use slideway::raw_problem::{self, RawProblem};
 use slideway::report::Style;
-use slideway::sweep::{Rows, Sampling, Sweep, SweepOptions, SweepState};
+use slideway::sweep::{Rows, Sampling, Spread, Sweep, SweepOptions, SweepState};
 use slideway::{DriveOptions, HoldOptions, Model, Report, Settings, configuration::Configuration, drive, gallery, hold};
 use std::ops::ControlFlow;
 
@@ -167,7 +167,7 @@ fn simulate_answers() {
         (simulated(&model("thrown-drawer", &[]), &options(0.6)), ""),
         (simulated(&with("mu = 0.25", "mu = 0.25\ntravel = [-1, 0.5]"), &options(2.0)), ""),
         (simulated(&model("drawer", &[("v", "-0.1 m/s")]), &options(6.0)), ""),
-        (simulated(&block(&[]), &SimulateOptions { reaction_limit: Some(9.0), ..options(2.0) }), ""),
+        (simulated(&block(&[]), &options(2.0).reaction_limit(9.0)), ""),
         (simulated(&block(&[]), &options(2.0).most_events(0)), ""),
         (simulated(&block(&[]), &options(2.0).most_steps(3)), ""),
         (
@@ -244,7 +244,7 @@ fn grid(axis: &str) -> SweepOptions {
 #[test]
 fn sweep_answers() {
     let drawer = model("drawer", &[]);
-    let samples = SweepOptions::samples(Sampling::Random { samples: 100, seed: 1 }, ["mu=0..0.5".parse().unwrap()]);
+    let samples = SweepOptions::samples(Sampling { count: 100, spread: Spread::Random, seed: 1 }, ["mu=0..0.5".parse().unwrap()]);
     let told = [
         (swept(&drawer, &grid("mu=0..1:101")), "It jams at 34 of 101 points."),
         (swept(&drawer, &grid("mu=0..0.6:7")), "It jams at none of 7 points."),

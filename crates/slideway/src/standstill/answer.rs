@@ -49,7 +49,9 @@ fn verdict(report: &HoldReport) -> String {
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."
 fn moves(report: &HoldReport) -> String {
     let acceleration = |release: &Release| {
-        let [only] = release.coordinates.as_slice() else { return None };
+        let is_zero = |range: &Range| range.least.zip(range.greatest).is_some_and(|ends| ends == (0.0, 0.0));
+        let mut moving = release.coordinates.iter().filter(|one| !is_zero(&one.acceleration));
+        let (Some(only), None) = (moving.next(), moving.next()) else { return None };
         let unit = report.units.of(only.unit);
         let ends = only.acceleration.least.zip(only.acceleration.greatest)?;
         let [least, greatest] = [ends.0, ends.1].map(|end| unit.brief(end));
