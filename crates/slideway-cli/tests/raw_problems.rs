@@ -71,7 +71,11 @@ fn uniqueness_for_every_right_hand_side_is_decided() {
             "singular",
             "For some q there is no solution or infinitely many (M is not a P-matrix)",
         ),
-        (r#"{"A": [[2]], "B": [[1]], "b": [1]}"#, "one", "Proven: for every b there is exactly one solution."),
+        (
+            r#"{"A": [[2]], "B": [[1]], "b": [1]}"#,
+            "one",
+            "Proven: for every b there is exactly one solution.",
+        ),
         (
             r#"{"columns_positive": [[1]], "columns_negative": [[-1]], "right_hand_side": [1],
                 "jumps_positive": [[1]], "jumps_negative": [[0]]}"#,

@@ -156,8 +156,7 @@ impl Text<'_> {
             }
         } else {
             let motions = report.inertia.motions_without.join("; ");
-            let nevertheless =
-                if report.condition.is_some() { " The drives prescribe it." } else { "" };
+            let nevertheless = if report.condition.is_some() { " The drives prescribe it." } else { "" };
             self.line(&format!("Without inertia: {motions}.{nevertheless}"));
         }
         if let Some(condition) = report.condition.filter(|_| self.is_verbose()) {

@@ -70,7 +70,8 @@ impl Page<'_, DriveReport> {
         header.extend(columns.contact.then(|| "contact".to_owned()));
         let mut rows = vec![self.frictionless(direction, columns)];
         for (index, state) in states.iter().enumerate() {
-            let name = if states.len() == 1 { "with friction".to_owned() } else { format!("state {}", index + 1) };
+            let name =
+                if states.len() == 1 { "with friction".to_owned() } else { format!("state {}", index + 1) };
             rows.push(self.state(name, state, columns));
         }
         rows.extend(direction.range.as_ref().map(|range| self.range(range, columns)));
@@ -80,7 +81,10 @@ impl Page<'_, DriveReport> {
             self.line(&format!("  At {} times this friction {told}.", precise(blow_up.at)));
         }
         for factor in direction.no_solution.iter().filter(|_| all) {
-            self.line(&format!("  Just beyond {} times this friction there is no solution.", precise(*factor)));
+            self.line(&format!(
+                "  Just beyond {} times this friction there is no solution.",
+                precise(*factor)
+            ));
         }
     }
 

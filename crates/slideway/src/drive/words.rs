@@ -13,7 +13,12 @@ const TOLD: usize = 4;
 
 /// The sentences of both directions of motion, and what makes an undetermined effort determinate.
 pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
-    report.directions.iter().flat_map(|direction| sentences(report, direction)).chain(advice(report)).collect()
+    report
+        .directions
+        .iter()
+        .flat_map(|direction| sentences(report, direction))
+        .chain(advice(report))
+        .collect()
 }
 
 /// What makes an undetermined effort determinate.
@@ -84,7 +89,8 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
         // One drive that does no work without friction has no effort then.
-        let free = if is_idle { String::new() } else { format!(" ({} without friction)", unit.brief(*without)) };
+        let free =
+            if is_idle { String::new() } else { format!(" ({} without friction)", unit.brief(*without)) };
         format!("{} needs {}{free}", drive.name, unit.brief(*with))
     };
     let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);

@@ -100,6 +100,7 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
     match load.held.as_slice() {
         [] if load.unit.is_empty() => format!("It holds no multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
+        [Range { least: Some(0.0), greatest: Some(0.0) }] => format!("It holds no `{name}`."),
         ranges => format!("It holds {with}{}.", ranges.iter().map(one).collect::<Vec<_>>().join(", and ")),
     }
 }

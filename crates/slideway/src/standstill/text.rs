@@ -49,8 +49,7 @@ impl HoldReport {
             let what = if names.len() == 1 { "drive" } else { "drives" };
             (!names.is_empty()).then(|| format!("{how} the {what} {}", names.join(", ")))
         };
-        let kinds =
-            [drives("Without", &self.released_drives), drives("Held by", &self.holding_drives)];
+        let kinds = [drives("Without", &self.released_drives), drives("Held by", &self.holding_drives)];
         kinds.into_iter().flatten().collect()
     }
 }
@@ -261,7 +260,10 @@ fn threshold_in_words(LoadReport { name, threshold, .. }: &LoadReport) -> String
         None => format!("{name} alone is not held by any {}, however great.", threshold.varied),
         Some(0.0) => format!("{name} alone is held without friction, however great."),
         Some(value) if threshold.varied == "static friction" => {
-            format!("{name} alone is held, however great, from {} times the static friction on.", number(value))
+            format!(
+                "{name} alone is held, however great, from {} times the static friction on.",
+                number(value)
+            )
         }
         Some(value) => {
             let (at, now) = (number(value), number(threshold.present));

@@ -296,7 +296,8 @@ fn a_margin_that_tipping_ends_says_so() {
     assert!((margins.no_solution.expect("it tips") - 11.39).abs() < 0.005);
     let driven = drive(&model, &DriveOptions::default()).expect("an answer");
     assert_eq!(driven.directions[0].tips, ["floor"]);
-    let beyond = "Beyond 11.39 times this friction (mu = 3.418) floor would tip; model it as a block slider to go on.";
+    let beyond =
+        "Beyond 11.39 times this friction (mu = 3.418) floor would tip; model it as a block slider to go on.";
     assert!(driven.conclusion.iter().any(|sentence| sentence == beyond), "{:?}", driven.conclusion);
     is_no_lock(&driven.conclusion.join(" "));
     assert_eq!(

@@ -94,7 +94,11 @@ fn a_wedged_drawer_can_hold_anything() {
     // It floats: nothing presses, and nothing is held.
     assert_eq!(held, &[Range { least: Some(0.0), greatest: Some(0.0) }]);
     assert_eq!(below.releases[0].patterns, ["0000"]);
-    assert!(below.text(Style::PLAIN).contains("The guides cannot wedge; they could from mu_static = 0.6667 (now 0.6)."));
+    assert!(
+        below
+            .text(Style::PLAIN)
+            .contains("The guides cannot wedge; they could from mu_static = 0.6667 (now 0.6).")
+    );
 }
 
 #[rstest]

@@ -93,7 +93,10 @@ fn what_a_limit_of_normal_forces_cannot_see_is_told() {
     let history = simulate(&model, &options).unwrap();
     assert_eq!(history.end, End::Finished);
     let hints = report(&history, &options).hints;
-    assert!(hints.len() == 1 && hints[0].contains("statics does not determine the normal forces of"), "{hints:?}");
+    assert!(
+        hints.len() == 1 && hints[0].contains("statics does not determine the normal forces of"),
+        "{hints:?}"
+    );
 }
 
 /// A drawer whose supported length of 0.4 m is that from its rear end to the mouth: pulled out at 0.1 m/s it

@@ -237,7 +237,9 @@ impl Page<'_, SimulateReport> {
         self.line(&format!("Computed step by step, not proven: {closes}."));
         let statistics = &report.statistics;
         if statistics.sampled.is_some() {
-            self.line("Sampled: whether joints can stick under loads that change was checked four times a step.");
+            self.line(
+                "Sampled: whether joints can stick under loads that change was checked four times a step.",
+            );
         }
         if !self.is_verbose() {
             return;
