@@ -116,7 +116,7 @@ pub(crate) enum Command {
     /// Compute all solutions at every point of a grid, or for random samples, into a table
     #[command(after_help = sweep::HELP, override_usage = sweep::USAGE, mut_arg("file", sweep::unless_merging))]
     Sweep(SweepArguments),
-    /// Show what a model consists of and whether it is sound
+    /// Show what a model consists of and which questions it can answer
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
     /// Decide whether a mechanism stays at rest, and how it begins to move if not
