@@ -46,7 +46,10 @@ fn drive_answers() {
             driven("drawer", &[("mu", "0.8")]),
             "It jams: no force moves it. It moves below 0.8333 times this friction (mu = 0.6667). Backwards 2 states are possible: push needs 9.091 N, or -100 N (unstable).",
         ),
-        (driven("drawer", &[("mu", "2/3")]), ""),
+        (
+            driven("drawer", &[("mu", "2/3")]),
+            "It is not decided whether it moves. Backwards push needs 10 N (20 N without friction); the load pushes, and 50 % of its power arrives. Backwards it does not jam at any friction.",
+        ),
         (
             driven("wedge", &[]),
             "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam at 5.594 times this friction (mu = 0.8391). Backwards P needs -0.1239 kN (0.1763 kN without friction): friction holds the load, so it must be driven. Backwards beyond 26.67 times this friction (mu = 4) floor would tip; model it as a block slider to go on.",
@@ -59,9 +62,18 @@ fn drive_answers() {
             driven("bell-crank", &[]),
             "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. Backwards push needs 0.5549 kN (0.625 kN without friction); the load pushes, and 88.79 % of its power arrives.",
         ),
-        (driven(EQUAL_PLAY, &[]), ""),
-        (driven(TIPPING_PRESS, &[("mu", "1.3")]), ""),
-        (driven(&pushed, &[("P", "0 N")]), "push needs 6 N, all of it against friction."),
+        (
+            driven(EQUAL_PLAY, &[]),
+            "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is undetermined. Backwards belt needs 12.5 to 16.67 N (20 N without friction), efficiency 62.5 to 83.33 %; how left, right share the load is undetermined. Give `stiffness` for one value.",
+        ),
+        (
+            driven(TIPPING_PRESS, &[("mu", "1.3")]),
+            "bed tips; model it as a block slider to see whether it still moves. It does not tip below 0.9615 times this friction (mu = 1.25). Backwards bed tips; model it as a block slider to see whether it still moves. Backwards it does not tip below 0.9615 times this friction (mu = 1.25).",
+        ),
+        (
+            driven(&pushed, &[("P", "0 N")]),
+            "push needs 6 N, all of it against friction. Backwards push needs -6 N, all of it against friction.",
+        ),
     ];
     assert_answers(&told);
 }

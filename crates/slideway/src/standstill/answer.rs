@@ -1,6 +1,9 @@
 //! Whether it holds, in sentences.
 
-use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging};
+use super::report::{
+    CoordinateRange, HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging,
+};
+use super::text::{greatest, words};
 use crate::report::count;
 use crate::units::number::brief;
 
@@ -49,8 +52,9 @@ fn verdict(report: &HoldReport) -> String {
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."
 fn moves(report: &HoldReport) -> String {
     let acceleration = |release: &Release| {
-        let is_zero = |range: &Range| range.least.zip(range.greatest).is_some_and(|ends| ends == (0.0, 0.0));
-        let mut moving = release.coordinates.iter().filter(|one| !is_zero(&one.acceleration));
+        let scale = greatest(&release.coordinates.iter().map(|one| one.acceleration).collect::<Vec<_>>());
+        let rests = |one: &CoordinateRange| words(one.acceleration, scale, &report.units.of(one.unit)) == "0";
+        let mut moving = release.coordinates.iter().filter(|one| !rests(one));
         let (Some(only), None) = (moving.next(), moving.next()) else { return None };
         let unit = report.units.of(only.unit);
         let ends = only.acceleration.least.zip(only.acceleration.greatest)?;
