@@ -64,7 +64,7 @@ fn a_jam_is_an_answer() {
     let folder = tempfile::tempdir().unwrap();
     let run = slideway(&folder, &["new", "peg", "--l", "3mm"]);
     assert_eq!(run.code, 0);
-    assert!(run.stdout.contains("no effort moves it, friction locks it"), "{}", run.stdout);
+    assert!(run.stdout.contains("It jams: no force moves it."), "{}", run.stdout);
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn uniqueness_for_every_right_hand_side_is_decided() {
         (
             r#"{"M": [[2, 1], [1, 2]], "q": [-1, 1]}"#,
             "one",
-            "For every q there is exactly one solution (M is a P-matrix)",
+            "Proven: for every q there is exactly one solution (M is a P-matrix).",
         ),
         (
             r#"{"M": [[1, 2], [2, 1]], "q": [1, 1]}"#,
@@ -71,12 +71,16 @@ fn uniqueness_for_every_right_hand_side_is_decided() {
             "singular",
             "For some q there is no solution or infinitely many (M is not a P-matrix)",
         ),
-        (r#"{"A": [[2]], "B": [[1]], "b": [1]}"#, "one", "For every b there is exactly one solution: proven"),
+        (
+            r#"{"A": [[2]], "B": [[1]], "b": [1]}"#,
+            "one",
+            "Proven: for every b there is exactly one solution.",
+        ),
         (
             r#"{"columns_positive": [[1]], "columns_negative": [[-1]], "right_hand_side": [1],
                 "jumps_positive": [[1]], "jumps_negative": [[0]]}"#,
             "jumps",
-            "not decided: column 1 of `jumps_positive` jumps with the sign",
+            "; column 1 of `jumps_positive` jumps with the sign",
         ),
     ];
     for (problem, answer, words) in cases {
@@ -118,7 +122,9 @@ fn archives_of_numpy_are_read() {
     assert_eq!(answers.len(), 7);
     assert!(answers.iter().all(|answer| *answer == answers[0]));
     // z = (1, 0, 2): w = M z + q = (0, 2, 0).
-    assert!(answers[0].contains("signs + - +"), "{}", answers[0]);
+    for line in ["  1   1   0\n", "  2   0   2\n", "  3   2   0\n"] {
+        assert!(answers[0].contains(line), "{}", answers[0]);
+    }
 }
 
 const RAY: &str = "crates/slideway-cli/tests/raw/good/ray.json";

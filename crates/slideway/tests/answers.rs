@@ -9,7 +9,7 @@ use slideway::modes::SearchOptions;
 use slideway::motion::{self, SimulateOptions, Thorough};
 use slideway::raw_problem::{self, RawProblem};
 use slideway::report::Style;
-use slideway::sweep::{Rows, Sampling, Sweep, SweepOptions, SweepState};
+use slideway::sweep::{Rows, Sampling, Spread, Sweep, SweepOptions, SweepState};
 use slideway::{
     DriveOptions, HoldOptions, Model, Report, Settings, configuration::Configuration, drive, gallery, hold,
 };
@@ -32,17 +32,48 @@ const GUIDED_GAP: &str = include_str!("findings/guided_gap.toml");
 
 #[test]
 fn drive_answers() {
+    // Its friction of 6 N is that of the preload, as nothing presses it: it stays between its faces.
+    let push =
+        "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"b.S\", direction = \"0 deg\" }\n[coordinates.x]";
+    let pushed = GUIDED_GAP.replace("[coordinates.x]", push);
     let told = [
         // P = Q / (1 - 2 mu a / L), which has no limit at mu = L / (2 a) = 2/3.
-        (driven("drawer", &[]), ""),
-        (driven("drawer", &[("mu", "0.8")]), ""),
-        (driven("drawer", &[("mu", "2/3")]), ""),
-        (driven("wedge", &[]), ""),
-        (driven("stick-slip", &[]), ""),
-        (driven("bell-crank", &[]), ""),
-        (driven(EQUAL_PLAY, &[]), ""),
-        (driven(TIPPING_PRESS, &[("mu", "1.3")]), ""),
-        (driven(GUIDED_GAP, &[]), ""),
+        (
+            driven("drawer", &[]),
+            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam at 2.222 times this friction (mu = 0.6667). Backwards push needs 13.79 N (20 N without friction); the load pushes, and 68.97 % of its power arrives. Backwards it does not jam at any friction.",
+        ),
+        (
+            driven("drawer", &[("mu", "0.8")]),
+            "It jams: no force moves it. It moves below 0.8333 times this friction (mu = 0.6667). Backwards 2 states are possible: push needs 9.091 N, or -100 N (unstable).",
+        ),
+        (
+            driven("drawer", &[("mu", "2/3")]),
+            "It is not decided whether it moves. Backwards push needs 10 N (20 N without friction); the load pushes, and 50 % of its power arrives. Backwards it does not jam at any friction.",
+        ),
+        (
+            driven("wedge", &[]),
+            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam at 5.594 times this friction (mu = 0.8391). Backwards P needs -0.1239 kN (0.1763 kN without friction): friction holds the load, so it must be driven. Backwards beyond 26.67 times this friction (mu = 4) floor would tip; model it as a block slider to go on.",
+        ),
+        (
+            driven("stick-slip", &[]),
+            "motor needs 2.453 N, all of it against friction. Beyond 4.8 times this friction (mu = 1.2) sole would tip; model it as a block slider to go on. Backwards motor needs -2.453 N, all of it against friction. Backwards beyond 4.8 times this friction (mu = 1.2) sole would tip; model it as a block slider to go on.",
+        ),
+        (
+            driven("bell-crank", &[]),
+            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. Backwards push needs 0.5549 kN (0.625 kN without friction); the load pushes, and 88.79 % of its power arrives.",
+        ),
+        (
+            driven(EQUAL_PLAY, &[]),
+            "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is undetermined. Backwards belt needs 12.5 to 16.67 N (20 N without friction), efficiency 62.5 to 83.33 %; how left, right share the load is undetermined. Give `stiffness` for one value.",
+        ),
+        (
+            driven(TIPPING_PRESS, &[("mu", "1.3")]),
+            "bed tips; model it as a block slider to see whether it still moves. It does not tip below 0.9615 times this friction (mu = 1.25). Backwards bed tips; model it as a block slider to see whether it still moves. Backwards it does not tip below 0.9615 times this friction (mu = 1.25).",
+        ),
+        (
+            driven(&pushed, &[("P", "0 N")]),
+            "push needs 6 N, all of it against friction. Backwards push needs -6 N, all of it against friction.",
+        ),
     ];
     assert_answers(&told);
 }
@@ -99,22 +130,55 @@ const SLOPE: &str = r#"
 fn hold_answers() {
     let wedged = [("mu", "0.7"), ("mu_s", "0.7"), ("cord_force", "0 N")];
     let told = [
-        (held("klepp-2002", &[], None), ""),
-        (held("drawer", &[], None), ""),
-        (held("bell-crank", &[], None), ""),
-        (held(SLOPE, &[], None), ""),
-        (held(SLOPE, &[], Some("weight")), ""),
-        (held(SLOPE, &[("angle", "20 deg")], Some("weight")), ""),
-        (held("bracket-on-pole", &[], None), ""),
-        (held("bracket-on-pole", &[], Some("W")), ""),
-        (held("bracket-on-pole", &[("x", "0.2 m")], Some("W")), ""),
-        (held(PIPE_CLAMP, &[], Some("screw")), ""),
-        (held("cam-follower", &[], Some("cam")), ""),
-        (held("drawer", &[], Some("resistance")), ""),
-        (held(SASH, &[], Some("gravity")), ""),
-        (held(SASH, &wedged, Some("gravity")), ""),
-        (held(GUIDED_TIPS, &[], None), ""),
-        (held("telescopic-boom", &[], None), ""),
+        (held("klepp-2002", &[], None), "It holds."),
+        (held("drawer", &[], None), "It does not hold: it starts to slide (x: -4 m/s^2)."),
+        (held("bell-crank", &[], None), "It does not hold."),
+        (
+            held(SLOPE, &[], None),
+            "It holds. Once pushed it keeps sliding: kinetic friction is lower than static.",
+        ),
+        (
+            held(SLOPE, &[], Some("weight")),
+            "Self-locking: it holds any `weight` from mu_static = 0.2309 (now 0.3).",
+        ),
+        (
+            held(SLOPE, &[("angle", "20 deg")], Some("weight")),
+            "It does not hold: it starts to slide (s: -1.541 m/s^2). It holds no `weight`. Not self-locking: a great enough `weight` moves it. It is self-locking from mu_static = 0.364 (now 0.3).",
+        ),
+        (held("bracket-on-pole", &[], None), "It holds."),
+        (
+            held("bracket-on-pole", &[], Some("W")),
+            "Self-locking: it holds any `W` from mu_static = 0.25, its present value.",
+        ),
+        (
+            held("bracket-on-pole", &[("x", "0.2 m")], Some("W")),
+            "It does not hold. It holds no `W`. Not self-locking: a great enough `W` moves it. It is self-locking from mu_static = 0.381 (now 0.25).",
+        ),
+        (
+            held(PIPE_CLAMP, &[], Some("screw")),
+            "Self-locking: it holds any `screw` from mu_static = 0.1667 (now 0.2).",
+        ),
+        (
+            held("cam-follower", &[], Some("cam")),
+            "Without `cam` it does not hold: it starts to slide (lift: -400 m/s^2). It holds with `cam` from 193 to 286.1 N. Not self-locking: a great enough `cam` moves it. It is self-locking from mu_static = 0.814 (now 0.15).",
+        ),
+        (
+            held("drawer", &[], Some("resistance")),
+            "It does not hold: it starts to slide (x: -4 m/s^2). It holds no `resistance`. Not self-locking: no static friction makes it so.",
+        ),
+        (
+            held(SASH, &[], Some("gravity")),
+            "It does not hold: it starts to slide (y: -3.433 m/s^2). It holds 0.275 to 0.725 times `gravity`. Not self-locking: a great enough `gravity` moves it. It is self-locking from mu_static = 0.6667 (now 0.3).",
+        ),
+        (
+            held(SASH, &wedged, Some("gravity")),
+            "It may hold, or it may start to slide: do not rely on it. While wedged it holds any `gravity`, but `gravity` alone need not wedge it.",
+        ),
+        (
+            held(GUIDED_TIPS, &[], None),
+            "It can neither stay at rest nor start to slide with finite accelerations.",
+        ),
+        (held("telescopic-boom", &[], None), "It does not hold: it starts to slide (s_3: 1.318 m/s^2)."),
     ];
     assert_answers(&told);
 }
@@ -162,38 +226,56 @@ fn simulate_answers() {
     let rate = "rate = \"v\"";
     let force = "components = [\"1 N * sqrt(1.3 - t/(1 s))\", 0]";
     let told = [
-        (simulated(&block(&[]), &options(2.0)), ""),
-        (simulated(&block(&[]), &options(0.5)), ""),
-        (simulated(&block(&[("v", "0 m/s")]), &options(0.5)), ""),
-        (simulated(&model("stick-slip", &[]), &options(0.5)), ""),
-        (simulated(&model("thrown-drawer", &[]), &options(0.6)), ""),
-        (simulated(&with("mu = 0.25", "mu = 0.25\ntravel = [-1, 0.5]"), &options(2.0)), ""),
-        (simulated(&model("drawer", &[("v", "-0.1 m/s")]), &options(6.0)), ""),
-        (simulated(&block(&[]), &SimulateOptions { reaction_limit: Some(9.0), ..options(2.0) }), ""),
-        (simulated(&block(&[]), &options(2.0).most_events(0)), ""),
-        (simulated(&block(&[]), &options(2.0).most_steps(3)), ""),
+        (simulated(&block(&[]), &options(2.0)), "It comes to rest at 0.8 s and stays so until 2 s."),
+        (simulated(&block(&[]), &options(0.5)), "It is still moving at 0.5 s."),
+        (simulated(&block(&[("v", "0 m/s")]), &options(0.5)), "It stays at rest until 0.5 s."),
+        (simulated(&model("stick-slip", &[]), &options(0.5)), "It is still moving at 0.5 s after 2 events."),
+        (
+            simulated(&model("thrown-drawer", &[]), &options(0.6)),
+            "It jams at 0.3692 s and stays at rest until 0.6 s.",
+        ),
+        (
+            simulated(&with("mu = 0.25", "mu = 0.25\ntravel = [-1, 0.5]"), &options(2.0)),
+            "It ends at 0.3101 s: guide reaches a limit of its travel.",
+        ),
+        (
+            simulated(&model("drawer", &[("v", "-0.1 m/s")]), &options(6.0)),
+            "It ends at 4 s: guide leaves its guide.",
+        ),
+        (
+            simulated(&block(&[]), &options(2.0).reaction_limit(9.0)),
+            "It ends at 0 s: the normal force of guide.front reaches its limit, which counts as a jam.",
+        ),
+        (
+            simulated(&block(&[]), &options(2.0).most_events(0)),
+            "Not finished: it was followed to 0.8 s, over 0 events, the most allowed.",
+        ),
         (
             simulated(
                 &with(rate, &format!("{rate}\n[loads.force]\ntype = \"force\"\nat = \"block.C\"\n{force}")),
                 &options(2.0),
             ),
-            "",
+            "It ends at 1.3 s: `sqrt` has no finite value for -2.220446049250313e-16.",
         ),
-        (simulated(&model(TIPPING_PRESS, &[("mu", "1.3")]), &options(0.1)), ""),
+        (
+            simulated(&model(TIPPING_PRESS, &[("mu", "1.3")]), &options(0.1)),
+            "It ends at 0 s: bed tips; model it as a block slider to go on.",
+        ),
     ];
     assert_answers(&told);
 }
 
 #[test]
 fn an_interrupted_motion_and_several_motions() {
-    let model = model(BLOCK, &[]);
+    let model = model("klepp-2002-spring", &[("mu_1", "0.6")]);
     let mechanism = Mechanism::new(&model).unwrap();
     let configuration = Configuration::new(&mechanism).unwrap();
-    let options = options(2.0);
+    let options = options(0.1);
     let mut stop = |_: &_| ControlFlow::Break(());
     let history =
         motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut stop).unwrap();
     let interrupted = motion::report(&history, &options).answer();
+    assert!(interrupted.starts_with("Interrupted at "), "{interrupted}");
     let tree = |most: usize| {
         let mut go_on = |_: &_| ControlFlow::Continue(());
         let tree =
@@ -201,7 +283,10 @@ fn an_interrupted_motion_and_several_motions() {
                 .unwrap();
         motion::tree_report(&tree, &options).answer()
     };
-    assert_answers(&[(interrupted, "Interrupted at 0 s."), (tree(9), ""), (tree(0), "")]);
+    assert_answers(&[
+        (tree(9), "2 motions are possible: these are all."),
+        (tree(1), "1 motion found; there may be more."),
+    ]);
 }
 
 fn checked(text: &str, settings: &[(&str, &str)]) -> String {
@@ -221,7 +306,7 @@ fn check_answers() {
             checked(PIPE_CLAMP, &[]),
             "Ready for: hold. For solve, give a mass (or a drive) and a rate. For simulate, give a mass (or a drive).",
         ),
-        (checked(EQUAL_PLAY, &[]), ""),
+        (checked(EQUAL_PLAY, &[]), "Ready for: solve, drive. Not for hold, simulate: see below."),
         (checked("drawer", &[("mu", "30")]), "Ready for: solve, drive, hold, simulate. 1 warning."),
         (checked(SHORT_ROD, &[]), "No question can be answered in this state: 1 fault."),
     ];
@@ -248,15 +333,23 @@ fn grid(axis: &str) -> SweepOptions {
 #[test]
 fn sweep_answers() {
     let drawer = model("drawer", &[]);
-    let samples =
-        SweepOptions::samples(Sampling::Random { samples: 100, seed: 1 }, ["mu=0..0.5".parse().unwrap()]);
+    let samples = SweepOptions::samples(
+        Sampling { count: 100, spread: Spread::Random, seed: 1 },
+        ["mu=0..0.5".parse().unwrap()],
+    );
     let told = [
         (swept(&drawer, &grid("mu=0..1:101")), "It jams at 34 of 101 points."),
         (swept(&drawer, &grid("mu=0..0.6:7")), "It jams at none of 7 points."),
         (swept(&drawer, &grid("mu=0.7..1:4")), "It jams at all 4 points."),
-        (swept(&model("slider-crank", &[]), &grid("l=5 mm..200 mm:4")), ""),
-        (swept(&drawer, &samples), ""),
-        (swept(&model("drawer", &[("v", "-0.1 m/s")]), &grid("mu=0..1:11")), ""),
+        (
+            swept(&model("slider-crank", &[]), &grid("l=5 mm..200 mm:4")),
+            "It jams at none of 4 points. 1 of them could not be solved.",
+        ),
+        (swept(&drawer, &samples), "It jams with a probability of 0 % (0 to 3.699 % with 95 % confidence)."),
+        (
+            swept(&model("drawer", &[("v", "-0.1 m/s")]), &grid("mu=0..1:11")),
+            "It jams at none of 11 points. 4 of them have several solutions.",
+        ),
     ];
     assert_answers(&told);
 }
@@ -271,7 +364,15 @@ fn map_answers() {
     let told = [ColourBy::Solutions, ColourBy::Jam, ColourBy::Hold]
         .map(|colour_by| map(&model("drawer", &[]), &options(colour_by)).unwrap().answer());
     let [solutions, jam, hold] = told;
-    assert_answers(&[(solutions, ""), (jam, ""), (hold, "")]);
+    // It jams where mu a > L / 2, which is (1 - ln 2) / 2 = 15.3 % of the plane.
+    assert_answers(&[
+        (solutions, "84.67 % of the map: one solution. 15.33 %: no solution, friction locks it."),
+        (
+            jam,
+            "84.67 % of the map: can move in both directions. 15.33 %: can only move against the direction of the model.",
+        ),
+        (hold, "100 % of the map: does not hold."),
+    ]);
 }
 
 fn found(json: &str, options: &SearchOptions) -> String {
@@ -295,7 +396,10 @@ fn modes_answers() {
             found(include_str!("../../slideway-cli/tests/raw/good/gap.json"), &all),
             "No solution, but there is a state with an unknown in its preload gap.",
         ),
-        (found(&lcp("[[-1, 0.5], [0.5, -1]]", "[1, 1]"), &SearchOptions { nodes: 1, ..all.clone() }), ""),
+        (
+            found(&lcp("[[-1, 0.5], [0.5, -1]]", "[1, 1]"), &SearchOptions { nodes: 1, ..all.clone() }),
+            "One solution found so far.",
+        ),
         (
             found(r#"{"type": "game", "A": [[1, -1], [-1, 1]], "B": [[-1, 1], [1, -1]]}"#, &all),
             "One equilibrium.",

@@ -259,7 +259,7 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
     let shares: Vec<(usize, f64)> = state.gaps.iter().map(|gap| (gap.index, gap.lambda)).collect();
     assert_eq!(shares, [(0, 0.875), (1, 0.75)]);
     assert!(state.shares_vary && state.residual == Some(0.0) && !state.on_boundary);
-    let told = report.text(Style::PLAIN);
+    let told = report.text(Style::PLAIN.verbose(true).width(1000));
     assert!(told.contains("These shares are an example: others have the same values"), "{told}");
     assert!(report.json().contains("\"shares_vary\": true"));
 }
@@ -403,7 +403,7 @@ fn patterns_settled_by_a_face_are_told() {
     let [group] = report.groups.as_slice() else { panic!("one group") };
     assert!(group.patterns.faces > 0.0, "{:?}", group.patterns);
     assert!((sum(&group.patterns) - 1.0).abs() <= 1e-12, "{:?}", group.patterns);
-    let told = report.text(Style::PLAIN.verbose(true));
+    let told = report.text(Style::PLAIN.verbose(true).width(1000));
     assert!(told.contains(" % all of whose solutions are those of another pattern, "), "{told}");
 }
 

@@ -119,7 +119,7 @@ pub(crate) enum Command {
     /// Write a table of the solutions over a grid or random samples
     #[command(after_help = sweep::HELP, override_usage = sweep::USAGE, mut_arg("file", sweep::unless_merging))]
     Sweep(SweepArguments),
-    /// Show what a model consists of and whether it is sound
+    /// Show what a model consists of and which questions it can answer
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
     /// Decide whether a mechanism stays at rest, and under which loads

@@ -138,6 +138,7 @@ __all__ = [
     "PointStatus",
     "PressFit",
     "Proof",
+    "Question",
     "Range",
     "RangeWithoutPosition",
     "RangeWithoutProblem",
@@ -834,7 +835,9 @@ class CheckReport(Report):
     """Whether nothing stands in the way of `solve` in this state: there are no findings. (What only the
     enumeration of the modes can tell, such as too many preload gaps, is not tried.)"""
     findings: tuple[Finding, ...]
-    """Everything for which it would be refused."""
+    """Everything for which that would be refused."""
+    questions: tuple[Question, ...]
+    """The questions, and which of them the model can answer in this state."""
     warnings: tuple[WarningReport, ...]
     """What is perhaps not meant, though it does not stand in the way."""
     mobility: MobilitySummary
@@ -2240,6 +2243,21 @@ class PressFit(Record):
     grip: float
     """`N_0 = k |play|` (N), with the stiffness `k` of one face: the sum of the forces on both faces as long as
     both are pressed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Question(Record):
+    """A question, and whether the model can answer it."""
+
+    name: str
+    """The command that asks it: "solve" (and with it "limits", "size", "sweep", "map"), "drive", "hold",
+    "simulate"."""
+    ready: bool
+    """Whether nothing stands in its way."""
+    findings: tuple[Finding, ...]
+    """Everything for which it would be refused."""
+    needs: tuple[str, ...]
+    """What it needs, in a few words, if that is little: "a rate"."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -4,9 +4,9 @@ use super::report::{
     Approach, BlowUp, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency, EfficiencyKind,
     EffortRange, Sense,
 };
-use crate::report::{Status, Verdict, spaced};
+use crate::report::{OpenRange, Status, Verdict, spaced};
 use crate::units::number::{brief, number};
-use crate::units::precise;
+use crate::units::{Unit, precise};
 
 /// Efforts of so many states are told in a sentence.
 const TOLD: usize = 4;
@@ -142,7 +142,11 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
     let efforts = range.undetermined.efforts.iter().zip(&direction.frictionless.efforts);
     let needs = efforts.map(|(effort, without)| {
         let without = report.units.of(effort.unit).brief(*without);
-        format!("{} needs {} ({without} without friction)", effort.name, effort.in_words(&report.units))
+        format!(
+            "{} needs {} ({without} without friction)",
+            effort.name,
+            between(effort, &report.units.of(effort.unit))
+        )
     });
     let mut parts: Vec<String> = needs.collect();
     parts.extend(range.efficiency.map(|ends| format!("efficiency {}", percents(ends))));
@@ -152,6 +156,17 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
         _ => " More states have their own efforts.",
     };
     format!("{}; {}.{further}", parts.join(", "), range.undetermined.cause())
+}
+
+/// "25 to 50 N", "25 N or more", "any effort"
+fn between(effort: &OpenRange, unit: &Unit) -> String {
+    match (effort.from, effort.to) {
+        (Some(from), Some(to)) if from == to => unit.brief(from),
+        (Some(from), Some(to)) => format!("{} to {}", unit.brief_number(from), unit.brief(to)),
+        (Some(from), None) => format!("{} or more", unit.brief(from)),
+        (None, Some(to)) => format!("{} or less", unit.brief(to)),
+        (None, None) => "any effort".to_owned(),
+    }
 }
 
 /// When it would jam, or that it never does; none where that is not known.

@@ -88,11 +88,16 @@ impl Text<'_> {
     fn verdict(&mut self) {
         let report = self.report;
         self.status(report.status, &report.answer());
-        self.line(match report.complete {
+        let proof = match report.complete {
             Proof::Proven if report.status == Status::None => "Proven.",
             Proof::Proven => "Proven: there are no others.",
+            // That was said.
+            Proof::NotProven if report.status == Status::Unknown => "",
             Proof::NotProven => "Not proven: there may be others.",
-        });
+        };
+        if !proof.is_empty() {
+            self.line(proof);
+        }
         for open in &report.open {
             self.line(&format!("  Open: {open}"));
         }

@@ -1,6 +1,9 @@
 //! Whether it holds, in sentences.
 
-use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging};
+use super::report::{
+    CoordinateRange, HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging,
+};
+use super::text::{greatest, words};
 use crate::report::count;
 use crate::units::number::brief;
 
@@ -49,7 +52,10 @@ fn verdict(report: &HoldReport) -> String {
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."
 fn moves(report: &HoldReport) -> String {
     let acceleration = |release: &Release| {
-        let [only] = release.coordinates.as_slice() else { return None };
+        let scale = greatest(&release.coordinates.iter().map(|one| one.acceleration).collect::<Vec<_>>());
+        let rests = |one: &CoordinateRange| words(one.acceleration, scale, &report.units.of(one.unit)) == "0";
+        let mut moving = release.coordinates.iter().filter(|one| !rests(one));
+        let (Some(only), None) = (moving.next(), moving.next()) else { return None };
         let unit = report.units.of(only.unit);
         let ends = only.acceleration.least.zip(only.acceleration.greatest)?;
         let [least, greatest] = [ends.0, ends.1].map(|end| unit.brief(end));
@@ -98,6 +104,7 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
     match load.held.as_slice() {
         [] if load.unit.is_empty() => format!("It holds no multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
+        [Range { least: Some(0.0), greatest: Some(0.0) }] => format!("It holds no `{name}`."),
         ranges => format!("It holds {with}{}.", ranges.iter().map(one).collect::<Vec<_>>().join(", and ")),
     }
 }

@@ -295,13 +295,13 @@ fn coefficients_in_words(threshold: &Threshold) -> Option<String> {
 }
 
 /// Greatest finite magnitude among the ends.
-fn greatest(ranges: &[Range]) -> f64 {
+pub(super) fn greatest(ranges: &[Range]) -> f64 {
     let ends = ranges.iter().flat_map(|range| [range.least, range.greatest]).flatten();
     ends.map(f64::abs).fold(0.0, f64::max)
 }
 
 /// "3", "1 to 3", "from 1 on", "up to 3" or "any".
-fn words(range: Range, scale: f64, unit: &Unit) -> String {
+pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
     // What is left over by the linear programs is no range.
     let noise = 1e3 * scale;
     let number = |value: f64| unit.against(value, noise);

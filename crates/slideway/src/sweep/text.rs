@@ -27,14 +27,11 @@ impl Sweep {
                 count => format!("It {jams} at {count} of {}.", counted(all, "point")),
             },
         }];
-        let what = if self.has_branches() { "points" } else { "samples" };
         let several: u64 =
             tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
-        for (count, is) in [(several, "with several solutions"), (all - tally.solved(), "not solved")] {
-            if count > 0 {
-                sentences.push(format!("{} {is}.", counted(count, what.trim_end_matches('s'))));
-            }
-        }
+        let unsolved = all - tally.solved();
+        sentences.extend((several > 0).then(|| format!("{several} of them have several solutions.")));
+        sentences.extend((unsolved > 0).then(|| format!("{unsolved} of them could not be solved.")));
         sentences.join(" ")
     }
 

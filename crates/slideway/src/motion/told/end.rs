@@ -85,13 +85,14 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, Strin
 /// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
-    let events =
-        history.events.iter().filter(|event| is_told(event) && !event.causes.contains(&Cause::Start));
-    let after = match events.count() {
-        0 => String::new(),
-        events => format!(", after {}", count(events, "event", "events")),
-    };
     let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest());
+    // The stop itself is no event before it.
+    let end = rest.map_or(f64::INFINITY, |rest| rest.from);
+    let counts = |event: &&Event| is_told(event) && !event.causes.contains(&Cause::Start) && event.time < end;
+    let after = match history.events.iter().filter(counts).count() {
+        0 => String::new(),
+        events => format!(" after {}", count(events, "event", "events")),
+    };
     let Some(rest) = rest else {
         let bodies = 3 * history.mechanism.bodies.len();
         let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
@@ -101,13 +102,13 @@ fn finished(history: &History, time: &str) -> String {
     let from = history.mechanism.units.of("s").brief(rest.from);
     if jams.last() == Some(&rest.from) {
         let before = jams_on_the_way(jams.len() - 1);
-        return format!("It jams at {from}, and stays at rest until {time}.{before}");
+        return format!("It jams at {from}{after} and stays at rest until {time}.{before}");
     }
     let jams = jams_on_the_way(jams.len());
     if rest.from <= history.start() {
         return format!("It stays at rest until {time}.{jams}");
     }
-    format!("It comes to rest at {from}{after}, and stays so until {time}.{jams}")
+    format!("It comes to rest at {from}{after} and stays so until {time}.{jams}")
 }
 
 fn jams(event: &Event) -> bool {
