@@ -38,7 +38,8 @@ fn outcome(text: &str, duration: f64) -> Option<(History, Vec<(f64, String)>)> {
 
 /// The differences that the pendulum makes.
 fn differences(text: &str, duration: f64) -> Vec<String> {
-    let (alone, beside) = (outcome(text, duration), outcome(&beside_a_pendulum(text, [0.02, -0.04], 2.0), duration));
+    let (alone, beside) =
+        (outcome(text, duration), outcome(&beside_a_pendulum(text, [0.02, -0.04], 2.0), duration));
     let (Some((alone, expected)), Some((beside, found))) = (&alone, &beside) else {
         let is_same = alone.is_none() && beside.is_none();
         return if is_same { Vec::new() } else { vec!["only one can begin".to_owned()] };

@@ -3,8 +3,7 @@
 //!
 //! Not compared is what is not computed with friction in hinges: factors of friction from which on drives have no solution, and
 //! answers on redundant guides in motion, which are refused then. Margins and limits hold for all friction together; the
-//! pendulum's own mode ends beyond 20 times its friction. Why a mode ends is not compared either: where forces grow without
-//! bound beside that of the pendulum's pin, `limits` says that this one vanishes.
+//! pendulum's own mode ends beyond 20 times its friction.
 
 use super::random_linkages::Random;
 use super::unrelated::{beside_a_pendulum, cart_and_block};
@@ -88,7 +87,7 @@ fn limited(model: &Model) -> Option<Told> {
     let report = limits(model, &LimitsOptions::new(Vary::between("friction", 0.0, 3.0))).ok()?;
     let mut told = Told::default();
     for mode in &report.modes {
-        told.say(&mode.pattern);
+        told.say((&mode.pattern, mode.from_is, mode.to_is));
         told.numbers.extend([mode.from, mode.to].map(|end| end.unwrap_or(-1.0)));
     }
     for count in &report.counts {
