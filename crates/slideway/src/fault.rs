@@ -316,6 +316,12 @@ pub enum FaultKind {
         joints.join(" and ")
     )]
     ImpactWedges { joints: Vec<String> },
+    #[error(
+        "the impact of {} on the stop has no possible impulse: {} would tip",
+        joints.join(" and "),
+        tipping.join(" and ")
+    )]
+    ImpactTips { joints: Vec<String>, tipping: Vec<String> },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
     StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
     #[error("the static friction radius {static_radius} m of {hinge} is below its kinetic one, {radius} m")]
@@ -538,6 +544,10 @@ impl FaultKind {
             }),
             Self::SharedLoad { .. } => Some(
                 "`slideway simulate` cannot yet follow guides that share a load: ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
+                    .to_owned(),
+            ),
+            Self::ImpactTips { .. } => Some(
+                "its face is not pressed enough to bear its couple: with `type = \"block_slider\"` both ends of its block bear it"
                     .to_owned(),
             ),
             Self::FrictionInHinges { .. } => Some(

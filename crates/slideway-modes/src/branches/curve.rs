@@ -228,19 +228,33 @@ impl Walk<'_> {
         (self.follows(place, &end, predicted) && self.is_within(&end)).then_some(end)
     }
 
-    /// Where the curve is not followed any further: where a hinge force vanishes it has a kink.
+    /// Where the curve is not followed any further: where a hinge force vanishes it has a kink. Where other forces grow without
+    /// bound, one on which they have no influence is small only beside them, and not beside its own load.
     fn lost(&self, place: Place) -> Way {
         if ((self.goal() - place.at) / self.way).abs() <= AT_GOAL {
             return Way::Reaches(place);
         }
         let contacts = self.curve.equations.states.len();
         let hinges = (place.z.len() - 1 - contacts) / 2;
-        let least = NO_FORCE * place.z.amax();
+        let small = |hinge: &usize, beside: f64| place.length(contacts, *hinge) <= NO_FORCE * beside;
+        let own_load = |hinge: &usize| self.load_of_hinge(&place, contacts + 2 * hinge);
+        let all: Vec<usize> = (0..hinges).filter(|hinge| small(hinge, place.z.amax())).collect();
         let unloaded: Vec<usize> =
-            (0..hinges).filter(|&hinge| place.length(contacts, hinge) <= least).collect();
-        let cause =
-            if unloaded.is_empty() { EndCause::NotFollowed } else { EndCause::HingeUnloaded(unloaded) };
+            all.iter().copied().filter(|hinge| own_load(hinge).is_none_or(|own| small(hinge, own))).collect();
+        let cause = match (&unloaded[..], &all[..]) {
+            ([], []) => EndCause::NotFollowed,
+            ([], _) => EndCause::Singular,
+            _ => EndCause::HingeUnloaded(unloaded),
+        };
         Way::Ends(place, cause)
+    }
+
+    /// The load of the hinge of this row and the next at a place, homogeneous as its force is; nothing where it has none.
+    fn load_of_hinge(&self, place: &Place, row: usize) -> Option<f64> {
+        let instance = (self.curve.family)(place.at).ok()?;
+        let load = instance.problem.load().centre();
+        let own = load[(row, 0)].hypot(load[(row + 1, 0)]);
+        (own > NO_FORCE * instance.unit()).then(|| place.load().abs() * own / self.curve.equations.unit)
     }
 
     /// Whether nothing has ended before a place of the curve.

@@ -33,7 +33,7 @@ pub(crate) struct SlidingJoint {
     /// Its contacts.
     pub(super) contacts: Vec<usize>,
     /// The couple of a guided slider.
-    pub(super) couple: Option<GuidedCouple>,
+    pub(crate) couple: Option<GuidedCouple>,
 }
 
 /// The load that is varied.

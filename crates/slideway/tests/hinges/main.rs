@@ -20,3 +20,4 @@ mod tables;
 mod turning;
 mod uncertainty;
 mod unrelated;
+mod unrelated_questions;

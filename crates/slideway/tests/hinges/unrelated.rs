@@ -8,16 +8,16 @@ use std::fmt::Write;
 
 const TOLERANCE: f64 = 1e-6;
 
-/// A model beside a pendulum that swings.
-fn beside_a_pendulum(text: &str) -> String {
-    let points = "[points]\nunrelated_O = [0, 0]\nunrelated_G = [0.02, -0.04]\n";
+/// A model beside a pendulum that turns at this rate, with its centre of mass there.
+pub(super) fn beside_a_pendulum(text: &str, [x, y]: [f64; 2], rate: f64) -> String {
+    let points = format!("[points]\nunrelated_O = [0, 0]\nunrelated_G = [{x}, {y}]\n");
     let body = "\n[bodies.unrelated]\npoints = [\"unrelated_O\"]\nmass = 1\ncentre_of_mass = \"unrelated_G\"\n\
          moment_of_inertia = 1e-3\n";
     let pin = "[joints.unrelated]\ntype = \"hinge\"\nbetween = [\"unrelated.unrelated_O\", \"ground.unrelated_O\"]\n\
          friction_radius = \"2 mm\"\n";
-    let coordinate = "[coordinates.unrelated]\nrotation = \"unrelated\"\nrate = 2\n";
+    let coordinate = format!("[coordinates.unrelated]\nrotation = \"unrelated\"\nrate = {rate}\n");
     assert_eq!(text.matches("[points]\n").count(), 1, "{text}");
-    text.replace("[points]\n", points) + body + pin + coordinate
+    text.replace("[points]\n", &points) + body + pin + &coordinate
 }
 
 /// What happens to all but the last hinge with friction, if there is one: when, and the modes that follow; and how it ends.
@@ -38,7 +38,8 @@ fn outcome(text: &str, duration: f64) -> Option<(History, Vec<(f64, String)>)> {
 
 /// The differences that the pendulum makes.
 fn differences(text: &str, duration: f64) -> Vec<String> {
-    let (alone, beside) = (outcome(text, duration), outcome(&beside_a_pendulum(text), duration));
+    let (alone, beside) =
+        (outcome(text, duration), outcome(&beside_a_pendulum(text, [0.02, -0.04], 2.0), duration));
     let (Some((alone, expected)), Some((beside, found))) = (&alone, &beside) else {
         let is_same = alone.is_none() && beside.is_none();
         return if is_same { Vec::new() } else { vec!["only one can begin".to_owned()] };
@@ -80,7 +81,7 @@ fn an_unrelated_pendulum_changes_no_motion_of_the_gallery() {
 }
 
 /// A cart on a rail, and a block on a guide of the cart, under loads that swing, with stops, inclined at random.
-fn cart_and_block(random: &mut Random) -> String {
+pub(super) fn cart_and_block(random: &mut Random) -> String {
     let mut rail = |name: &str, block: &str, guide: &str| {
         let mu = random.between([0.0, 0.8]);
         format!(

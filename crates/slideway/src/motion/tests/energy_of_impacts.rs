@@ -96,7 +96,7 @@ fn cart(random: &mut Random) -> String {
     )
 }
 
-/// Kinetic energy before and after; the fault where the impact is refused, since several outcomes are possible or none.
+/// Kinetic energy before and after; the fault where the impact is refused.
 fn energies(text: &str, restitution: f64) -> Result<[f64; 2], FaultKind> {
     let mechanism = mechanism_of(text);
     let configuration = Configuration::new(&mechanism).unwrap();
@@ -106,25 +106,40 @@ fn energies(text: &str, restitution: f64) -> Result<[f64; 2], FaultKind> {
     }
 }
 
+/// A cart whose block has its centre of mass on the centre line of the rail: since nothing turns, forces and motions are the
+/// same, but for the couple of the rail.
+fn without_couple(text: &str) -> String {
+    let line = |line: &str| {
+        if line.starts_with("centre_of_mass = [") { "centre_of_mass = \"C\"\n" } else { line }.to_owned()
+    };
+    text.split_inclusive('\n').map(line).collect()
+}
+
+/// No impact is refused but those in which the rail, a guided slider, would tip: where the block or pin sticks, both bodies
+/// move along the rail, nothing presses them against it, and no length of it bears the couple of what it brakes.
 #[test]
 fn energy_never_grows_in_random_impacts() {
     let mut random = Random(35);
-    let (mut several, mut none, mut bounded) = (0, 0, 0);
+    let (mut tipping, mut bounded) = (0, 0);
     for number in 0..2000 {
-        let text = if number % 5 == 0 { trammel(random.between([0.0, 1.5]), "") } else { cart(&mut random) };
+        let mut text =
+            if number % 5 == 0 { trammel(random.between([0.0, 1.5]), "") } else { cart(&mut random) };
         // rail comes before upper, level before upright.
         let restitution = [random.between([0.0, 1.0]), 1.0][usize::from(number % 3 == 0)];
-        let [before, after] = match energies(&text, restitution) {
-            Ok(energies) => energies,
-            Err(kind) => {
-                let refused =
-                    if matches!(kind, FaultKind::SeveralImpacts { .. }) { &mut several } else { &mut none };
-                *refused += 1;
+        let mut found = energies(&text, restitution);
+        if let Err(FaultKind::ImpactTips { tipping: sliders, .. }) = &found {
+            assert_eq!(*sliders, ["rail"], "{number}: e = {restitution}\n{text}");
+            tipping += 1;
+            if text.contains("hinge") {
                 continue;
             }
-        };
+            text = without_couple(&text);
+            found = energies(&text, restitution);
+        }
+        let [before, after] =
+            found.unwrap_or_else(|fault| panic!("{number}: {fault} e = {restitution}\n{text}"));
         assert!(after <= before * (1.0 + 1e-9), "{number}: {before} {after} e = {restitution}\n{text}");
         bounded += usize::from(restitution == 1.0 && after < before * (1.0 - 1e-6));
     }
-    assert!(several < 20 && none < 200 && bounded > 100, "{several} {none} {bounded}");
+    assert!(tipping > 0 && bounded > 100, "{tipping} {bounded}");
 }

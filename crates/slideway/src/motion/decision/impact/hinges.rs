@@ -36,14 +36,7 @@ pub(super) fn impact(
         velocities.iter().map(|velocity| Some(sign_of(*velocity)).filter(|sign| *sign != 0.0)).collect();
     let setup = setup(mechanism, configuration, (&signs, 0.0))?;
     let size = 3 * mechanism.bodies.len();
-    let collision = Collision {
-        mechanism,
-        hits: &hits,
-        pushes: Vec::new(),
-        wedges: false,
-        velocities: &velocities,
-        size,
-    };
+    let collision = Collision::new(mechanism, &hits, &velocities, size);
     let course = outcome(collision, |collision, unsolved| {
         collision.outcome(&Hinged { setup: touching(&setup, collision), configuration, collision }, unsolved)
     })?;
@@ -78,6 +71,7 @@ fn touching(setup: &Setup, collision: &Collision<'_>) -> Setup {
     for (hit, pushes) in collision.hits.iter().zip(&collision.pushes) {
         touching.stops[hit.joint] = if *pushes { collision.velocities[hit.joint].signum() } else { 0.0 };
     }
+    collision.upright.iter().for_each(|joint| touching.sliders[*joint].couple = None);
     touching
 }
 

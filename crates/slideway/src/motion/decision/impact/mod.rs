@@ -13,6 +13,8 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
+use crate::model::SliderKind;
+use crate::pattern::phase::sliding_joints;
 use nalgebra::DVector;
 
 /// The effect of an impact on end stops.
@@ -66,7 +68,8 @@ pub struct Blow {
 ///
 /// # Errors
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are
-/// tried, an impact in which friction leaves the stops no impulse, and one with several possible outcomes.
+/// tried, an impact in which friction leaves the stops no impulse, one in which a guided slider would tip, and one with several
+/// possible outcomes.
 pub fn impact(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -164,6 +167,8 @@ struct Collision<'c> {
     pushes: Vec<bool>,
     /// Whether pushing may make joints faster towards their stops, and friction wedge them.
     wedges: bool,
+    /// The guided sliders of which it does not count whether they would tip, by their numbers among the sliding joints.
+    upright: Vec<usize>,
     /// The velocities of the sliding joints (m/s), then of hinges with friction, in sizes of the mechanism; exactly zero where
     /// they are only rounding.
     velocities: &'c [f64],
@@ -179,40 +184,93 @@ fn outcome(
     mut collision: Collision<'_>,
     attempt: impl Fn(&Collision<'_>, &mut usize) -> Result<Option<AfterImpact>, Faults>,
 ) -> Result<AfterImpact, Faults> {
-    let hits = collision.hits.len();
-    let choices = collision.hits.iter().fold(1_u64, |choices, _| choices.saturating_mul(2));
-    if choices > MOST_STATES {
-        let kind = FaultKind::TooManyStates { states: choices, limit: MOST_STATES };
-        return Err(Fault::general(kind).into());
-    }
     let mut unsolved = 0;
-    for wedges in [false, true] {
-        collision.wedges = wedges;
-        let mut found: Option<AfterImpact> = None;
-        // All stops together are tried first.
-        for choice in (1..choices).rev() {
-            collision.pushes = (0..hits).map(|hit| choice >> hit & 1 == 1).collect();
-            let Some(other) = attempt(&collision, &mut unsolved)? else { continue };
-            let differs = |found: &AfterImpact| {
-                let velocities = found.velocities.iter().zip(&other.velocities);
-                velocities.into_iter().any(|(one, other)| collision.without_rounding(one - other) != 0.0)
-            };
-            if found.as_ref().is_some_and(differs) {
-                return Err(collision.several());
-            }
-            found.get_or_insert(other);
-        }
-        if let Some(found) = found {
-            return Ok(found);
-        }
+    if let Some(found) = collision.found(&attempt, &mut unsolved)? {
+        return Ok(found);
     }
     let joints = collision.joints();
-    let kind =
-        if unsolved > 0 { FaultKind::UnsolvedImpact { joints } } else { FaultKind::ImpactWedges { joints } };
+    if unsolved > 0 {
+        return Err(Fault::general(FaultKind::UnsolvedImpact { joints }).into());
+    }
+    let tipping = collision.tipping(&attempt)?;
+    let kind = if tipping.is_empty() {
+        FaultKind::ImpactWedges { joints }
+    } else {
+        FaultKind::ImpactTips { joints, tipping }
+    };
     Err(Fault::general(kind).into())
 }
 
-impl Collision<'_> {
+impl<'c> Collision<'c> {
+    /// The joints, with the velocities before the impact, and components of the jumps.
+    fn new(mechanism: &'c Mechanism, hits: &'c [Hit], velocities: &'c [f64], size: usize) -> Self {
+        Self { mechanism, hits, pushes: Vec::new(), wedges: false, upright: Vec::new(), velocities, size }
+    }
+
+    /// The unique outcome over all choices of the stops that push; nothing where there is none.
+    ///
+    /// # Errors
+    /// Too many choices, or several outcomes.
+    fn found(
+        &mut self,
+        attempt: &impl Fn(&Self, &mut usize) -> Result<Option<AfterImpact>, Faults>,
+        unsolved: &mut usize,
+    ) -> Result<Option<AfterImpact>, Faults> {
+        let choices = self.hits.iter().fold(1_u64, |choices, _| choices.saturating_mul(2));
+        if choices > MOST_STATES {
+            let kind = FaultKind::TooManyStates { states: choices, limit: MOST_STATES };
+            return Err(Fault::general(kind).into());
+        }
+        for wedges in [false, true] {
+            self.wedges = wedges;
+            let mut found: Option<AfterImpact> = None;
+            // All stops together are tried first.
+            for choice in (1..choices).rev() {
+                self.pushes = (0..self.hits.len()).map(|hit| choice >> hit & 1 == 1).collect();
+                let Some(other) = attempt(self, unsolved)? else { continue };
+                let differs = |found: &AfterImpact| {
+                    let velocities = found.velocities.iter().zip(&other.velocities);
+                    velocities.into_iter().any(|(one, other)| self.without_rounding(one - other) != 0.0)
+                };
+                if found.as_ref().is_some_and(differs) {
+                    return Err(self.several());
+                }
+                found.get_or_insert(other);
+            }
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The names of the guided sliders that keep a collision without an outcome from having one, since they would tip: each
+    /// that does so by itself, else all that do so together.
+    ///
+    /// # Errors
+    /// As [`Self::found`].
+    fn tipping(
+        &mut self,
+        attempt: &impl Fn(&Self, &mut usize) -> Result<Option<AfterImpact>, Faults>,
+    ) -> Result<Vec<String>, Faults> {
+        let joints = sliding_joints(self.mechanism);
+        let slider = |joint: &usize| self.mechanism.slider(joints[*joint]);
+        let is_guided = |joint: &usize| slider(joint).is_some_and(|one| one.kind == SliderKind::Guided);
+        let guided: Vec<usize> = (0..joints.len()).filter(is_guided).collect();
+        let mut tips = |upright: &[usize]| {
+            self.upright = upright.to_vec();
+            Ok::<_, Faults>(self.found(attempt, &mut 0)?.is_some())
+        };
+        let mut alone = Vec::new();
+        for joint in &guided {
+            if tips(&[*joint])? {
+                alone.push(*joint);
+            }
+        }
+        let all = if alone.is_empty() && tips(&guided)? { guided } else { alone };
+        Ok(all.iter().map(|joint| self.mechanism.joints[joints[*joint].index()].name.to_string()).collect())
+    }
+
     /// The names of the joints.
     fn joints(&self) -> Vec<String> {
         self.hits.iter().map(|hit| self.mechanism.joints[hit.id.index()].name.to_string()).collect()

@@ -34,14 +34,7 @@ pub(super) fn impact(
             continue;
         }
         let size = instant.influence.frictionless.len();
-        let collision = Collision {
-            mechanism,
-            hits: &hits,
-            pushes: Vec::new(),
-            wedges: false,
-            velocities: &velocities,
-            size,
-        };
+        let collision = Collision::new(mechanism, &hits, &velocities, size);
         let before = &found.after;
         let course = outcome(collision, |collision, unsolved| {
             let instant = touching(&instant, collision);
@@ -65,6 +58,7 @@ fn touching<'m>(instant: &Instant<'m>, collision: &Collision<'_>) -> Instant<'m>
         joint.stop = if *pushes { joint.velocity.signum() } else { 0.0 };
         joint.has_friction |= *pushes;
     }
+    collision.upright.iter().for_each(|joint| instant.joints[*joint].couple = None);
     instant
 }
 
