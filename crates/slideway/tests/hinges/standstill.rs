@@ -201,7 +201,9 @@ fn ranges_without_an_end_on_one_side_are_decided() {
     let report = held(&text, &HoldOptions::default());
     assert_eq!(report.undecided, 0);
     let forces = report.at_rest.expect("it rests").reactions.contacts;
-    let ends: Vec<[bool; 2]> =
-        forces.iter().map(|contact| [contact.normal_force.least, contact.normal_force.greatest].map(|end| end.is_some())).collect();
+    let ends: Vec<[bool; 2]> = forces
+        .iter()
+        .map(|contact| [contact.normal_force.least, contact.normal_force.greatest].map(|end| end.is_some()))
+        .collect();
     assert_eq!(ends, [[false; 2], [false; 2]]);
 }
