@@ -177,6 +177,27 @@ fn an_interrupted_search_proves_nothing() {
     assert!(run(&problem, &SearchOptions::default()).nodes() > 0);
 }
 
+/// All z from 0 to 1 with a sum of at most 8 solve this: more corners than are described. That there is no proof is said at
+/// the first node that shows it, and not after the search, which takes more than 1,000 nodes.
+#[test]
+fn sets_with_too_many_corners_end_a_proof_at_once() {
+    let size = 16;
+    let rows = size + 1;
+    let a = DMatrix::from_fn(rows, size, |row, column| f64::from(row == size || row == column));
+    let mut m = DMatrix::zeros(size + rows, size + rows);
+    m.view_mut((size, 0), (rows, size)).copy_from(&-&a);
+    m.view_mut((0, size), (size, rows)).copy_from(&a.transpose());
+    let q = DVector::from_fn(size + rows, |row, _| match row {
+        _ if row < size => 0.0,
+        _ if row < 2 * size => 1.0,
+        _ => 8.0,
+    });
+    let problem = ModeProblem::from_linear_complementarity(&m, q).expect("finite");
+    let options = SearchOptions::within(Some(100), None);
+    let found = prove(&problem, &options, &mut |_| ControlFlow::Continue(()));
+    assert_eq!(found.err(), Some(NoProof::Open));
+}
+
 #[test]
 fn a_monotone_problem_takes_one_node() {
     // M = B^T B + K with a skew K is positive semidefinite, and singular, as B has three rows only.

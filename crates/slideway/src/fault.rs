@@ -410,6 +410,8 @@ pub enum FaultKind {
     NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
     #[error("{state} is too far from the drawing: {steps} steps only reached {reached}")]
     TooFar { state: String, reached: String, steps: usize },
+    #[error("the work was ended before the positions of the bodies were known")]
+    WorkEnded,
     #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
     NotFollowed { state: String, reached: String, steps: usize },
     #[error(

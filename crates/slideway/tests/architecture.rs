@@ -15,7 +15,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("model", &["expression", "fault", "ids", "interval", "units"]),
     ("drawing", &["fault", "ids", "model", "printable"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model", "modes", "units"]),
-    ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
+    ("configuration", &["fault", "ids", "interval", "mechanism", "model", "progress"]),
     ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),
     ("influence", &["ids", "kinetics"]),
     ("report", &["fault", "ids", "printable", "units"]),

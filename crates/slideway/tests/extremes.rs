@@ -12,7 +12,8 @@ use slideway::map::map_with;
 use slideway::model::{Model, Settings};
 use slideway::report::{Proof, SolveReport, Status, Style};
 use slideway::size::{Against, size_with};
-use slideway::solve::solve;
+use slideway::solve::{SolveOptions, solve, solve_with};
+use slideway::standstill::hold_with;
 use slideway::{DriveOptions, HoldOptions, LimitsOptions, MapOptions, Report, SizeOptions, Vary};
 use std::ops::ControlFlow;
 
@@ -88,6 +89,20 @@ fn only(faults: &Faults) -> FaultKind {
 fn states_far_from_the_drawing_are_refused_after_so_many_steps() {
     let turned = faults("slider-crank", &Settings::default().position("phi", "1e5 rad"));
     assert!(matches!(only(&turned), FaultKind::TooFar { steps: 5000, .. }), "{turned}");
+}
+
+#[test]
+fn the_way_from_the_drawing_ends_where_the_callback_says_so() {
+    let model = Model::parse(find("slider-crank").unwrap().text).unwrap();
+    let far = model.with(&Settings::default().position("phi", "1e5 rad")).unwrap();
+    let mut calls = 0;
+    let ended = solve_with(&far, &SolveOptions::default(), &mut |_| {
+        calls += 1;
+        if calls < 10 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    assert_eq!((only(&ended.unwrap_err()), calls), (FaultKind::WorkEnded, 10));
+    let held = hold_with(&far, &HoldOptions::default(), &mut |_| ControlFlow::Break(()));
+    assert!(held.unwrap().is_none());
 }
 
 /// Where nothing turns the way is straight, and as far as that one step suffices.

@@ -29,6 +29,8 @@ Types of problems and their arrays:
 As JSON, with matrices as lists of rows:
   {\"type\": \"lcp\", \"M\": [[2, 1], [1, 2]], \"q\": [-1, 1]}
 or as a NumPy archive, written by numpy.savez(\"problem.npz\", M=M, q=q).
+At most 2000 unknowns, of which mcp counts those with two bounds twice, and 64 MB.
+Matrices are dense: zeros are stored, and take time.
 
 Examples:
   slideway modes problem.json

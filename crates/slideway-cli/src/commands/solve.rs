@@ -9,6 +9,7 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;
+use slideway::fault::FaultKind;
 use slideway::solve::{SolveOptions, exact_mode_problem, solve_with};
 
 /// Finds and writes all solutions of a model.
@@ -22,8 +23,14 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     let proof = arguments.proof.as_deref();
     let proof = proof.map(|path| ProofFiles::new(path, false, &mut files)).transpose()?;
     let mut watch = Watch::new(arguments.search.time.time_limit);
-    let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
-        .map_err(|faults| input.refused(faults))?;
+    let report = solve_with(&model, &options, &mut |progress| watch.look(progress));
+    let report = report.map_err(|faults| match watch.halt() {
+        // The positions are not known, without which there is nothing to tell.
+        Some(halt) if faults.sorted().iter().any(|fault| fault.kind == FaultKind::WorkEnded) => {
+            Failure::Halted { halt, path: None }
+        }
+        _ => input.refused(faults),
+    })?;
     output.write(&match arguments.format {
         Format::Text => report.text(output.style()),
         Format::Json => report.json(),

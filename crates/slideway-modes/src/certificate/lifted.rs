@@ -62,6 +62,26 @@ impl LiftedSystem {
         Self { contacts, rows: right.len(), columns, right, exponents, share }
     }
 
+    /// Sums of the equations, with these factors each; not multiplied further.
+    pub(crate) fn summed(&self, sums: &[Vec<IBig>]) -> Self {
+        let summed = |column: &Vec<IBig>| -> Vec<IBig> {
+            let product = |sum: &Vec<IBig>| {
+                let terms =
+                    sum.iter().zip(column).filter(|(factor, entry)| !factor.is_zero() && !entry.is_zero());
+                terms.map(|(factor, entry)| factor * entry).sum()
+            };
+            sums.iter().map(product).collect()
+        };
+        Self {
+            contacts: self.contacts,
+            rows: sums.len(),
+            columns: self.columns.iter().map(summed).collect(),
+            right: summed(&self.right),
+            exponents: vec![0; sums.len()],
+            share: self.share.clone(),
+        }
+    }
+
     /// The number of contacts.
     pub(crate) fn contacts(&self) -> usize {
         self.contacts

@@ -2,7 +2,7 @@
 //!
 //! The solutions of the relaxation of a node are a face. If the states of all contacts agree with its
 //! inside, where as many unknowns are positive as possible, the whole face consists of solutions, all of
-//! one pattern. That all other unknowns vanish is proven by vectors in integers ([`separate`]), so the node is
+//! one pattern. That all other unknowns vanish is proven by vectors in integers ([`WithoutFree::separate`]), so the node is
 //! settled with this pattern, however many others the node has.
 
 use std::sync::Arc;
@@ -12,9 +12,10 @@ use nalgebra::DVector;
 
 use super::leaf::Leaves;
 use super::monitor::Monitor;
-use super::separation::{Separated, separate};
+use super::separation::Separated;
 use super::signs::RowSigns;
 use super::states::StateSet;
+use super::without_free::WithoutFree;
 use crate::certificate::{Decision, LiftedSystem};
 use crate::dense::Lu;
 use crate::problem::{ContactState, ProblemView, ScaledProblem};
@@ -27,6 +28,7 @@ pub(super) struct Faces {
     signs: Arc<RowSigns>,
     /// Contacts whose columns are opposite, without jumps: `y^+ - y^-` may have any sign.
     free: Arc<Vec<bool>>,
+    without_free: Arc<WithoutFree>,
     /// The patterns that are examined, with the columns that a node may have to be settled by them.
     known: Vec<(ContactSet, Vec<ContactState>)>,
     /// Whether nodes are settled with the columns of the positive unknowns, not with all of a pattern, if
@@ -75,9 +77,11 @@ impl Faces {
             let [one, other] = [contact, system.contacts() + contact].map(|column| system.column(column));
             !problem.has_jump(contact) && one.iter().zip(other).all(|(one, other)| *one == -other)
         };
-        let free = Arc::new((0..system.contacts()).map(opposite).collect());
+        let free: Vec<bool> = (0..system.contacts()).map(opposite).collect();
         let signs = Arc::new(RowSigns::new(&system));
-        Self { system: Arc::new(system), signs, free, known: Vec::new(), to_support: false }
+        let system = Arc::new(system);
+        let without_free = Arc::new(WithoutFree::new(&system, &free));
+        Self { system, signs, free: Arc::new(free), without_free, known: Vec::new(), to_support: false }
     }
 
     /// The same, with nodes settled by as few columns as possible, for the cells of a proof.
@@ -109,9 +113,10 @@ impl Faces {
         states: &[StateSet],
         proceed: &mut dyn FnMut() -> bool,
     ) -> Option<Vec<IBig>> {
-        let columns: Vec<usize> = self.allowed(states).iter().collect();
-        match separate(&self.system, (&columns, &[]), Separated::Infeasible, proceed) {
-            None if self.to_support => self.system.farkas(&columns, proceed),
+        let allowed = self.allowed(states);
+        let none = ContactSet::none_of(self.system.width());
+        match self.without_free.separate((&allowed, &none), Separated::Infeasible, proceed) {
+            None if self.to_support => self.system.farkas(&allowed.iter().collect::<Vec<_>>(), proceed),
             vector => vector,
         }
     }
@@ -187,9 +192,7 @@ impl Faces {
         if rest.is_empty() {
             return Some(Vec::new());
         }
-        let (allowed, support): (Vec<usize>, Vec<usize>) =
-            (allowed.iter().collect(), support.iter().collect());
-        separate(&self.system, (&allowed, &support), Separated::Vanishing(&rest), proceed)
+        self.without_free.separate((allowed, support), Separated::Vanishing(&rest), proceed)
     }
 
     /// The columns of all states that a node allows.

@@ -14,8 +14,10 @@
 //! 5. Otherwise, branch and bound over the states of the contacts. A node is excluded by interval propagation
 //!    or by an infeasible linear relaxation (section 4 (a), (b)); a node with all contacts decided is a
 //!    pattern to decide. If the numbers are exact, the signs of single equations leave some contacts only one side, and
-//!    a contact whose columns are opposite, a free unknown, is not branched on where the others determine it. If the numbers are exact, a node is also settled if all its solutions are those of one
-//!    pattern, a face of the relaxation (section 4, "Faces"): degenerate solutions and continua are met once.
+//!    a contact whose columns are opposite, a free unknown, is not branched on where the others determine it: vectors that
+//!    exclude nodes are sought in the equations without free unknowns, their Schur complement in integers. A node is then also
+//!    settled if all its solutions are those of one pattern, a face of the relaxation (section 4, "Faces"): degenerate
+//!    solutions and continua are met once.
 //!    The next contact to branch on is the one for which forbidding either side costs
 //!    most, as estimated from one dual step.
 //!
@@ -93,6 +95,7 @@ mod subtrees;
 #[cfg(test)]
 mod test_problems;
 mod tree;
+mod without_free;
 
 pub use count::BigCount;
 pub(crate) use joined::CORNERS;

@@ -72,6 +72,11 @@ impl ProofLog {
         self.recent.clear();
     }
 
+    /// Whether some step could not be written, so that there will be no proof.
+    pub(super) fn has_gap(&self) -> bool {
+        self.has_gap
+    }
+
     /// The lines, and the number of cells; `None` if some step could not be written.
     pub(super) fn into_text(self) -> Option<(String, usize)> {
         (!self.has_gap).then(|| self.cells.into_text(&self.text))

@@ -152,6 +152,10 @@ impl<'a> Tree<'a> {
             if !self.visit_next(node, open, (leaves, monitor)) {
                 break;
             }
+            // No proof comes of it any more.
+            if self.log.as_ref().is_some_and(ProofLog::has_gap) {
+                open.clear();
+            }
         }
     }
 

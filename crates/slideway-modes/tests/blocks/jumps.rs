@@ -110,6 +110,29 @@ fn with_hinges_the_answer_does_not_depend_on_the_first_division() {
     }
 }
 
+/// Both contacts of a block share its preload: with both in their gaps their columns are the same, so that the slopes are
+/// singular whatever the directions. Eight equations are left for seven unknowns, which no generic load satisfies: few nodes
+/// prove that.
+#[test]
+fn both_contacts_of_a_block_in_their_gaps_are_excluded_in_few_nodes() {
+    let mut numbers = Numbers(37);
+    for round in 0..40 {
+        let mut plain = Jumping::random(&mut numbers, 2, 2, 0.3);
+        for jumps in [&mut plain.jumps.positive, &mut plain.jumps.negative] {
+            let column = jumps.column(0).into_owned();
+            jumps.set_column(1, &column);
+        }
+        let problem =
+            BlockProblem::new(plain.response.clone(), plain.jumps.clone(), plain.load.clone()).unwrap();
+        let options = SearchOptions::within(Some(5_000), None);
+        let result = search(&problem, &options, &mut |_| ControlFlow::Continue(()));
+        assert_eq!((result.stopped, result.open.len()), (None, 0), "round {round}, {} nodes", result.nodes);
+        let is_in_gap = |state: &ContactState| *state == ContactState::Gap;
+        assert!(result.solutions.iter().all(|solution| !solution.states.iter().all(is_in_gap)));
+        assert!(plain.residual(&result) <= 1e-12);
+    }
+}
+
 #[test]
 fn a_search_ends_when_it_is_told_to() {
     let plain = Jumping::random(&mut Numbers(31), 3, 3, 1.0);

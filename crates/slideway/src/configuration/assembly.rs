@@ -22,19 +22,24 @@ const LEAST: f64 = 1e-12;
 /// only up to rounding; an overlap has vanished below this part of the slider's length.
 const AT_END: f64 = 1e-9;
 
-/// The poses of the drawing with its joints closed: residuals are led to zero along a straight way.
-pub(super) fn closed_drawing(mechanism: &Mechanism) -> Result<Vec<Pose>, Faults> {
+/// The poses of the drawing with its joints closed: residuals are led to zero along a straight way. A fault once `proceed`
+/// is `false`.
+pub(super) fn closed_drawing(
+    mechanism: &Mechanism,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Result<Vec<Pose>, Faults> {
     let (poses, values) = (drawing_poses(mechanism), drawn(mechanism));
     let equations = JointEquations::with_coordinates(mechanism, &poses, &values);
     if !equations.jacobian.is_square() || values.is_empty() {
         return Err(drawing_fault(mechanism, &poses));
     }
     let leg = Leg::closing(mechanism, equations.residual);
-    match follow(mechanism, &leg, (0.0, poses), (1.0, &values)) {
+    match follow((mechanism, &leg), (0.0, poses), (1.0, &values), proceed) {
         Ok(arrival) => {
             check_excess(mechanism, &arrival.settled.poses)?;
             Ok(arrival.settled.poses)
         }
+        Err(halt) if halt.is_ended => Err(Fault::general(FaultKind::WorkEnded).into()),
         Err(halt) => Err(drawing_fault(mechanism, &halt.poses)),
     }
 }
@@ -83,6 +88,9 @@ fn drawing_fault(mechanism: &Mechanism, poses: &[Pose]) -> Faults {
 
 /// Why these values are not reached from where a way has ended.
 pub(super) fn way_fault(mechanism: &Mechanism, leg: &Leg, halt: &Halt, values: &[f64]) -> Fault {
+    if halt.is_ended {
+        return Fault::general(FaultKind::WorkEnded);
+    }
     let reached = leg.values(halt.place);
     let [wanted, reached_in_words] = [values, &reached].map(|values| state(mechanism, values));
     if halt.is_effort() {

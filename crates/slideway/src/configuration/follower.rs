@@ -75,10 +75,22 @@ impl Follower {
     /// # Errors
     /// As [`Configuration::new`].
     pub fn configuration(&mut self, mechanism: &Mechanism) -> Result<Configuration, Faults> {
+        self.configuration_while(mechanism, &mut || true)
+    }
+
+    /// [`Follower::configuration`]; a fault once `proceed`, which is asked before every further step, is `false`.
+    ///
+    /// # Errors
+    /// As [`Configuration::new`], or [`FaultKind::WorkEnded`](crate::fault::FaultKind::WorkEnded).
+    pub(super) fn configuration_while(
+        &mut self,
+        mechanism: &Mechanism,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<Configuration, Faults> {
         let linkage = linkage(mechanism);
         if self.linkage != linkage {
             *self = Self::default();
-            self.drawing = closed_drawing(mechanism)?;
+            self.drawing = closed_drawing(mechanism, proceed)?;
             self.linkage = linkage;
         }
         let coordinates: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
@@ -89,7 +101,7 @@ impl Follower {
             check_position(mechanism, &configuration)?;
             return Ok(configuration);
         }
-        let (settled, steps) = self.reach(mechanism, &coordinates)?;
+        let (settled, steps) = self.reach(mechanism, &coordinates, proceed)?;
         let Some(velocities) = velocities(mechanism, &settled, &coordinates) else {
             return Err(singular_state(mechanism, &settled.poses).into());
         };
@@ -109,7 +121,12 @@ impl Follower {
     }
 
     /// The positions at these values, and the steps to them.
-    fn reach(&mut self, mechanism: &Mechanism, values: &[f64]) -> Result<(Settled, usize), Faults> {
+    fn reach(
+        &mut self,
+        mechanism: &Mechanism,
+        values: &[f64],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(Settled, usize), Faults> {
         if let Some(found) =
             self.line.as_ref().and_then(|line| line.settled(mechanism, values, &self.reached))
         {
@@ -126,8 +143,8 @@ impl Follower {
                     None => Err(singular_state(mechanism, &self.drawing).into()),
                 };
             }
-            [coordinate] => self.along(mechanism, coordinate, values)?,
-            _ => self.straight(mechanism, values)?,
+            [coordinate] => self.along(mechanism, coordinate, values, proceed)?,
+            _ => self.straight(mechanism, values, proceed)?,
         };
         let found = (line.last.settled.clone(), line.steps);
         self.line = Some(line);
@@ -135,7 +152,13 @@ impl Follower {
     }
 
     /// Follows the only coordinate that leaves the drawing, from the nearest state.
-    fn along(&mut self, mechanism: &Mechanism, coordinate: usize, values: &[f64]) -> Result<Line, Faults> {
+    fn along(
+        &mut self,
+        mechanism: &Mechanism,
+        coordinate: usize,
+        values: &[f64],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<Line, Faults> {
         let leg = Leg::along(mechanism, coordinate);
         let Some(end) = leg.place(mechanism, coordinate, values) else { return Err(Faults::default()) };
         // Whatever is beyond such a place is not reached either.
@@ -154,8 +177,9 @@ impl Follower {
             }
         }
         let (place, poses, mut before) = start;
-        let way =
-            |place: f64, poses: &[Pose]| follow(mechanism, &leg, (place, poses.to_vec()), (end, values));
+        let mut way = |place: f64, poses: &[Pose]| {
+            follow((mechanism, &leg), (place, poses.to_vec()), (end, values), proceed)
+        };
         let mut found = way(place, poses);
         // How near a fold is approached depends on the steps: the way from the drawing decides, for all
         // values alike.
@@ -182,7 +206,12 @@ impl Follower {
     }
 
     /// Follows the straight way from the drawing, with a neighbourhood if that can be shown.
-    fn straight(&self, mechanism: &Mechanism, values: &[f64]) -> Result<Line, Faults> {
+    fn straight(
+        &self,
+        mechanism: &Mechanism,
+        values: &[f64],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<Line, Faults> {
         let coordinates = 0..values.len();
         let alone = vec![0.0; values.len()];
         let neighbourhood = self.reached.first().map(|last| {
@@ -193,7 +222,7 @@ impl Follower {
         let mut fault = None;
         for spread in neighbourhood.into_iter().chain([alone]) {
             let (leg, end) = Leg::to(mechanism, values, spread);
-            match follow(mechanism, &leg, (0.0, self.drawing.clone()), (end, values)) {
+            match follow((mechanism, &leg), (0.0, self.drawing.clone()), (end, values), proceed) {
                 Ok(last) => {
                     let (steps, values) = (last.steps, values.to_vec());
                     return Ok(Line { leg, coordinate: None, last, end, values, steps });

@@ -150,27 +150,33 @@ pub(super) struct Halt {
     pub(super) end: f64,
     pub(super) poses: Vec<Pose>,
     pub(super) steps: usize,
+    /// Whether the work was to end.
+    pub(super) is_ended: bool,
 }
 
 impl Halt {
-    /// Whether the number of steps is the reason; else the joint equations are singular there within
-    /// rounding.
+    /// Whether the number of steps is the reason, or the end of the work; else the joint equations are singular there
+    /// within rounding.
     pub(super) fn is_effort(&self) -> bool {
-        self.steps >= MOST_STEPS
+        self.is_ended || self.steps >= MOST_STEPS
     }
 }
 
-/// Follows a leg from a place with known positions to another one with these values of the coordinates.
+/// Follows a leg from a place with known positions to another one with these values of the coordinates. It halts once
+/// `proceed`, which is asked before every further step, is `false`.
 pub(super) fn follow(
-    mechanism: &Mechanism,
-    leg: &Leg,
+    (mechanism, leg): (&Mechanism, &Leg),
     (mut place, mut poses): (f64, Vec<Pose>),
     (end, values): (f64, &[f64]),
+    proceed: &mut dyn FnMut() -> bool,
 ) -> Result<Arrival, Halt> {
     let mut guess = FIRST_WAY;
     for steps in 1..=MOST_STEPS {
         let rest = end - place;
-        let halt = |poses: Vec<Pose>| Halt { place, end, poses, steps: steps - 1 };
+        let halt = |poses: Vec<Pose>| Halt { place, end, poses, steps: steps - 1, is_ended: false };
+        if steps > 1 && !proceed() {
+            return Err(Halt { is_ended: true, ..halt(poses) });
+        }
         let Some(anchor) = Anchor::new(mechanism, leg, place, poses.clone()) else { return Err(halt(poses)) };
         let longest = rest.abs().max(1.0);
         let Some((mut reach, mut tube)) = anchor.reach(guess, longest) else { return Err(halt(poses)) };
@@ -206,7 +212,7 @@ pub(super) fn follow(
         }
         (place, poses) = (next, settled.poses);
     }
-    Err(Halt { place, end, poses, steps: MOST_STEPS })
+    Err(Halt { place, end, poses, steps: MOST_STEPS, is_ended: false })
 }
 
 /// Newton's method, from positions nearby.

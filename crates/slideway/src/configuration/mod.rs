@@ -32,6 +32,7 @@ use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, rot90};
 use crate::model::{CarriedBy, SliderKind};
+use crate::progress::{Callback, Progress};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -130,6 +131,21 @@ impl Configuration {
     /// that are exceeded.
     pub fn new(mechanism: &Mechanism) -> Result<Self, Faults> {
         Follower::default().configuration(mechanism)
+    }
+
+    /// [`Configuration::new`] with a callback that is called before every further step on the way from the drawing.
+    ///
+    /// # Errors
+    /// As [`Configuration::new`]; [`FaultKind::WorkEnded`](crate::fault::FaultKind::WorkEnded) once the callback has broken.
+    pub fn with_progress(mechanism: &Mechanism, progress: &mut Callback<'_>) -> Result<Self, Faults> {
+        let mut steps = 0;
+        let mut proceed = || {
+            steps += 1;
+            let told =
+                Progress { counted: "steps from the drawing", done: steps, fraction: None, found: None };
+            progress(&told).is_continue()
+        };
+        Follower::default().configuration_while(mechanism, &mut proceed)
     }
 
     /// In how many steps the positions were followed from the drawing; none if they are those of the drawing.

@@ -8,7 +8,7 @@ use crate::fault::Faults;
 use crate::mechanism::{Contact, Mechanism};
 use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
-use crate::progress::Work;
+use crate::progress::{Progress, Work};
 use crate::report::{CoordinateState, Solution, SolveReport, Status};
 use crate::solve::{SolveOptions, Stages, never_turning, pattern, solve_with};
 
@@ -29,10 +29,11 @@ pub(super) fn direction(
     work: Work<'_>,
 ) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
     let mechanism = Mechanism::new(model)?;
-    let configuration = Configuration::new(&mechanism)?;
+    let mut goes_on = |progress: &Progress| work.part(0, 2).tell(progress);
+    let configuration = Configuration::with_progress(&mechanism, &mut goes_on)?;
     never_turning(&mechanism, &configuration)?;
     let options = SolveOptions::default();
-    let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
+    let report = solve_with(model, &options, &mut goes_on)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let AllEfforts { solutions, range, frictionless, .. } =
         efforts(&report, frictionless(&stages), &velocities(&stages));

@@ -57,6 +57,14 @@ pub(super) struct SizesFound {
     pub(super) gaps: Vec<SizeGap>,
 }
 
+/// Whether no further step towards an extremum reaches 1, the wanted margin: each changes the demand by no more than it
+/// varies now, from the ends of the bracket to the best value inside. Where a margin varies by its rounding only, every
+/// third of its values is such an extremum.
+fn is_out_of_reach(ends: [f64; 2], inside: f64, steps: usize) -> bool {
+    let varies = ends.iter().map(|end| (end - inside).abs()).fold(0.0, f64::max);
+    steps as f64 * varies < (inside - 1.0).abs()
+}
+
 /// A search over a range.
 pub(super) struct MarginSearch<'q> {
     pub(super) question: &'q MarginQuestion<'q>,
@@ -116,25 +124,28 @@ impl MarginSearch<'_> {
         if !is_extreme || three.iter().any(|place| self.is_met(place) != is_met) {
             return None;
         }
-        let [mut low, mut high] = [three[0].at, three[2].at];
+        let ([mut low, mut high], mut ends) = ([three[0].at, three[2].at], [before, after]);
+        if is_out_of_reach(ends, middle, GOLDEN_STEPS) {
+            return None;
+        }
         let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
         let mut pair = inner(low, high).map(|at| self.place(at));
-        for _ in 0..GOLDEN_STEPS {
+        for left in (0..GOLDEN_STEPS).rev() {
             if let Some(crossed) = pair.iter().find(|place| self.is_met(place) != is_met) {
                 return crossed.margin.map(|_| *crossed);
             }
             let [one, other] = pair.map(|place| place.margin.map(|margin| margin.demand(self.wanted)));
-            if nearer(one?, other?) {
-                high = pair[1].at;
+            let is_first = nearer(one?, other?);
+            if is_first {
+                (high, ends[1]) = (pair[1].at, other?);
             } else {
-                low = pair[0].at;
+                (low, ends[0]) = (pair[0].at, one?);
+            }
+            if is_out_of_reach(ends, if is_first { one? } else { other? }, left) {
+                return None;
             }
             let next = inner(low, high);
-            pair = if nearer(one?, other?) {
-                [self.place(next[0]), pair[0]]
-            } else {
-                [pair[1], self.place(next[1])]
-            };
+            pair = if is_first { [self.place(next[0]), pair[0]] } else { [pair[1], self.place(next[1])] };
         }
         None
     }

@@ -148,7 +148,7 @@ pub fn solve_with(
 ) -> Result<SolveReport, Faults> {
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
-    let configuration = Configuration::new(&mechanism)?;
+    let configuration = Configuration::with_progress(&mechanism, progress)?;
     let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
     if stages.mechanism.rough_hinges().next().is_some() {

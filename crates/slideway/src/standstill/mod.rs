@@ -154,7 +154,7 @@ pub(crate) fn can_hold(model: &Model) -> Result<(), Faults> {
 
 fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
     let options = &with_load(model, options)?;
-    let setup = Setup::new(model, options)?;
+    let setup = Setup::new(model, options, work)?;
     let rest_patterns = check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let (rest, is_held) = rest::at_rest(&setup, nominal, work.part(0, 4));
@@ -239,7 +239,7 @@ pub(crate) fn beginning_within(
     most_states: u64,
     work: Work<'_>,
 ) -> Result<Option<Beginning>, Faults> {
-    let setup = Setup::new(model, &HoldOptions::default())?;
+    let setup = Setup::new(model, &HoldOptions::default(), work)?;
     check_states(&setup, most_states)?;
     let Some(is_held) = rest::is_possible(&setup, 1.0, work.part(0, 2)) else { return Ok(None) };
     let beginning = Beginning::new(&setup, is_held, work.part(1, 2));
@@ -256,7 +256,7 @@ pub(crate) fn can_rest(
     options: &HoldOptions,
     work: Work<'_>,
 ) -> Result<Option<bool>, Faults> {
-    let setup = Setup::new(model, options)?.rougher(friction);
+    let setup = Setup::new(model, options, work)?.rougher(friction);
     check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     Ok(rest::is_possible(&setup, nominal, work))
@@ -273,7 +273,7 @@ pub(crate) fn self_locking_factor(
     work: Work<'_>,
 ) -> Result<(Option<f64>, usize), Faults> {
     let options = HoldOptions::default().load(load);
-    let setup = Setup::new(model, &options)?;
+    let setup = Setup::new(model, &options, work)?;
     check_states(&setup, MOST_STATES)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))

@@ -10,6 +10,7 @@ use crate::mechanism::{Attachment, CoordinateKind, Effort, FrictionCircle, Joint
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
+use crate::progress::Work;
 use crate::report::Elasticity;
 use crate::sharing::{NO_STRESS, elasticity, shared_load};
 use nalgebra::{DVector, DVectorView, RowDVector, Vector2};
@@ -90,11 +91,11 @@ impl Setup {
     /// The mechanism of a model at rest.
     ///
     /// # Errors
-    /// What makes no sense in the model or its position, an unknown load, a load that is zero.
-    pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
+    /// The end of the work; what makes no sense in the model or its position, an unknown load, a load that is zero.
+    pub(super) fn new(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
-        let configuration = Configuration::new(&original)?;
+        let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();
         configuration.put_misalignments(&mut mechanism)?;
         if !options.hold_drives {
