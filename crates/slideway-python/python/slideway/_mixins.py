@@ -52,13 +52,18 @@ class _Plot:
     _answer: Answer
     conclusion: tuple[str, ...]
 
-    def plot(self, ax: Any = None, *, theme: plotting.ThemeName = "light") -> Any:
+    def plot(
+        self, ax: Any = None, *, legend: plotting.LegendPlace | None = None, theme: plotting.ThemeName = "light"
+    ) -> Any:
         """Draws the plot with matplotlib.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
 
         Returns
@@ -71,7 +76,7 @@ class _Plot:
         >>> ax = slideway.Model.gallery("drawer").limits("mu", 0, 1).plot()   # doctest: +SKIP
         """
         plot = self._answer.plot()
-        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, legend=legend, theme=theme)
 
     def _repr_html_(self) -> str:
         return _display.plot_html(self._answer, self.conclusion)
@@ -93,13 +98,18 @@ class DriveReport(_Plot):
 
     course: reports.Course | None
 
-    def plot(self, ax: Any = None, *, theme: plotting.ThemeName = "light") -> Any:
+    def plot(
+        self, ax: Any = None, *, legend: plotting.LegendPlace | None = None, theme: plotting.ThemeName = "light"
+    ) -> Any:
         """Draws the efforts over what is varied with matplotlib.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
 
         Returns
@@ -118,7 +128,7 @@ class DriveReport(_Plot):
         """
         if self.course is None:
             raise ValueError("there is nothing to plot: ask with a range, such as model.drive(\"mu\", (0, 1))")
-        return super().plot(ax, theme=theme)
+        return super().plot(ax, legend=legend, theme=theme)
 
     def _repr_html_(self) -> str:
         return super()._repr_html_() if self.course else _display.text_html(self._answer)
@@ -149,13 +159,22 @@ class MapReport:
         """
         return np.array(self._answer.pixels(), dtype=np.intp).reshape(self.y.pixels, self.x.pixels)
 
-    def plot(self, ax: Axes | None = None, *, theme: plotting.ThemeName = "light") -> Axes:
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        legend: plotting.LegendPlace | None = None,
+        theme: plotting.ThemeName = "light",
+    ) -> Axes:
         """Draws the map with matplotlib.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw. Default: the Axes of a new figure.
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or beside them. Default: beside the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
 
         Returns
@@ -168,7 +187,7 @@ class MapReport:
         >>> plane = slideway.Model.gallery("drawer").map(mu=(0, 1), L=("0.3 m", "0.5 m"), size=(4, 3))
         >>> ax = plane.plot()   # doctest: +SKIP
         """
-        return plotting.plot_map(self._answer.drawn_map(theme), self.pixels(), ax, theme=theme)
+        return plotting.plot_map(self._answer.drawn_map(theme), self.pixels(), ax, legend=legend, theme=theme)
 
     def _repr_html_(self) -> str:
         return _display.plot_html(self._answer, [self.guarantee])

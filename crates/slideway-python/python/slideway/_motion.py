@@ -106,7 +106,12 @@ class Motion:
         return table
 
     def plot(
-        self, ax: Any = None, *, phase_portrait: bool = False, theme: plotting.ThemeName = "light"
+        self,
+        ax: Any = None,
+        *,
+        phase_portrait: bool = False,
+        legend: plotting.LegendPlace | None = None,
+        theme: plotting.ThemeName = "light",
     ) -> Any:
         """Draws the motion with matplotlib.
 
@@ -117,6 +122,9 @@ class Motion:
         phase_portrait : bool, default False
             The rate of each coordinate over its value, instead of coordinates, normal forces with the contact modes, and
             energies over time.
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
 
         Returns
@@ -129,7 +137,7 @@ class Motion:
         >>> axes = slideway.Model.gallery("frictional-oscillator").simulate(3).plot()   # doctest: +SKIP
         """
         plot = self._motion.plot(phase_portrait)
-        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, legend=legend, theme=theme)
 
     def animate(
         self, *, slow_motion: float | None = None, theme: plotting.ThemeName = "light"

@@ -148,6 +148,7 @@ class Sweep:
         ax: Any = None,
         *,
         quantity: str = "normal-force",
+        legend: plotting.LegendPlace | None = None,
         theme: plotting.ThemeName = "light",
         time_limit: float | None = None,
     ) -> Any:
@@ -159,6 +160,9 @@ class Sweep:
         ax : Axes, optional
             Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
         quantity : {"normal-force", "friction", "acceleration", "effort"}
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
         time_limit : float, optional
             The longest that it may take (s).
@@ -180,7 +184,7 @@ class Sweep:
         >>> ax = slideway.Model.gallery("drawer").sweep(mu="0..0.6:61").plot()   # doctest: +SKIP
         """
         plot = self._table.plot(quantity, time_limit)
-        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, legend=legend, theme=theme)
 
     def _repr_html_(self) -> str:
         return _display.words_html(self.text())
