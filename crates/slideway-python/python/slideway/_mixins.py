@@ -4,7 +4,7 @@ the same name there."""
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, SupportsIndex, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +23,16 @@ EMPTY: NDArray[np.float64] = frozen_array([])
 """An array that is absent in the JSON output."""
 
 
-class Solution:
-    """Arrays of a solution."""
+One = TypeVar("One")
+# Lines of the representation of a solution at most.
+LINES = 10
 
+
+class Solution:
+    """Arrays of a solution, and a representation that fits a screen."""
+
+    pattern: str
+    joints: tuple[reports.JointMode, ...]
     contacts: tuple[reports.Contact, ...]
     accelerations: tuple[reports.CoordinateAcceleration, ...]
     drives: tuple[reports.Drive, ...]
@@ -44,6 +51,42 @@ class Solution:
     def efforts(self) -> NDArray[np.float64]:
         """The effort of each drive (N or N m)."""
         return frozen_array([drive.effort for drive in self.drives])
+
+    def __repr__(self) -> str:
+        """Ten lines at most: the mode, and the forces; `to_dict()` has all there is."""
+        rows = [f"{joint.name}: {joint.words}" for joint in self.joints]
+        rows += [
+            f"{contact.name}: normal force {contact.normal_force:.5g} N, friction {contact.friction_force:.5g} N"
+            for contact in self.contacts
+        ]
+        rows += [f"{drive.name}: effort {drive.effort:.5g} {drive.unit}" for drive in self.drives]
+        room = LINES - 2
+        if len(rows) > room:
+            rows[room - 1 :] = [f"... {len(rows) - room + 1} more"]
+        lines = "".join(f"\n  {row}" for row in rows)
+        return f"<slideway.Solution, signs {' '.join(self.pattern)}{lines}\n  all of it: to_dict()>"
+
+
+class _Solutions(Generic[One]):
+    """An answer that is a sequence of its solutions."""
+
+    solutions: tuple[One, ...]
+
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> One: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[One, ...]: ...
+    def __getitem__(self, index: SupportsIndex | slice) -> One | tuple[One, ...]:
+        return self.solutions[index]
+
+    def __iter__(self) -> Iterator[One]:
+        return iter(self.solutions)
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    def __bool__(self) -> bool:
+        return True
 
 
 class _Plot:
@@ -159,6 +202,10 @@ class MapReport:
         """
         return np.array(self._answer.pixels(), dtype=np.intp).reshape(self.y.pixels, self.x.pixels)
 
+    def _kept(self) -> dict[str, Any]:
+        drawn = {theme: self._answer.drawn_map(theme) for theme in ("light", "dark")}
+        return {"pixels": self.pixels(), "drawn_map": drawn}
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -193,8 +240,8 @@ class MapReport:
         return _display.plot_html(self._answer, [self.guarantee])
 
 
-class HoldReport:
-    """What holds is shown with the mechanism."""
+class _Drawn:
+    """An answer in words that is shown beside the mechanism."""
 
     _answer: Answer
 
@@ -202,11 +249,26 @@ class HoldReport:
         return _display.drawn_html(self._answer)
 
 
-class SolveReport:
-    """A solve report is iterable over its solutions."""
+class CheckReport(_Drawn):
+    """What a model is, is shown with the mechanism."""
+
+
+class HoldReport(_Drawn):
+    """What holds is shown with the mechanism."""
+
+
+class RestLimitsReport(_Drawn):
+    """Limits of rest are shown with the mechanism."""
+
+
+class TreeReport(_Drawn):
+    """All motions are shown with the mechanism."""
+
+
+class SolveReport(_Solutions["reports.Solution"]):
+    """A solve report is a sequence of its solutions."""
 
     _answer: Answer
-    solutions: tuple[reports.Solution, ...]
 
     def draw(self, solution: int | None = None, *, theme: plotting.ThemeName = "light") -> _display.Drawing:
         """A drawing of the mechanism with the forces of its solutions.
@@ -232,30 +294,11 @@ class SolveReport:
     def _repr_html_(self) -> str:
         return _display.solve_html(self._answer, len(self.solutions))
 
-    def __iter__(self) -> Iterator[reports.Solution]:
-        return iter(self.solutions)
 
-    def __len__(self) -> int:
-        return len(self.solutions)
-
-    def __bool__(self) -> bool:
-        return True
-
-
-class RawReport:
-    """A raw report is iterable over its solutions."""
+class RawReport(_Solutions["reports.RawSolution"]):
+    """A raw report is a sequence of its solutions."""
 
     _answer: Answer
-    solutions: tuple[reports.RawSolution, ...]
-
-    def __iter__(self) -> Iterator[reports.RawSolution]:
-        return iter(self.solutions)
-
-    def __len__(self) -> int:
-        return len(self.solutions)
-
-    def __bool__(self) -> bool:
-        return True
 
     def _repr_html_(self) -> str:
         return _display.text_html(self._answer)

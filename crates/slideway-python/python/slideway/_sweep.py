@@ -29,31 +29,33 @@ class Sweep:
     >>> sweep["normal_force.guide.front"][:3].round(2)
     array([15.  , 17.65, 21.43])
 
-    A point without a solution has one row, whose numbers are NaN (null in data frames).
+    A point without a solution has one row, whose numbers are NaN (null in data frames). A sweep that was pickled has all of
+    this but plots.
     """
 
     def __init__(self, table: _slideway.Table) -> None:
-        self._table = table
+        self._table: Any = table
 
     @property
     def columns(self) -> list[str]:
         """The names of the columns."""
-        return self._table.columns
+        return list(self._table.columns)
 
     @property
     def units(self) -> dict[str, str]:
         """The unit of each column of numbers; empty for pure numbers."""
-        return self._table.units
+        return dict(self._table.units)
 
     @property
     def contacts(self) -> tuple[str, ...]:
         """The names of the contacts, in the order of the signs in `pattern`."""
-        return self._table.contacts
+        return tuple(self._table.contacts)
 
     @property
     def tally(self) -> reports.Tally:
         """How many points came to what."""
-        return self._table.tally()
+        tally: reports.Tally = self._table.tally()
+        return tally
 
     def __getitem__(self, column: str) -> NDArray[Any]:
         """A column as an array: numbers share the memory of `to_numpy` and cannot be written to, words are copied."""
@@ -65,7 +67,7 @@ class Sweep:
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __len__(self) -> int:
-        return self._table.rows
+        return int(self._table.rows)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
@@ -138,10 +140,15 @@ class Sweep:
 
     @property
     def __array_interface__(self) -> dict[str, Any]:
-        return self._table.__array_interface__
+        interface: dict[str, Any] = self._table.__array_interface__
+        return interface
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return self._table.__arrow_c_stream__(requested_schema)
+        stream: object = self._table.__arrow_c_stream__(requested_schema)
+        return stream
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_table": Kept(self._table, self.to_numpy())}
 
     def plot(
         self,
@@ -207,10 +214,50 @@ class Sweep:
         >>> print(slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).text().splitlines()[0])
         2 points: 2 rows, 1 branch
         """
-        return self._table.text(color)
+        text: str = self._table.text(color)
+        return text
 
     def __str__(self) -> str:
         return self.text()
 
     def __repr__(self) -> str:
         return f"<slideway.Sweep: {self._table.points} points, {len(self)} rows, {len(self.columns)} columns>"
+
+
+class Kept:
+    """What is kept of a sweep that was pickled: its records, and its columns if pyarrow is there."""
+
+    def __init__(self, table: Any, records: NDArray[np.void]) -> None:
+        self.columns, self.units, self.contacts = table.columns, table.units, table.contacts
+        self.rows, self.points = table.rows, table.points
+        self._tally, self._text = table.tally(), table.text(False)
+        self._records = records
+        self._arrow = _arrow(table)
+
+    def tally(self) -> reports.Tally:
+        return self._tally
+
+    def text(self, color: bool) -> str:
+        return self._text
+
+    @property
+    def __array_interface__(self) -> dict[str, Any]:
+        self._records.setflags(write=False)
+        return self._records.__array_interface__
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        if self._arrow is None:
+            raise TypeError("a sweep that was pickled without pyarrow has records only, which to_numpy() gives")
+        return self._arrow.__arrow_c_stream__(requested_schema)
+
+    def plot(self, *_: object) -> Any:
+        raise TypeError("a sweep that was pickled has no plot: ask the model again")
+
+
+def _arrow(table: Any) -> Any:
+    """The table of pyarrow."""
+    try:
+        import pyarrow
+    except ImportError:
+        return None
+    return table._arrow if isinstance(table, Kept) else pyarrow.table(table)
