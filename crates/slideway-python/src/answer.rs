@@ -171,9 +171,10 @@ impl Answer {
         self.report.answer()
     }
 
-    /// The text output, with colours for a terminal if wanted.
-    fn text(&self, py: Python<'_>, color: bool) -> String {
-        py.detach(|| self.report.text(style(color)))
+    /// The text output, with colours for a terminal and with how it is known if wanted.
+    #[pyo3(signature = (color, verbose = false))]
+    fn text(&self, py: Python<'_>, color: bool, verbose: bool) -> String {
+        py.detach(|| self.report.text(style(color).verbose(verbose)))
     }
 
     /// A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from

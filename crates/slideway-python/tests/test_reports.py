@@ -127,7 +127,8 @@ def test_attributes_are_those_of_the_json_output(question: str) -> None:
     assert answer.schema and answer.to_dict() == data
     assert {name.rstrip("_") for name in vars(answer) if not name.startswith("_")} | {"answer"} >= set(data)
     assert answer.answer == data["answer"] and answer.answer
-    assert pickle.loads(pickle.dumps(answer)).answer == answer.answer
+    again = pickle.loads(pickle.dumps(answer))
+    assert again.answer == answer.answer and again.text(verbose=True) == answer.text(verbose=True)
 
 
 @pytest.mark.parametrize("question", [question for question in QUESTIONS if question != "simulate"])
@@ -151,13 +152,13 @@ def test_answers_are_sequences_of_their_solutions() -> None:
 
 @pytest.mark.parametrize("name", MODELS)
 def test_a_solution_is_shown_in_ten_lines(name: str) -> None:
-    for solution in Model.gallery(name).solve():
+    for solution in asked(name, "solve") or ():
         shown = repr(solution)
-        assert 3 <= len(shown.splitlines()) <= 10
-        assert all(word in shown for word in ("<slideway.Solution, signs ", "to_dict()>"))
-        first = solution.contacts[0]
-        assert len(shown.splitlines()) == 10 or f"{first.name}: normal force {first.normal_force:.5g} N" in shown
-        assert solution.to_dict()["contacts"]
+        assert 2 <= len(shown.splitlines()) <= 10
+        assert shown.startswith("<slideway.Solution") and shown.endswith("all of it: to_dict()>")
+        for contact in solution.contacts:
+            force = f"{contact.name}: normal force {contact.normal_force:.5g} N"
+            assert force in shown or len(shown.splitlines()) == 10
 
 
 def test_a_pickled_map_has_its_pixels_and_plot() -> None:

@@ -103,11 +103,13 @@ class Report(Record):
         """The answer as one would say it to a colleague, in a sentence or a few."""
         return "" if self._is_part else self._answer.answer()
 
-    def text(self, *, color: bool = False) -> str:
+    def text(self, *, verbose: bool = False, color: bool = False) -> str:
         """The answer in words and tables, as the command line shows it.
 
         Parameters
         ----------
+        verbose : bool, default False
+            With how it is known: signs, determinants, methods.
         color : bool, default False
             With colours for a terminal.
 
@@ -123,7 +125,7 @@ class Report(Record):
         """
         if self._is_part:
             raise TypeError(f"this {type(self).__name__} is a part of another answer, which has the text")
-        return self._answer.text(color)
+        return self._answer.text(color, verbose)
 
     def to_json(self) -> str:
         """The JSON output of the command line.
@@ -179,7 +181,7 @@ class Report(Record):
         attributes = {name: value for name, value in self.__dict__.items() if name != "_answer"}
         if self._is_part:
             return attributes
-        return attributes | {"_answer": Kept(self.text(), self.to_json(), self._kept())}
+        return attributes | {"_answer": Kept((self.text(), self.text(verbose=True)), self.to_json(), self._kept())}
 
     def _kept(self) -> dict[str, Any]:
         """What is kept besides texts when it is pickled."""
@@ -192,8 +194,8 @@ class Report(Record):
 class Kept:
     """What is kept of an answer that was pickled: its texts, and of a map what it shows, but no pictures."""
 
-    def __init__(self, text: str, json: str, more: Mapping[str, Any]) -> None:
-        self._text = text
+    def __init__(self, texts: tuple[str, str], json: str, more: Mapping[str, Any]) -> None:
+        self._texts = texts
         self._json = json
         self._more = more
 
@@ -201,8 +203,8 @@ class Kept:
         said: str = json.loads(self._json).get("answer", "")
         return said
 
-    def text(self, color: bool) -> str:
-        return self._text
+    def text(self, color: bool, verbose: bool = False) -> str:
+        return self._texts[verbose]
 
     def json(self) -> str:
         return self._json

@@ -188,7 +188,8 @@ def drawn_html(answer: _slideway.Answer) -> str:
     if not _has_pictures(answer):
         return text_html(answer)
     words, picture = _pre(answer.text(False)), _image(answer.drawing("light"))
-    return _block(f'<div class="beside"><div>{words}</div><div>{picture}</div></div>')
+    # As wide as lines of words are; the drawing is beside them where there is room, else below.
+    return _block(f'<div class="beside"><div style="flex: 2 1 54rem">{words}</div><div>{picture}</div></div>')
 
 
 def text_html(answer: _slideway.Answer) -> str:

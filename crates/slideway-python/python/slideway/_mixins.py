@@ -54,7 +54,7 @@ class Solution:
 
     def __repr__(self) -> str:
         """Ten lines at most: the mode, and the forces; `to_dict()` has all there is."""
-        rows = [f"{joint.name}: {joint.words}" for joint in self.joints]
+        rows = [f"{joint.name}: {joint.mode}" for joint in self.joints]
         rows += [
             f"{contact.name}: normal force {contact.normal_force:.5g} N, friction {contact.friction_force:.5g} N"
             for contact in self.contacts
@@ -64,7 +64,8 @@ class Solution:
         if len(rows) > room:
             rows[room - 1 :] = [f"... {len(rows) - room + 1} more"]
         lines = "".join(f"\n  {row}" for row in rows)
-        return f"<slideway.Solution, signs {' '.join(self.pattern)}{lines}\n  all of it: to_dict()>"
+        signs = f", signs {' '.join(self.pattern)}" if self.pattern else ""
+        return f"<slideway.Solution{signs}{lines}\n  all of it: to_dict()>"
 
 
 class _Solutions(Generic[One]):

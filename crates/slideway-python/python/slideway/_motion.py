@@ -37,7 +37,8 @@ class Motion:
     @property
     def y(self) -> NDArray[np.float64]:
         """One row for each coordinate, then one for each rate; a column for each time of `t`."""
-        return self._motion.states(self.t.tolist())
+        states: NDArray[np.float64] = self._motion.states(self.t.tolist())
+        return states
 
     def sol(self, t: ArrayLike) -> NDArray[np.float64]:
         """The state at any times, as the solver interpolates it.

@@ -5,12 +5,15 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING, Any, Literal
 
+from ._values import ThemeName
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from . import reports
 
-ThemeName = Literal["light", "dark"]
+__all__ = ["ThemeName"]
+
 LegendPlace = bool | Literal["outside"]
 
 # Sizes of the pictures (px), and a pixel in inches and points.

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import polars
 
     from . import _slideway, reports
+    from ._values import QuantityName
 
 
 class Sweep:
@@ -154,7 +155,7 @@ class Sweep:
         self,
         ax: Any = None,
         *,
-        quantity: str = "normal-force",
+        quantity: QuantityName = "normal-force",
         legend: plotting.LegendPlace | None = None,
         theme: plotting.ThemeName = "light",
         time_limit: float | None = None,
@@ -230,7 +231,8 @@ class Kept:
     def __init__(self, table: Any, records: NDArray[np.void]) -> None:
         self.columns, self.units, self.contacts = table.columns, table.units, table.contacts
         self.rows, self.points = table.rows, table.points
-        self._tally, self._text = table.tally(), table.text(False)
+        self._tally: reports.Tally = table.tally()
+        self._text: str = table.text(False)
         self._records = records
         self._arrow = _arrow(table)
 

@@ -91,8 +91,8 @@ class Quantity(float):
         quantity.unit = unit
         return quantity
 
-    def __getnewargs__(self) -> tuple[float, str]:
-        return float(self), self.unit
+    def __reduce__(self) -> tuple[type[Quantity], tuple[float, str]]:
+        return Quantity, (float(self), self.unit)
 
     def __repr__(self) -> str:
         return f"{float(self)!r} {self.unit}".rstrip()
