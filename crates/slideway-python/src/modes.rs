@@ -15,7 +15,8 @@ type Array<'n> = (&'n str, Vec<usize>, Vec<f64>);
 fn array<'n>(name: &'n str, given: &Bound<'_, PyAny>) -> PyResult<Array<'n>> {
     let (sizes, entries) = numbers(name, given)?;
     if sizes.len() > 2 {
-        let message = format!("{name} must be a vector or a matrix, not an array of {} dimensions", sizes.len());
+        let message =
+            format!("{name} must be a vector or a matrix, not an array of {} dimensions", sizes.len());
         return Err(PyValueError::new_err(message));
     }
     Ok((name, sizes, entries))
@@ -41,7 +42,8 @@ fn answer<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let arrays = arrays.into_iter().collect::<PyResult<Vec<_>>>()?;
     // In a mixed problem an empty list is a matrix without rows or columns.
-    if let Some((name, ..)) = arrays.iter().find(|(.., entries)| entries.is_empty() && kind != RawKind::Mlcp) {
+    if let Some((name, ..)) = arrays.iter().find(|(.., entries)| entries.is_empty() && kind != RawKind::Mlcp)
+    {
         return Err(PyValueError::new_err(format!("{name} must not be empty")));
     }
     let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());

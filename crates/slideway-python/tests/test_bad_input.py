@@ -74,7 +74,7 @@ BOUNDS: dict[str, dict[str, Any]] = {
 SETTINGS = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 
 
-@pytest.mark.parametrize("method", [name for name in public(Model) if name not in ("load", "draw")])
+@pytest.mark.parametrize("method", [name for name in public(Model) if name not in ("load", "save", "draw")])
 @SETTINGS
 @given(st.lists(things, max_size=4), st.dictionaries(names, things, max_size=3))
 def test_methods_of_models(method: str, arguments: list[Any], named: dict[str, Any]) -> None:

@@ -18,8 +18,8 @@ def changed(text: str, changes: Sequence[Change]) -> str:
     """The text of a model in which values are changed: comments and all else stay as they are."""
     for (kind, name, value), unit in changes:
         if not isinstance(value, str):
-            # "0.5 m", and "0.5/s".
-            value = f"{value!r}{unit[1:]}" if unit.startswith("1/") else f"{value!r} {unit}" if unit else value
+            # A unit follows a number: "0.5 m", and "0.5/(1 s)".
+            value = f"{value!r}/(1 {unit[2:]})" if unit.startswith("1/") else f"{value!r} {unit}" if unit else value
         text = _with_value(text, _path(kind, name), value)
     return text
 

@@ -10,10 +10,10 @@ mod state;
 
 use crate::answer::{Answer, Asked, not_finite, theme as named};
 use crate::arguments::{choice, count, optional_count, settings, varied, varied_one, vary};
+use crate::fault::file_error;
 use crate::motion;
 use crate::work::Watch;
 use crate::{gallery, shards, sweep};
-use crate::fault::file_error;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
@@ -22,7 +22,6 @@ use slideway::fault::{Fault, FaultKind};
 use slideway::limits::curves_with;
 use slideway::map::map_with;
 use slideway::mechanism::Mechanism;
-use slideway::model::{Parameter, Setting, SettingKind};
 use slideway::modes::SearchOptions;
 use slideway::size::{Against, size_with};
 use slideway::solve::solve_with;
@@ -76,35 +75,18 @@ impl Model {
     /// The text of the model, with what was changed.
     #[getter]
     fn text(&self, py: Python<'_>) -> PyResult<String> {
-        let settings = self.asked.settings.entries();
-        if settings.is_empty() {
-            return Ok(self.asked.text.to_string());
-        }
-        let units = |setting: &Setting| match setting.kind {
-            SettingKind::Parameter => self.asked.model.parameter_unit(&setting.name),
-            _ => String::new(),
-        };
-        let changes = settings.iter().map(|setting| (pickle::kept(setting), units(setting)));
-        let changes = PyTuple::new(py, changes.collect::<Vec<_>>())?;
-        py.import("slideway._text")?.getattr("changed")?.call1((&*self.asked.text, changes))?.extract()
+        self.changed_text(py)
     }
 
     /// The present values of its parameters in SI units, each with its unit.
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let model = &self.asked.model;
-        let values = model.constants().map(|constants| model.parameter_values(&constants));
-        let values = values.map_err(|faults| self.refused(py, &faults))?;
-        let entry = |(parameter, value): (&Parameter, f64)| {
-            (parameter.name.to_string(), value, model.parameter_unit(&parameter.name))
-        };
-        let entries: Vec<_> = model.parameters.iter().zip(values).map(entry).collect();
-        Ok(py.import("slideway._values")?.getattr("quantities")?.call1((entries,))?.cast_into()?)
+        self.quantities(py)
     }
 
     #[doc = include_str!("../../docs/save.txt")]
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        std::fs::write(&path, self.text(py)?).map_err(|error| file_error(&path, &error))
+        std::fs::write(&path, self.changed_text(py)?).map_err(|error| file_error(&path, &error))
     }
 
     /// Its title, if it has one.
@@ -492,11 +474,7 @@ impl Model {
 
     #[doc = include_str!("../../docs/draw.txt")]
     #[pyo3(signature = (solution = None, *, theme: "ThemeName" = "light") -> "_display.Drawing")]
-    fn draw<'py>(
-        slf: &Bound<'py, Self>,
-        solution: Option<i64>,
-        theme: &str,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn draw<'py>(slf: &Bound<'py, Self>, solution: Option<i64>, theme: &str) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let Some(solution) = solution else {
             let svg = slf.get().asked.drawing(py, None, (Shown::Mechanism, named(theme)?))?;

@@ -1,14 +1,15 @@
 //! What a model holds, and how it is asked.
 
-use super::Model;
+use super::{Model, pickle};
 use crate::answer::{Answer, Asked};
 use crate::arguments::value;
 use crate::fault::{Texts, file_error, in_file};
 use crate::work::Watch;
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
 use slideway::fault::{Fault, FaultKind};
 use slideway::limits::{Vary, rest_limits_with};
-use slideway::model::{Setting, SettingKind, Settings};
+use slideway::model::{Parameter, Setting, SettingKind, Settings};
 use slideway::progress::Callback;
 use slideway::{Faults, HoldOptions, UnitSystem};
 use std::path::Path;
@@ -107,6 +108,33 @@ impl Model {
         let read = Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes));
         let read = read.map_err(|error| in_file(py, path, error))?;
         Ok(read.in_file(&path.to_string_lossy()))
+    }
+
+    /// The text with what was changed.
+    pub(super) fn changed_text(&self, py: Python<'_>) -> PyResult<String> {
+        let settings = self.asked.settings.entries();
+        if settings.is_empty() {
+            return Ok(self.asked.text.to_string());
+        }
+        let units = |setting: &Setting| match setting.kind {
+            SettingKind::Parameter => self.asked.model.parameter_unit(&setting.name),
+            _ => String::new(),
+        };
+        let changes = settings.iter().map(|setting| (pickle::kept(setting), units(setting)));
+        let changes = PyTuple::new(py, changes.collect::<Vec<_>>())?;
+        py.import("slideway._text")?.getattr("changed")?.call1((&*self.asked.text, changes))?.extract()
+    }
+
+    /// The values of the parameters in SI units with these units, by name.
+    pub(super) fn quantities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let model = &self.asked.model;
+        let values = model.constants().map(|constants| model.parameter_values(&constants));
+        let values = values.map_err(|faults| self.refused(py, &faults))?;
+        let entry = |(parameter, value): (&Parameter, f64)| {
+            (parameter.name.to_string(), value, model.parameter_unit(&parameter.name))
+        };
+        let entries: Vec<_> = model.parameters.iter().zip(values).map(entry).collect();
+        Ok(py.import("slideway._values")?.getattr("quantities")?.call1((entries,))?.cast_into()?)
     }
 
     /// The limits of rest over a range.
