@@ -1,5 +1,6 @@
 //! A report as Python holds it: plain data that become objects when they are asked for.
 
+use crate::arguments::optional_count;
 use crate::fault::Texts;
 use crate::plot::Plot;
 use crate::to_python::{fields, instance, to_python};
@@ -26,6 +27,7 @@ use std::sync::Arc;
 trait AnyReport: Send + Sync {
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>>;
     fn json(&self) -> String;
+    fn answer(&self) -> String;
     fn text(&self, style: Style) -> String;
     fn any(&self) -> &dyn Any;
 }
@@ -37,6 +39,10 @@ impl<R: Report + Send + Sync + 'static> AnyReport for R {
 
     fn json(&self) -> String {
         Report::json(self)
+    }
+
+    fn answer(&self) -> String {
+        Report::answer(self)
     }
 
     fn text(&self, style: Style) -> String {
@@ -75,7 +81,7 @@ impl Asked {
         let configuration = Configuration::new(&mechanism).map_err(|faults| self.refused(py, &faults))?;
         let Some(sheet) = sheet(&mechanism, &configuration, report, shown) else {
             let count = report.map_or(0, |report| report.solutions.len());
-            let message = format!("there is no solution of this number: {count} are listed");
+            let message = format!("solution: there is no solution of this number: {count} are listed");
             return Err(PyValueError::new_err(message));
         };
         let sheet = sheet.changed_by(&self.settings);
@@ -160,9 +166,15 @@ impl Answer {
         py.detach(|| self.report.json())
     }
 
-    /// The text output, with colours for a terminal if wanted.
-    fn text(&self, py: Python<'_>, color: bool) -> String {
-        py.detach(|| self.report.text(style(color)))
+    /// The answer in a sentence or a few.
+    fn answer(&self) -> String {
+        self.report.answer()
+    }
+
+    /// The text output, with colours for a terminal and with how it is known if wanted.
+    #[pyo3(signature = (color, verbose = false))]
+    fn text(&self, py: Python<'_>, color: bool, verbose: bool) -> String {
+        py.detach(|| self.report.text(style(color).verbose(verbose)))
     }
 
     /// A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
@@ -172,9 +184,11 @@ impl Answer {
         &self,
         py: Python<'_>,
         theme_name: &str,
-        solution: Option<usize>,
-        gap_state: Option<usize>,
+        solution: Option<i64>,
+        gap_state: Option<i64>,
     ) -> PyResult<String> {
+        let (solution, gap_state) =
+            (optional_count("solution", solution)?, optional_count("gap_state", gap_state)?);
         let report = self.is::<SolveReport>();
         let shown = solution.map(Shown::Solution).or(gap_state.map(Shown::GapState)).unwrap_or(Shown::All);
         self.asked()?.drawing(py, report, (shown, theme(theme_name)?))

@@ -19,10 +19,13 @@ pub(crate) fn value(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     if object.is_instance_of::<PyBool>() {
         return Err(PyTypeError::new_err(format!("{}, not {}", wanted(), object.repr()?)));
     }
-    match object.extract::<f64>() {
-        Ok(number) if number.is_finite() => Ok(Value::from(number)),
-        Ok(number) => Err(PyValueError::new_err(format!("{}, not {number}", wanted()))),
-        Err(_) => {
+    // NumPy would drop the imaginary part with a warning.
+    let is_complex = object.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.eq("c"));
+    let number = if is_complex.unwrap_or(false) { None } else { object.extract::<f64>().ok() };
+    match number {
+        Some(number) if number.is_finite() => Ok(Value::from(number)),
+        Some(number) => Err(PyValueError::new_err(format!("{}, not {number}", wanted()))),
+        None => {
             let kind = object.get_type().name()?;
             Err(PyTypeError::new_err(format!("{}, not of type {kind}", wanted())))
         }
@@ -114,24 +117,57 @@ pub(crate) fn settings(
     }
 }
 
-/// What is varied, and over which range.
-pub(crate) fn vary(name: &str, [from, to]: [Option<&Bound<'_, PyAny>>; 2]) -> PyResult<Vary> {
-    match (from, to) {
-        (None, None) => Ok(Vary::usual(name)),
-        (Some(from), Some(to)) => Ok(Vary::between(name, value("start", from)?, value("stop", to)?)),
-        _ => Err(PyTypeError::new_err("start and stop must be given together")),
+/// A count, which Python may give as any whole number.
+pub(crate) fn count<T: TryFrom<i128>>(name: &str, given: impl Into<i128>) -> PyResult<T> {
+    let given = given.into();
+    let refused = |_| PyValueError::new_err(format!("{name} must be a whole number from 0 on, not {given}"));
+    T::try_from(given).map_err(refused)
+}
+
+/// A count, if there is one.
+pub(crate) fn optional_count<T: TryFrom<i128>>(name: &str, given: Option<i64>) -> PyResult<Option<T>> {
+    given.map(|given| count(name, given)).transpose()
+}
+
+/// The one quantity that is varied, and over which range: its name with its ends, apart or as a pair, or a range by its
+/// name. None if nothing is given.
+pub(crate) fn varied_one(
+    name: Option<&str>,
+    ends: [Option<&Bound<'_, PyAny>>; 2],
+    ranges: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<Vary>> {
+    let mut named = varied(ranges)?;
+    match (name, ends, named.len()) {
+        (None, [None, None], 0) => Ok(None),
+        (None, [None, None], 1) => Ok(named.pop()),
+        (Some(name), [None, None], 0) => Ok(Some(Vary::usual(name))),
+        (Some(name), [Some(from), Some(to)], 0) => {
+            Ok(Some(Vary::between(name, value("start", from)?, value("stop", to)?)))
+        }
+        (Some(name), [Some(range), None], 0) => vary_between(name, Some(range)).map(Some),
+        (Some(_), _, 0) => Err(PyTypeError::new_err("start and stop must be given together")),
+        _ => Err(PyTypeError::new_err("one quantity can be varied, such as mu=(0, 1)")),
     }
 }
 
-/// The same of a pair of ends.
-pub(crate) fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyResult<Vary> {
+/// The same where one is needed.
+pub(crate) fn vary(
+    name: Option<&str>,
+    ends: [Option<&Bound<'_, PyAny>>; 2],
+    ranges: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Vary> {
+    let needed = || PyTypeError::new_err("give what is varied and its range, such as mu=(0, 1)");
+    varied_one(name, ends, ranges)?.ok_or_else(needed)
+}
+
+/// A quantity that is varied between a pair of ends.
+fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyResult<Vary> {
     let Some(range) = range else { return Ok(Vary::usual(name)) };
-    let wanted = || format!("the range of {name} must be a pair of its ends");
-    let ends: Vec<Bound<'_, PyAny>> = range.extract().map_err(|_| PyTypeError::new_err(wanted()))?;
-    match &*ends {
-        [from, to] => vary(name, [Some(from), Some(to)]),
-        _ => Err(PyTypeError::new_err(wanted())),
-    }
+    let wanted = || PyTypeError::new_err(format!("the range of {name} must be a pair of its ends"));
+    let ends: Vec<Bound<'_, PyAny>> = range.extract().map_err(|_| wanted())?;
+    let [from, to] = &*ends else { return Err(wanted()) };
+    let end = |which: &str, given| value(&format!("the {which} of {name}"), given);
+    Ok(Vary::between(name, end("start", from)?, end("end", to)?))
 }
 
 /// What is varied, each over the pair of its ends, or over its usual range if that is None.

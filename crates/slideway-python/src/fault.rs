@@ -1,11 +1,14 @@
 //! Faults as exceptions of Python, with every fault as an object.
 
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use slideway::Faults;
 use slideway::fault::{Fault, FaultKind, Source};
 use slideway::model::{SettingKind, Settings};
 use slideway::printable;
+use std::io;
+use std::path::Path;
 
 /// The texts in which faults have their places.
 #[derive(Debug, Clone, Copy)]
@@ -68,6 +71,23 @@ impl Texts<'_> {
         };
         (Some(argument), setting.text())
     }
+}
+
+/// What is wrong with a file, as the `OSError` of its kind with the file's name.
+pub(crate) fn file_error(path: &Path, error: &io::Error) -> PyErr {
+    let whole = error.to_string();
+    // The number is an argument of its own.
+    let words = whole.split(" (os error").next().unwrap_or_default().to_owned();
+    match error.raw_os_error() {
+        Some(number) => PyOSError::new_err((number, words, path.to_string_lossy().into_owned())),
+        None => PyOSError::new_err(format!("{}: {words}", path.display())),
+    }
+}
+
+/// What is wrong with the model in a file, with the file's name.
+pub(crate) fn in_file(py: Python<'_>, path: &Path, error: PyErr) -> PyErr {
+    let named = error.value(py).setattr("filename", path.to_string_lossy());
+    named.err().unwrap_or(error)
 }
 
 /// A text with what Python calls options and commands of the command line: `--max-steps` is `max_steps`,

@@ -14,6 +14,11 @@ type Array<'n> = (&'n str, Vec<usize>, Vec<f64>);
 /// An array with its name.
 fn array<'n>(name: &'n str, given: &Bound<'_, PyAny>) -> PyResult<Array<'n>> {
     let (sizes, entries) = numbers(name, given)?;
+    if sizes.len() > 2 {
+        let message =
+            format!("{name} must be a vector or a matrix, not an array of {} dimensions", sizes.len());
+        return Err(PyValueError::new_err(message));
+    }
     Ok((name, sizes, entries))
 }
 
@@ -36,6 +41,11 @@ fn answer<'py>(
     options: Options,
 ) -> PyResult<Bound<'py, PyAny>> {
     let arrays = arrays.into_iter().collect::<PyResult<Vec<_>>>()?;
+    // In a mixed problem an empty list is a matrix without rows or columns.
+    if let Some((name, ..)) = arrays.iter().find(|(.., entries)| entries.is_empty() && kind != RawKind::Mlcp)
+    {
+        return Err(PyValueError::new_err(format!("{name} must not be empty")));
+    }
     let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());
     let problem = RawProblem::from_arrays(kind, arrays).map_err(refused)?;
     let search = SearchOptions::within(options.max_nodes, options.max_found);
@@ -116,7 +126,6 @@ pub(crate) fn mlcp<'py>(
     options: Options,
 ) -> PyResult<Bound<'py, PyAny>> {
     let named = ["A", "B", "C", "D", "a", "b"].into_iter().zip(matrices.iter().chain(&vectors));
-    // An empty list is a matrix without rows or columns.
     answer(py, RawKind::Mlcp, named.map(|(name, given)| array(name, given)).collect(), options)
 }
 
@@ -166,7 +175,7 @@ pub(crate) fn mode_problem<'py>(
         array("right_hand_side", right_hand_side),
     ];
     if let Some((positive, negative)) = &jumps {
-        arrays.extend([array("jumps_positive", positive), array("jumps_negative", negative)]);
+        arrays.extend([array("jumps[0]", positive), array("jumps[1]", negative)]);
     }
     answer(py, RawKind::Modes, arrays, options)
 }

@@ -1,7 +1,7 @@
 //! Sweeps: all solutions at many points as one table, shared with NumPy and data frames without a copy.
 
 use crate::answer::{Asked, style};
-use crate::arguments::{choice, numbers, value};
+use crate::arguments::{choice, count, numbers, value};
 use crate::plot::Plot;
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
@@ -24,9 +24,9 @@ use std::sync::OnceLock;
 
 /// What is asked of a sweep beside its axes.
 pub(crate) struct Question {
-    pub(crate) samples: Option<u64>,
+    pub(crate) samples: Option<i64>,
     pub(crate) sampling: Spread,
-    pub(crate) seed: u64,
+    pub(crate) seed: i128,
     pub(crate) breakpoints: bool,
     pub(crate) attainability: bool,
     pub(crate) all_columns: bool,
@@ -48,12 +48,13 @@ impl Question {
                 "give what is varied, such as sweep(mu=numpy.linspace(0, 1, 101))",
             ));
         }
-        if self.samples == Some(0) {
-            return Err(PyValueError::new_err("samples must be at least 1"));
+        if let Some(given) = self.samples.filter(|given| *given < 1) {
+            return Err(PyValueError::new_err(format!("samples must be at least 1, not {given}")));
         }
-        let points = if let Some(count) = self.samples {
+        let points = if let Some(samples) = self.samples {
             let axes = named.iter().map(|(name, values)| sampled(refused, name, values));
-            let sampling = Sampling { count, spread: self.sampling, seed: self.seed };
+            let (count, seed) = (count("samples", samples)?, count("seed", self.seed)?);
+            let sampling = Sampling { count, spread: self.sampling, seed };
             SweepPoints::Samples(sampling, axes.collect::<PyResult<_>>()?)
         } else {
             let axes = named.iter().map(|(name, values)| grid(refused, name, values));
@@ -70,6 +71,9 @@ impl Question {
 fn grid(refused: &dyn Fn(Faults) -> PyErr, name: &str, values: &Bound<'_, PyAny>) -> PyResult<GridAxis> {
     if let Ok(text) = values.cast::<PyString>() {
         return format!("{name}={text}").parse().map_err(refused);
+    }
+    if values.len().is_ok_and(|count| count == 0) {
+        return Err(PyValueError::new_err(format!("{name} must have at least one value")));
     }
     if let Ok(number) = value(name, values) {
         return Ok(GridAxis::listed(name, [number]));
@@ -104,7 +108,8 @@ fn sampled(
 }
 
 /// A part of a sweep: its number, from 1, and how many there are.
-pub(crate) fn shard((number, of): (u32, u32)) -> PyResult<Shard> {
+pub(crate) fn shard((number, of): (i64, i64)) -> PyResult<Shard> {
+    let (number, of) = (count("shard", number)?, count("shard", of)?);
     Shard::new(number, of).map_err(|fault| PyValueError::new_err(format!("shard: {fault}")))
 }
 

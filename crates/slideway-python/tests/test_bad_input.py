@@ -74,7 +74,7 @@ BOUNDS: dict[str, dict[str, Any]] = {
 SETTINGS = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 
 
-@pytest.mark.parametrize("method", [name for name in public(Model) if name not in ("load", "draw")])
+@pytest.mark.parametrize("method", [name for name in public(Model) if name not in ("load", "save", "draw")])
 @SETTINGS
 @given(st.lists(things, max_size=4), st.dictionaries(names, things, max_size=3))
 def test_methods_of_models(method: str, arguments: list[Any], named: dict[str, Any]) -> None:
@@ -172,3 +172,60 @@ def test_huge_sizes() -> None:
     ):
         with pytest.raises(ALLOWED):
             call()
+
+
+@pytest.mark.parametrize(
+    ("argument", "call"),
+    [
+        ("solution", lambda: DRAWER.draw(-1)),
+        ("solution", lambda: DRAWER.solve().draw(-1)),
+        ("solution", lambda: DRAWER.draw(2)),
+        ("samples", lambda: DRAWER.sweep(samples=-1, mu="0.1..0.5")),
+        ("samples", lambda: DRAWER.sweep(samples=0, mu="0.1..0.5")),
+        ("seed", lambda: DRAWER.sweep(samples=3, seed=-1, mu="0.1..0.5")),
+        ("mu", lambda: DRAWER.sweep(mu=[])),
+        ("shard", lambda: DRAWER.sweep(mu=[0.1], shard=(-1, 2))),
+        ("max_solutions", lambda: DRAWER.solve(max_solutions=-1)),
+        ("max_nodes", lambda: DRAWER.solve(max_nodes=-1)),
+        ("max_found", lambda: DRAWER.solve(max_found=-1)),
+        ("effort", lambda: DRAWER.limits(mu=(0, 1), effort=-1)),
+        ("rows", lambda: DRAWER.drive(mu=(0, 1), rows=-1)),
+        ("width and height in size", lambda: DRAWER.map(mu=(0, 1), L=(0.3, 0.5), size=(-1, 2))),
+        ("probe", lambda: DRAWER.map(mu=(0, 1), L=(0.3, 0.5), probe=-1)),
+        ("branches", lambda: DRAWER.simulate(0.1, branches=[-1])),
+        ("all_branches", lambda: DRAWER.simulate(0.1, all_branches=-1)),
+        ("max_steps", lambda: DRAWER.simulate(0.1, max_steps=-1)),
+        ("max_events", lambda: DRAWER.simulate(0.1, max_events=-1)),
+        ("times", lambda: DRAWER.simulate(0.1).table(times=[math.nan])),
+        ("times", lambda: DRAWER.simulate(0.1).table(times=[0.2])),
+        ("M", lambda: modes.lcp([], [])),
+        ("A", lambda: modes.game(np.zeros((2, 2, 2)))),
+        ("A", lambda: modes.game([])),
+        ("M", lambda: modes.lcp(np.zeros((1, 1, 1)), [1.0])),
+        ("max_nodes", lambda: modes.lcp([[1.0]], [1.0], max_nodes=-1)),
+        ("max_solutions", lambda: modes.lcp([[1.0]], [1.0], max_solutions=-1)),
+        (r"`?jumps\[1\]", lambda: modes.mode_problem([[0.5]], [[-1.5]], [1.0], jumps=([[1]], [[]]))),
+    ],
+)
+def test_what_is_out_of_range_is_a_value_error_with_its_argument(argument: str, call: Any) -> None:
+    with pytest.raises(ValueError, match=f"^{argument}"):
+        call()
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: DRAWER.with_(mu=np.complex128(0.5 + 1j)),
+        lambda: DRAWER.with_(mu=np.complex64(0.5)),
+        lambda: DRAWER.sweep(mu=np.array([0.1 + 1j])),
+        lambda: DRAWER.limits(mu=(0, np.complex128(1))),
+        lambda: DRAWER.simulate(0.1).sol(np.array([0.05 + 1j])),
+        lambda: DRAWER.simulate(0.1).table(times=np.array([0.05 + 1j])),
+        lambda: modes.lcp([[1 + 1j]], [1.0]),
+    ],
+)
+def test_complex_numbers_are_refused(call: Any) -> None:
+    """Whatever warnings are: NumPy would only warn, and drop the imaginary part."""
+    with pytest.raises(TypeError):
+        call()

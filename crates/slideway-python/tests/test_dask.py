@@ -115,12 +115,53 @@ def test_versions_are_compared(client: Client, monkeypatch: pytest.MonkeyPatch) 
         slideway.dask.sweep(MODEL, client, **VALUES)
 
 
-def test_the_number_of_parts_follows_their_time(client: Client) -> None:
-    few = slideway.dask._shards(MODEL, VALUES, 5.0)
-    many = slideway.dask._shards(MODEL, {"mu_1": "0..0.8:1000000001"}, 5.0)
+def test_the_number_of_parts_follows_the_question_alone(client: Client) -> None:
+    few = slideway.dask._shards(VALUES, 5.0)
+    many = slideway.dask._shards({"mu_1": "0..0.8:1000000001"}, 5.0)
     assert few == 1 < 10 < many
+    sizes: list[tuple[dict[str, Any], int]] = [
+        (VALUES, 4001),
+        ({"mu_1": "0..0.8:801", "F_20": "0, 1, 2"}, 2403),
+        ({"mu_1": [0.1, 0.2], "attainability": True}, 2),
+        ({"mu_1": 0.1}, 1),
+        ({"mu_1": "normal(0.4, 0.1)", "samples": 2000}, 2000),
+    ]
+    for question, points in sizes:
+        assert slideway.dask._points(question) == points
+        assert MODEL.sweep(**question).tally.points == points
     with pytest.raises(ValueError, match="chunk_seconds"):
         slideway.dask.sweep(MODEL, client, chunk_seconds=0.0, **VALUES)
+
+
+def test_three_identical_calls_compute_once(client: Client, tmp_path: Path) -> None:
+    def written() -> dict[str, int]:
+        return {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+
+    frames = [slideway.dask.sweep(MODEL, client, output=tmp_path, chunk_seconds=0.05, **VALUES)]
+    before = written()
+    assert len(before) == frames[0].npartitions == 4
+    frames += [slideway.dask.sweep(MODEL, client, output=tmp_path, chunk_seconds=0.05, **VALUES) for _ in range(2)]
+    assert written() == before
+    assert_same(frames[2].compute(), MODEL.sweep(**VALUES))
+    # Whatever would be usual: the folder says.
+    assert slideway.dask.sweep(MODEL, client, output=tmp_path, **VALUES).npartitions == 4
+    assert written() == before
+
+
+def test_another_number_of_parts_is_refused(client: Client, tmp_path: Path) -> None:
+    MODEL.write_shard(tmp_path, (2, 5), **VALUES)
+    with pytest.raises(ValueError, match="in 5 shards, but shards is 7: leave it out"):
+        slideway.dask.sweep(MODEL, client, output=tmp_path, shards=7, **VALUES)
+    assert len(list(tmp_path.iterdir())) == 1
+    assert slideway.dask.sweep(MODEL, client, output=tmp_path, **VALUES).npartitions == 5
+    assert slideway.merge(tmp_path).to_numpy().tobytes() == MODEL.sweep(**VALUES).to_numpy().tobytes()
+    MODEL.write_shard(tmp_path, (1, 7), **VALUES)
+    with pytest.raises(ValueError, match="in 5 and 7 shards: take a folder for each"):
+        slideway.dask.sweep(MODEL, client, output=tmp_path, **VALUES)
+    with pytest.raises(OSError, match="belong to different sweeps"):
+        slideway.merge(tmp_path)
+    with pytest.raises(ValueError, match="shards must be at least 1, not 0"):
+        slideway.dask.sweep(MODEL, client, shards=0, **VALUES)
 
 
 def test_work_is_told_of_and_ended(client: Client) -> None:

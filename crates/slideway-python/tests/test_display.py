@@ -1,5 +1,6 @@
 """What notebooks show."""
 
+import html
 import pickle
 import re
 from html.parser import HTMLParser
@@ -162,8 +163,27 @@ def test_an_animation_plays_in_a_frame_of_its_own(tmp_path):
 def test_an_answer_that_was_pickled_is_shown_in_words(drawer):
     for answer in (drawer.solve(), drawer.limits("mu", 0, 1), drawer.hold()):
         again = pickle.loads(pickle.dumps(answer))
-        assert "<pre>" in again._repr_html_() and "<img" not in again._repr_html_()
+        assert "<pre " in again._repr_html_() and "<img" not in again._repr_html_()
 
 
 def test_a_raw_problem_is_shown_in_words():
-    assert "<pre>" in slideway.modes.lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, -1.0])._repr_html_()
+    assert "<pre " in slideway.modes.lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, -1.0])._repr_html_()
+
+
+def test_every_answer_shows_itself(drawer):
+    for answer in (
+        drawer.check(), drawer.rest_limits(friction=(0, 2)), drawer.simulate(0.05, all_branches=3), drawer.hold()
+    ):
+        text = answer._repr_html_()
+        Tags(text)
+        assert "<pre " in text and "<img" in text
+
+
+def test_tables_in_words_keep_their_columns_and_lines_wherever_they_are_shown(drawer):
+    """Pages that are made of notebooks have rules of their own for `pre`, or leave those of the answer out."""
+    answer = drawer.hold()
+    text = answer._repr_html_()
+    (style,) = [value for name, value in Tags(text).attributes if name == "style" and "font-family" in value]
+    assert "monospace" in style and "white-space: pre;" in style and "max-height: none" in style
+    shown = html.unescape(re.search("<pre [^>]*>(.*?)</pre>", text, re.DOTALL)[1])
+    assert shown == answer.text().strip("\n").rstrip()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 from typing import Any
 
@@ -154,3 +155,11 @@ def test_an_array_that_changes_meanwhile_is_a_copy() -> None:
 
     wanted = modes.lcp(m, q).to_json()
     assert modes.lcp(m, q, progress=change).to_json() == wanted
+
+
+@pytest.mark.parametrize("kind", modes.__all__)
+def test_signatures_name_all_options(kind: str) -> None:
+    parameters = inspect.signature(getattr(modes, kind)).parameters
+    assert not any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters.values())
+    options = ["max_solutions", "max_nodes", "max_found", "uniqueness", "time_limit", "progress"]
+    assert [name for name in parameters if name in options] == options

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -67,3 +69,27 @@ def test_pages_and_plots() -> None:
     motion = OSCILLATOR.simulate(0.2)
     assert motion.text(all_events=True) and str(motion) == motion.text()
     assert repr(motion).startswith("<slideway.Motion: ")
+
+
+def test_a_pickled_motion_has_its_steps() -> None:
+    motion = OSCILLATOR.simulate(0.5)
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(motion))))
+    assert np.array_equal(again.t, motion.t) and np.array_equal(again.y, motion.y)
+    assert again.report == motion.report and again.events == motion.events and repr(again) == repr(motion)
+    assert again.text(all_events=True) == motion.text(all_events=True) and again.to_json() == motion.to_json()
+    table, kept = motion.table(), again.table()
+    assert list(table) == list(kept) and all(np.array_equal(table[name], kept[name], equal_nan=name != "mode") for name in table)
+    assert np.array_equal(again.sol(motion.t[3]), motion.y[:, 3]) and np.isnan(again.sol(9.0)).all()
+    assert "<pre " in again._repr_html_()
+    for ask in (lambda: again.sol(0.1234), lambda: again.table(times=[0.1234])):
+        with pytest.raises(ValueError, match="its steps"):
+            ask()
+    with pytest.raises(AttributeError, match="ask the model again"):
+        again.plot()
+
+
+def test_times_of_a_table_lie_within_the_motion() -> None:
+    motion = OSCILLATOR.simulate(0.2)
+    for times in ([-0.1], [0.1, 0.3], [np.nan]):
+        with pytest.raises(ValueError, match="times must be from 0 to 0.2 s"):
+            motion.table(times=times)

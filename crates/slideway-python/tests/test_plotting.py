@@ -74,6 +74,62 @@ def test_given_axes_are_used_and_returned(figure_4):
     assert figure_4.plot(ax=given) is given
 
 
+@pytest.mark.parametrize("layout", [None, "constrained", "tight"])
+@pytest.mark.parametrize("legend", [None, True, False, "outside"])
+def test_the_figure_of_given_axes_is_left_alone(figure_4, layout, legend):
+    figure, (given, other) = plt.subplots(1, 2, figsize=(12, 8), layout=layout)
+    engine = figure.get_layout_engine()
+    figure_4.plot(given, legend=legend)
+    plane = Model.gallery("drawer").map(mu=(0, 1), L=("200 mm", "500 mm"), size=(8, 6))
+    plane.plot(other, legend=legend)
+    figure.canvas.draw()
+    assert figure.get_size_inches().tolist() == [12.0, 8.0]
+    assert figure.get_layout_engine() is engine
+    for ax in (given, other):
+        handles, labels = ax.get_legend_handles_labels()
+        assert len(handles) == len(labels) == len(set(labels)) > 2
+        box = ax.get_legend()
+        assert (box is None) == (legend is False)
+        if box is not None:
+            # Curves that lie on each other are listed behind all else.
+            assert sorted(text.get_text() for text in box.get_texts()) == sorted(labels)
+            at = box.get_window_extent()
+            frame = ax.get_window_extent()
+            if legend == "outside":
+                assert not at.overlaps(frame)
+            else:
+                assert frame.padded(1.0).count_contains(at.corners()) == 4
+            if layout:
+                assert figure.bbox.padded(1.0).count_contains(at.corners()) == 4
+
+
+def test_a_legend_of_ones_own_has_the_same_entries(figure_4):
+    _, given = plt.subplots(figsize=(12, 8))
+    figure_4.plot(given, legend=False)
+    own = given.legend(loc="lower right")
+    given.figure.canvas.draw()
+    _, other = plt.subplots(figsize=(12, 8))
+    figure_4.plot(other)
+    assert sorted(text.get_text() for text in own.get_texts()) == sorted(
+        text.get_text() for text in other.get_legend().get_texts()
+    )
+
+
+def test_nothing_of_a_figure_of_its_own_lies_on_a_legend(klepp):
+    axes = klepp.limits("mu_1", 0, 0.8, both_directions=True).plot()
+    figure = axes[0].figure
+    figure.canvas.draw()
+    frames = [ax.get_window_extent() for ax in axes]
+    boxes = [ax.get_legend().get_window_extent() for ax in axes]
+    titles = [ax._left_title.get_window_extent() for ax in axes]
+    names = [ax.xaxis.label.get_window_extent() for ax in axes]
+    flags = [text.get_window_extent() for ax in axes for text in ax.texts]
+    for box in boxes:
+        assert not any(box.overlaps(other) for other in [*frames, *titles, *names, *flags])
+        assert figure.bbox.padded(1.0).count_contains(box.corners()) == 4
+    assert not boxes[0].overlaps(boxes[1])
+
+
 def test_several_panels_are_several_axes(klepp):
     both = klepp.limits("mu_1", 0, 0.8, both_directions=True)
     axes = both.plot()

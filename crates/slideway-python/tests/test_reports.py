@@ -125,7 +125,65 @@ def test_attributes_are_those_of_the_json_output(question: str) -> None:
     answer = asked("drawer", question)
     data = json.loads(answer.to_json())
     assert answer.schema and answer.to_dict() == data
-    assert {name.rstrip("_") for name in vars(answer) if not name.startswith("_")} >= set(data)
+    assert {name.rstrip("_") for name in vars(answer) if not name.startswith("_")} | {"answer"} >= set(data)
+    assert answer.answer == data["answer"] and answer.answer
+    again = pickle.loads(pickle.dumps(answer))
+    assert again.answer == answer.answer and again.text(verbose=True) == answer.text(verbose=True)
+
+
+@pytest.mark.parametrize("question", [question for question in QUESTIONS if question != "simulate"])
+def test_fields_are_listed_before_one_is_asked_for(question: str) -> None:
+    listed = dir(ask("drawer", question))
+    answer = asked("drawer", question)
+    fields = {field.name for field in dataclasses.fields(answer)}
+    assert fields | {"answer", "text", "to_json"} <= set(listed)
+    assert all(hasattr(answer, name) for name in fields)
+
+
+def test_answers_are_sequences_of_their_solutions() -> None:
+    answer = Model.gallery("klepp-2002").solve()
+    assert len(answer) == 3 and list(answer) == [answer[0], answer[1], answer[-1]]
+    assert answer[1:] == answer.solutions[1:] and answer[0] is answer.solutions[0]
+    with pytest.raises(IndexError):
+        answer[3]
+    raw = slideway.modes.lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, -1.0])
+    assert len(raw) == 3 and raw[2] == list(raw)[2]
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_solution_is_shown_in_ten_lines(name: str) -> None:
+    for solution in asked(name, "solve") or ():
+        shown = repr(solution)
+        assert 2 <= len(shown.splitlines()) <= 10
+        assert shown.startswith("<slideway.Solution") and shown.endswith("all of it: to_dict()>")
+        for contact in solution.contacts:
+            force = f"{contact.name}: normal force {contact.normal_force:.5g} N"
+            assert force in shown or len(shown.splitlines()) == 10
+
+
+def test_a_pickled_map_has_its_pixels_and_plot() -> None:
+    plane = Model.gallery("drawer").map(mu=(0, 1), L=("0.3 m", "0.5 m"), size=(8, 6))
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(plane))))
+    assert again == plane and np.array_equal(again.pixels(), plane.pixels())
+    for theme in ("light", "dark"):
+        assert again._answer.drawn_map(theme) == plane._answer.drawn_map(theme)
+    with pytest.raises(ValueError, match="theme"):
+        again.plot(theme="blue")
+
+
+def test_a_pickled_sweep_has_its_table() -> None:
+    import pyarrow
+
+    sweep = Model.gallery("klepp-2002").sweep(mu_1=np.linspace(0, 0.8, 41))
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(sweep))))
+    assert again.to_numpy().tobytes() == sweep.to_numpy().tobytes()
+    assert again.columns == sweep.columns and again.units == sweep.units and again.contacts == sweep.contacts
+    assert again.tally == sweep.tally and str(again) == str(sweep) and repr(again) == repr(sweep)
+    assert pyarrow.table(again).equals(pyarrow.table(sweep))
+    with pytest.raises(ValueError, match="read-only"):
+        again.to_numpy()["mu_1"][0] = 1.0
+    with pytest.raises(TypeError, match="ask the model again"):
+        again.plot()
 
 
 @pytest.mark.parametrize("question", [question for question in QUESTIONS if question != "simulate"])

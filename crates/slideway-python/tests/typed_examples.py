@@ -34,9 +34,16 @@ bushing: Model = Model.template("drawer", L="500 mm", mu=0.2)
 page: slideway.Page = model.report(mu=(0, 1), time_limit=60.0)
 html: str = page.html
 limits: reports.LimitsReport = model.limits("mu", 0, "1", quantity="friction")
+limits = model.limits(mu=(0, np.float32(1)), max_reaction=np.float32(2), effort=10)
+first_solution: reports.Solution = answer[0]
+rest_of_them: tuple[reports.Solution, ...] = answer[1:]
+said: str = answer.answer
+value: float = model.values["mu"]
+unit: str = model.values["mu"].unit
+model = model.with_(mu=np.float32(0.5))
 check: reports.CheckReport = model.check()
 hold: reports.HoldReport = model.hold("resistance", drives="hold")
-rest: reports.RestLimitsReport = model.rest_limits("friction", 0, 1)
+rest: reports.RestLimitsReport = model.rest_limits(friction=(0, 1))
 size: reports.SizeReport = model.size("mu", 0.1, 1, margin=2)
 drive: reports.DriveReport = model.drive("mu", (0, 1), rows=3)
 plane: reports.MapReport = model.map(mu=(0, 1), L=("0.3 m", "0.5 m"), size=(4, 4))

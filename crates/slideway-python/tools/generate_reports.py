@@ -326,7 +326,7 @@ def data(item: Item, types: Types, mixins: set[str]) -> str:
     is_report = item.name in ROOTS and item.name not in PLAIN
     bases.append("Report" if is_report else "Record")
     head = f"class {item.name}({', '.join(bases)}):"
-    shown = ", repr=False" if is_report else ""
+    shown = ", repr=False" if is_report or item.name == "Solution" else ""
     lines = [f"@dataclass(frozen=True, eq=False, kw_only=True{shown})\n{head}\n", documented(item.docs, "    "), "\n"]
     flattened = [member for other in item.flattened for member in types.items[other].variants]
     members = item.fields + flattened

@@ -28,14 +28,34 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _display, _motion, _sweep, reports
-from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
+from ._values import (
+    BySide,
+    ColourBy,
+    ContactValues,
+    DrivesAtRest,
+    End,
+    MarginAgainst,
+    Number,
+    Pair,
+    Preference,
+    Progress,
+    Quantity,
+    QuantityName,
+    Range,
+    SamplingName,
+    SupportValues,
+    ThemeName,
+    UnitsName,
+    Value,
+)
 """
 # Simpler types for the same, and what containers hold, which maturin does not tell.
 SIMPLER = {
-    "SupportsFloat | SupportsIndex": "float",
+    "SupportsFloat | SupportsIndex": "Number",
     "SupportsIndex": "int",
     "SupportsGetItem[int, ": "Sequence[",
     "-> dict:": "-> dict[str, Any]:",
+    "def values(self, /) -> dict[str, Any]:": "def values(self, /) -> dict[str, Quantity]:",
     "-> tuple:": "-> tuple[str, ...]:",
 }
 # Arguments with which an answer is of another type.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -60,6 +61,10 @@ class Record:
         """
         return {name.rstrip("_"): _plain(value) for name, value in vars(self).items() if not name.startswith("_")}
 
+    def __dir__(self) -> list[str]:
+        """All fields, made or not: what completion by Tab shows."""
+        return sorted({*super().__dir__(), *self.__dataclass_fields__})  # type: ignore[attr-defined]
+
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented
@@ -93,11 +98,18 @@ class Report(Record):
         """Whether it is a part of another answer, whose text and JSON output have it."""
         return "_answer" not in self.__dict__
 
-    def text(self, *, color: bool = False) -> str:
+    @property
+    def answer(self) -> str:
+        """The answer as one would say it to a colleague, in a sentence or a few."""
+        return "" if self._is_part else self._answer.answer()
+
+    def text(self, *, verbose: bool = False, color: bool = False) -> str:
         """The answer in words and tables, as the command line shows it.
 
         Parameters
         ----------
+        verbose : bool, default False
+            With how it is known: signs, determinants, methods.
         color : bool, default False
             With colours for a terminal.
 
@@ -113,7 +125,7 @@ class Report(Record):
         """
         if self._is_part:
             raise TypeError(f"this {type(self).__name__} is a part of another answer, which has the text")
-        return self._answer.text(color)
+        return self._answer.text(color, verbose)
 
     def to_json(self) -> str:
         """The JSON output of the command line.
@@ -159,33 +171,62 @@ class Report(Record):
         if self._is_part:
             return "a part of another answer"
         parts = [part.strip().splitlines() for part in self.text().split("\n\n")]
-        return ": ".join(part[0].strip().rstrip(".") for part in parts[:2] if part)
+        title, *others = [part[0].strip().rstrip(".") for part in parts if part]
+        sentence = re.split(r"\. (?=[A-Z])", " ".join(self.answer.split()))[0].rstrip(".")
+        said = sentence or (others[0] if others else "")
+        return said if said.startswith(title) else f"{title}: {said}"
 
     def __getstate__(self) -> dict[str, Any]:
         getattr(self, "schema")  # noqa: B009  (makes all attributes)
         attributes = {name: value for name, value in self.__dict__.items() if name != "_answer"}
         if self._is_part:
             return attributes
-        return attributes | {"_answer": Kept(self.text(), self.to_json())}
+        return attributes | {"_answer": Kept((self.text(), self.text(verbose=True)), self.to_json(), self._kept())}
+
+    def _kept(self) -> dict[str, Any]:
+        """What is kept besides texts when it is pickled."""
+        return {}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         self.__dict__.update(state)
 
 
 class Kept:
-    """What is kept of an answer that was pickled: its texts, no pictures."""
+    """What is kept of an answer that was pickled: its texts, and of a map what it shows, but no pictures."""
 
-    def __init__(self, text: str, json: str) -> None:
-        self._text = text
+    def __init__(self, texts: tuple[str, str], json: str, more: Mapping[str, Any]) -> None:
+        self._texts = texts
         self._json = json
+        self._more = more
 
-    def text(self, color: bool) -> str:
-        return self._text
+    def answer(self) -> str:
+        said: str = json.loads(self._json).get("answer", "")
+        return said
+
+    def text(self, color: bool, verbose: bool = False) -> str:
+        return self._texts[verbose]
 
     def json(self) -> str:
         return self._json
 
+    def pixels(self) -> Any:
+        return self._kept("pixels")
+
+    def drawn_map(self, theme: str) -> Any:
+        drawn = self._kept("drawn_map")
+        if theme not in drawn:
+            raise ValueError(f"theme must be 'light' or 'dark', not {theme!r}")
+        return drawn[theme]
+
+    def _kept(self, name: str) -> Any:
+        if name not in self._more:
+            raise self._nothing(name)
+        return self._more[name]
+
+    def _nothing(self, name: str) -> AttributeError:
+        return AttributeError("an answer that was pickled has no pictures: ask the model again", name=name, obj=self)
+
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
+        if name.startswith("_"):
             raise AttributeError(name)
-        raise AttributeError("an answer that was pickled has no pictures: ask the model again", name=name, obj=self)
+        raise self._nothing(name)

@@ -33,7 +33,7 @@ STYLE = """<style>
 .slideway table th { font-weight: 600; }
 .slideway.slideway table th, .slideway.slideway table td { padding: .1rem 1rem .1rem 0; vertical-align: top; text-align: left; }
 .slideway.slideway table td.number, .slideway.slideway table th.number { text-align: right; font-variant-numeric: tabular-nums; }
-.slideway pre { white-space: pre-wrap; font-size: .85rem; line-height: 1.35; }
+.slideway details > summary { cursor: pointer; }
 .slideway iframe { width: 100%; border: 0; aspect-ratio: 4 / 3; min-height: 38rem; }
 </style>"""
 
@@ -188,7 +188,8 @@ def drawn_html(answer: _slideway.Answer) -> str:
     if not _has_pictures(answer):
         return text_html(answer)
     words, picture = _pre(answer.text(False)), _image(answer.drawing("light"))
-    return _block(f'<div class="beside"><div>{words}</div><div>{picture}</div></div>')
+    # As wide as lines of words are; the drawing is beside them where there is room, else below.
+    return _block(f'<div class="beside"><div style="flex: 2 1 54rem">{words}</div><div>{picture}</div></div>')
 
 
 def text_html(answer: _slideway.Answer) -> str:
@@ -220,8 +221,15 @@ def _quantity(text: str) -> str:
     return text.replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
 
 
+# Columns stay below each other wherever a page goes: some leave out styles of pages, or have other ones for `pre`.
+PRE = (
+    "font-family: ui-monospace, Menlo, Consolas, 'DejaVu Sans Mono', monospace; font-size: .85rem; line-height: 1.35; "
+    "white-space: pre; overflow-x: auto; overflow-y: visible; max-height: none; padding: 0 0 .8rem; margin: .3rem 0"
+)
+
+
 def _pre(text: str) -> str:
-    return f"<pre>{_text(text.strip())}</pre>"
+    return f'<pre style="{PRE}">{_text(text.strip(chr(10)).rstrip())}</pre>'
 
 
 def _block(content: str) -> str:

@@ -46,10 +46,13 @@ class ModelError(ValueError):
     """
 
     faults: tuple[Fault, ...]
+    filename: str | None = None
+    """The file of the model, if it was loaded from one."""
 
     def __init__(self, faults: tuple[Fault, ...]) -> None:
         super().__init__(faults)
         self.faults = faults
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self.faults))
+        place = f"{self.filename}: " if self.filename else ""
+        return "\n".join(f"{place}{fault}" for fault in self.faults)

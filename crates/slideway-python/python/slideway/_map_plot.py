@@ -19,6 +19,7 @@ from ._plot_style import (
     SMALL,
     TEXT,
     WIDTH,
+    LegendPlace,
     ThemeName,
     named,
     plain,
@@ -39,6 +40,7 @@ def plot_map(
     pixels: np.ndarray[Any, Any],
     ax: Axes | None = None,
     *,
+    legend: LegendPlace | None = None,
     theme: ThemeName = "light",
 ) -> Axes:
     """Draws a map, as `plot()` of a map does.
@@ -50,7 +52,10 @@ def plot_map(
     pixels : array of int
         The class of each pixel, a row for each row of the map from the bottom.
     ax : Axes, optional
-        Where to draw. Default: the Axes of a new figure of pyplot.
+        Where to draw; the figure keeps its size and its layout. Default: the Axes of a new figure of pyplot.
+    legend : bool or "outside", optional
+        Whether there is a legend within the Axes, or beside them. Default: beside the Axes of a new figure, within given
+        ones. `ax.get_legend_handles_labels()` has its entries in any case.
     theme : {"light", "dark"}
 
     Returns
@@ -62,6 +67,7 @@ def plot_map(
     See `slideway.reports.MapReport.plot`.
     """
     colours = _slideway.theme(theme)
+    place: LegendPlace = ("outside" if ax is None else True) if legend is None else legend
     if ax is None:
         rows, columns = pixels.shape
         width = float(np.clip(MAP_HEIGHT * columns / rows, *MAP_WIDTHS))
@@ -75,7 +81,7 @@ def plot_map(
         _cross(ax, shown.model, colours)
     ax.set_xlabel(named(shown.x), color=colours.ink, fontsize=TEXT * POINT)
     ax.set_ylabel(named(shown.y), color=colours.ink, fontsize=TEXT * POINT)
-    _map_legend(shown, ax, colours)
+    _map_legend(shown, ax, colours, place)
     lines = [*wrapped(shown.title, WIDTH, TEXT), *wrapped(shown.subtitle, WIDTH, TEXT)]
     title = plain("\n".join(lines))
     ax.set_title(title, loc="left", color=colours.ink, fontsize=TEXT * POINT, fontweight="bold")
@@ -118,26 +124,32 @@ def _cross(ax: Axes, place: tuple[float, float], theme: reports.Theme) -> None:
         ax.plot(*place, marker="x", markersize=10 * POINT, color=colour, markeredgewidth=width * POINT)
 
 
-def _map_legend(shown: reports.DrawnMap, ax: Axes, theme: reports.Theme) -> None:
-    """The legend beside a map."""
+def _map_legend(shown: reports.DrawnMap, ax: Axes, theme: reports.Theme, place: LegendPlace) -> None:
+    """The legend within a map or beside it; its entries are artists of the Axes, which draw nothing there."""
     from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
+    from matplotlib.patches import Rectangle
 
-    handles: list[Artist] = []
-    texts = []
+    def sample(**look: Any) -> Artist:
+        return Rectangle((0.0, 0.0), 0.0, 0.0, **look)
+
+    entries: list[tuple[Artist, str]] = []
     for each in shown.classes:
         hatch = HATCHES[each.hatching] if each.hatching else None
-        handles.append(Patch(facecolor=each.fill, edgecolor=theme.muted, hatch=hatch, linewidth=POINT))
-        texts.append(each.text)
+        entries.append((sample(facecolor=each.fill, edgecolor=theme.muted, hatch=hatch, linewidth=POINT), each.text))
     if shown.model is not None:
         cross = Line2D([], [], linestyle="none", marker="x", markersize=10 * POINT, color=theme.ink, markeredgewidth=1.5)
-        handles.append(cross)
-        texts.append("the model")
-    for mode in shown.modes:
-        handles.append(Patch(alpha=0.0))
-        texts.append(mode)
-    ax.legend(
-        handles, [plain("\n".join(textwrap.wrap(text, MAP_LEGEND))) for text in texts], loc="upper left",
-        bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0, frameon=False, fontsize=SMALL * POINT, labelcolor=theme.ink,
-        handlelength=1.7,
+        entries.append((cross, "the model"))
+    entries += [(sample(alpha=0.0), mode) for mode in shown.modes]
+    for handle, text in entries:
+        handle.set_label(plain("\n".join(textwrap.wrap(text, MAP_LEGEND))))
+        ax.add_artist(handle)
+    if place is False:
+        return
+    where: dict[str, Any] = {"loc": "upper right", "facecolor": theme.background, "edgecolor": theme.muted}
+    if place == "outside":
+        where = {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0), "borderaxespad": 0.0, "frameon": False}
+    box = ax.legend(
+        handles=[handle for handle, _ in entries],
+        fontsize=SMALL * POINT, labelcolor=theme.ink, handlelength=1.7, **where,
     )
+    box.set_in_layout(place == "outside")

@@ -15,7 +15,11 @@ if TYPE_CHECKING:
 
 
 class Motion:
-    """A motion in time. `t`, `y` and `events` are as those of `scipy.integrate.solve_ivp`; `report` has all else.
+    """A motion in time. `t`, `y` and `sol` are as those of `scipy.integrate.solve_ivp`; `report` has all else.
+
+    Two things differ from it: `events` has whatever happened in its order, with time, causes and what follows, in the place
+    of `t_events` and `y_events`; and `status` is a word, such as `"finished"`, in the place of a number. A motion that was
+    pickled keeps its steps, table and report; it has no pictures, and no states between its steps.
 
     >>> import slideway
     >>> motion = slideway.Model.gallery("frictional-oscillator").simulate(3.0)
@@ -24,7 +28,7 @@ class Motion:
     """
 
     def __init__(self, motion: _slideway.Motion, report: reports.SimulateReport) -> None:
-        self._motion = motion
+        self._motion: Any = motion
         self.report = report
         """The report: events, phases, how it ends, energy."""
         self.t: NDArray[np.float64] = motion.times()
@@ -33,7 +37,8 @@ class Motion:
     @property
     def y(self) -> NDArray[np.float64]:
         """One row for each coordinate, then one for each rate; a column for each time of `t`."""
-        return self._motion.states(self.t.tolist())
+        states: NDArray[np.float64] = self._motion.states(self.t.tolist())
+        return states
 
     def sol(self, t: ArrayLike) -> NDArray[np.float64]:
         """The state at any times, as the solver interpolates it.
@@ -57,7 +62,7 @@ class Motion:
         """
         if np.ndim(t) > 1:
             raise ValueError("t must be a time or a list of times")
-        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        times = np.atleast_1d(_real("t", t))
         inside = (times >= self.t[0]) & (times <= self.t[-1])
         states = np.full((len(self.coordinates) * 2, len(times)), np.nan)
         states[:, inside] = self._motion.states(times[inside].tolist())
@@ -86,11 +91,16 @@ class Motion:
         step : float, optional
             Even steps of time (s). Default: the steps of the solver.
         times : list of float, optional
-            The times instead (s).
+            The times instead (s), within the motion.
 
         Returns
         -------
         dict of array
+
+        Raises
+        ------
+        ValueError
+            A step that is not positive, or times outside of the motion.
 
         Examples
         --------
@@ -99,14 +109,26 @@ class Motion:
         >>> table["x"], table["mode"]
         (array([0.   , 0.005]), array(['+-', '+-'], dtype='<U2'))
         """
-        wanted = self._motion.times(step) if times is None else np.asarray(times, dtype=np.float64)
+        if times is None:
+            wanted = self.t if step is None else self._motion.times(step)
+        else:
+            wanted = _real("times", times)
+            if wanted.ndim != 1:
+                raise ValueError("times must be a list of times")
+            if not np.all((wanted >= self.t[0]) & (wanted <= self.t[-1])):
+                raise ValueError(f"times must be from {self.t[0]:g} to {self.t[-1]:g} s")
         series = self._motion.table(wanted.tolist())
         table: dict[str, NDArray[Any]] = {column.name: column.values for column in series.columns}
         table["mode"] = np.array(series.modes)
         return table
 
     def plot(
-        self, ax: Any = None, *, phase_portrait: bool = False, theme: plotting.ThemeName = "light"
+        self,
+        ax: Any = None,
+        *,
+        phase_portrait: bool = False,
+        legend: plotting.LegendPlace | None = None,
+        theme: plotting.ThemeName = "light",
     ) -> Any:
         """Draws the motion with matplotlib.
 
@@ -117,6 +139,9 @@ class Motion:
         phase_portrait : bool, default False
             The rate of each coordinate over its value, instead of coordinates, normal forces with the contact modes, and
             energies over time.
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
 
         Returns
@@ -129,7 +154,7 @@ class Motion:
         >>> axes = slideway.Model.gallery("frictional-oscillator").simulate(3).plot()   # doctest: +SKIP
         """
         plot = self._motion.plot(phase_portrait)
-        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, legend=legend, theme=theme)
 
     def animate(
         self, *, slow_motion: float | None = None, theme: plotting.ThemeName = "light"
@@ -156,7 +181,7 @@ class Motion:
         return _display.Animation(self._motion.animation(theme, slow_motion), self.report._headline())
 
     def _repr_html_(self) -> str:
-        return _display.motion_html(self)
+        return _display.words_html(self.text()) if isinstance(self._motion, Kept) else _display.motion_html(self)
 
     def text(self, *, all_events: bool = False, color: bool = False) -> str:
         """The log of the motion, as the command line shows it.
@@ -198,5 +223,49 @@ class Motion:
     def __str__(self) -> str:
         return self.text()
 
+    def __getstate__(self) -> dict[str, Any]:
+        kept = Kept(self.t, self.y, self._motion.table(self.t.tolist()), self.text(all_events=True))
+        return {**self.__dict__, "_motion": kept}
+
     def __repr__(self) -> str:
         return f"<slideway.Motion: {len(self.events)} events, until {self.t[-1]:g} s, {self.status}>"
+
+
+def _real(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Numbers of an argument; complex ones would lose their imaginary parts."""
+    if np.iscomplexobj(given):
+        raise TypeError(f"{name} must be real, not complex")
+    return np.asarray(given, dtype=np.float64)
+
+
+class Kept:
+    """What is kept of a motion that was pickled: states and table at its steps, and the log with all events."""
+
+    def __init__(self, t: NDArray[np.float64], y: NDArray[np.float64], series: reports.Series, text: str) -> None:
+        self._t, self._y, self._series, self._text = t, y, series, text
+
+    def _steps(self, times: Sequence[float]) -> NDArray[np.intp]:
+        """The steps at these times."""
+        steps = np.minimum(np.searchsorted(self._t, times), len(self._t) - 1)
+        if not np.array_equal(self._t[steps], times):
+            raise ValueError("a motion that was pickled has its steps only, `t`: ask the model again")
+        return steps
+
+    def states(self, times: Sequence[float]) -> NDArray[np.float64]:
+        if len(times) == len(self._t) and np.array_equal(self._t, times):
+            return self._y
+        states: NDArray[np.float64] = self._y[:, self._steps(times)]
+        return states
+
+    def table(self, times: Sequence[float]) -> reports.Series:
+        if not np.array_equal(self._t, times):
+            raise ValueError("a motion that was pickled has the table of its steps only: ask the model again")
+        return self._series
+
+    def text_with_all_events(self, color: bool) -> str:
+        return self._text
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise AttributeError("a motion that was pickled has no pictures: ask the model again", name=name, obj=self)

@@ -5,18 +5,22 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING, Any, Literal
 
+from ._values import ThemeName
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from . import reports
 
-ThemeName = Literal["light", "dark"]
+__all__ = ["ThemeName"]
+
+LegendPlace = bool | Literal["outside"]
 
 # Sizes of the pictures (px), and a pixel in inches and points.
 WIDTH, SINGLE_HEIGHT, STACKED_HEIGHT = 800.0, 380.0, 300.0
 FRAME_WIDTH = 700.0
 MAP_HEIGHT, MAP_WIDTHS, MAP_LEGEND = 400.0, (200.0, 640.0), 48
-TITLE, TEXT, SMALL, CURVE, ROW, BAND, LINE = 17.0, 14.0, 13.0, 2.2, 18.0, 12.0, 19.0
+TITLE, TEXT, SMALL, CURVE, ROW, BAND = 17.0, 14.0, 13.0, 2.2, 18.0, 12.0
 INCH, POINT = 1 / 96, 72 / 96
 # Distances of ticks that are aimed at, and space around everything (px).
 BETWEEN = (80.0, 48.0)

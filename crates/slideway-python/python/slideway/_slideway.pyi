@@ -13,7 +13,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _display, _motion, _sweep, reports
-from ._values import BySide, ContactValues, End, Pair, Progress, Range, SupportValues, Value
+from ._values import (
+    BySide,
+    ColourBy,
+    ContactValues,
+    DrivesAtRest,
+    End,
+    MarginAgainst,
+    Number,
+    Pair,
+    Preference,
+    Progress,
+    Quantity,
+    QuantityName,
+    Range,
+    SamplingName,
+    SupportValues,
+    ThemeName,
+    UnitsName,
+    Value,
+)
 
 
 __all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "blocks", "frozen_array", "gallery_models", "game", "hlcp", "import_dxf", "lcp", "mcp", "merge", "mlcp", "mode_problem", "png", "printable", "solve", "templates", "theme"]
@@ -28,6 +47,10 @@ class Answer:
     """
     A report, and what its pictures are made of.
     """
+    def answer(self, /) -> str:
+        """
+        The answer in a sentence or a few.
+        """
     def drawing(self, /, theme_name: str, solution: int | None = None, gap_state: int | None = None) -> str:
         """
         A drawing of the mechanism and its solutions, of one of them, or of one state of a preload gap, counted from
@@ -61,9 +84,9 @@ class Answer:
         """
         The plot or the map as SVG.
         """
-    def text(self, /, color: bool) -> str:
+    def text(self, /, color: bool, verbose: bool = False) -> str:
         """
-        The text output, with colours for a terminal if wanted.
+        The text output, with colours for a terminal and with how it is known if wanted.
         """
 
 @final
@@ -687,7 +710,7 @@ class Model:
         """
         The names of its coordinates.
         """
-    def draw(self, /, solution: int | None = None, *, theme: str = "light") -> _display.Drawing:
+    def draw(self, /, solution: int | None = None, *, theme: ThemeName = "light") -> _display.Drawing:
         """
         A drawing of the mechanism in this state.
 
@@ -713,7 +736,7 @@ class Model:
         >>> slideway.Model.gallery("drawer").draw(1)
         <slideway.Drawing: A drawer pushed off-centre>
         """
-    def drive(self, /, vary: str | None = None, between: Range | None = None, *, rows: int = 41, time_limit: float | None = None, progress: Progress | None = None) -> reports.DriveReport:
+    def drive(self, /, vary: str | None = None, between: Range | None = None, *, rows: int = 41, time_limit: Number | None = None, progress: Progress | None = None, **ranges: Range | None) -> reports.DriveReport:
         """
         Which efforts the drives need against friction, and how efficient that is.
 
@@ -773,7 +796,10 @@ class Model:
         >>> slideway.Model.gallery("wedge").coordinates
         ['x']
         """
-    def hold(self, /, load: str | None = None, *, vary: str | None = None, drives: str = "release", time_limit: float | None = None, progress: Progress | None = None) -> reports.HoldReport:
+    @overload
+    def hold(self, /, load: str | None = None, *, vary: str | None = None, drives: DrivesAtRest = "release", time_limit: Number | None = None, progress: Progress | None = None) -> reports.HoldReport: ...
+    @overload
+    def hold(self, /, load: str | None = None, *, vary: str | None = None, drives: DrivesAtRest = "release", time_limit: Number | None = None, progress: Progress | None = None, **ranges: Range | None) -> reports.RestLimitsReport:
         """
         Whether the mechanism stays at rest, under which loads, and how it begins to move.
 
@@ -808,7 +834,7 @@ class Model:
         >>> slideway.Model.gallery("drawer").hold().holds     # nothing but friction opposes its resistance
         False
         """
-    def limits(self, /, vary_name: str, start: Value | None = None, stop: Value | None = None, *, max_reaction: float | None = None, both_directions: bool = False, effort: int = ..., quantity: str = "normal-force", time_limit: float | None = None, progress: Progress | None = None) -> reports.LimitsReport:
+    def limits(self, /, vary_name: str | None = None, start: Value | Range | None = None, stop: Value | None = None, *, max_reaction: Number | None = None, both_directions: bool = False, effort: int = 800, quantity: QuantityName = "normal-force", time_limit: Number | None = None, progress: Progress | None = None, **ranges: Range | None) -> reports.LimitsReport:
         """
         For which values of a quantity each contact mode exists, and how many solutions there are.
 
@@ -879,7 +905,7 @@ class Model:
         >>> slideway.Model.load(path) == slideway.Model.gallery("drawer")
         True
         """
-    def map(self, /, *, colour_by: str = "solutions", size: tuple[int, int] | None = None, probe: int | None = None, time_limit: float | None = None, progress: Progress | None = None, **axes: Range | None) -> reports.MapReport:
+    def map(self, /, *, colour_by: ColourBy = "solutions", size: tuple[int, int] | None = None, probe: int | None = None, time_limit: Number | None = None, progress: Progress | None = None, **axes: Range | None) -> reports.MapReport:
         """
         A map of the plane of two quantities.
 
@@ -953,7 +979,7 @@ class Model:
         >>> slideway.Model.parse(text)
         <slideway.Model: A drawer pushed off-centre>
         """
-    def report(self, /, *, time_limit: float | None = None, progress: Progress | None = None, **ranges: Range | None) -> _display.Page:
+    def report(self, /, *, time_limit: Number | None = None, progress: Progress | None = None, **ranges: Range | None) -> _display.Page:
         """
         A page with the model, its drawing, its solutions, its efforts, whether it stays at rest, and its limits.
 
@@ -987,7 +1013,7 @@ class Model:
         >>> "<h2>Model</h2>" in path.read_text()
         True
         """
-    def rest_limits(self, /, vary_name: str, start: Value, stop: Value, *, load: str | None = None, drives: str = "release", time_limit: float | None = None, progress: Progress | None = None) -> reports.RestLimitsReport:
+    def rest_limits(self, /, vary_name: str | None = None, start: Value | Range | None = None, stop: Value | None = None, *, load: str | None = None, drives: DrivesAtRest = "release", time_limit: Number | None = None, progress: Progress | None = None, **ranges: Range | None) -> reports.RestLimitsReport:
         """
         For which values of a quantity the mechanism can stay at rest.
 
@@ -1023,15 +1049,17 @@ class Model:
         >>> len(wedge.rest_limits("friction", 0, 2).spans) > 0
         True
         """
+    def save(self, /, path: str | PathLike[str]) -> None:
+        """ """
     @property
     def settings(self, /) -> list[str]:
         """
         What was changed in the text, such as `["mu=0.5", "at alpha=75 deg"]`.
         """
     @overload
-    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: str = "rule", all_branches: int, tolerance: float = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: float | None = None, time_limit: float | None = None, progress: Progress | None = None) -> reports.TreeReport: ...
+    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: Preference = "rule", all_branches: int, tolerance: Number = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: Number | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> reports.TreeReport: ...
     @overload
-    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: str = "rule", all_branches: None = None, tolerance: float = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: float | None = None, time_limit: float | None = None, progress: Progress | None = None) -> _motion.Motion:
+    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: Preference = "rule", all_branches: None = None, tolerance: Number = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: Number | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> _motion.Motion:
         """
         The motion until a time, the contact mode being part of the state.
 
@@ -1078,7 +1106,7 @@ class Model:
         >>> motion.sol(0.05)     # driven with 0.1 m/s
         array([0.005, 0.1  ])
         """
-    def size(self, /, vary_name: str, start: Value | None = None, stop: Value | None = None, *, margin: Value | None = None, max_effort: Value | None = None, max_normal_force: Value | None = None, max_pressure: Value | None = None, min_efficiency: Value | None = None, against: str = "locking", load: str | None = None, both_directions: bool = False, time_limit: float | None = None, progress: Progress | None = None) -> reports.SizeReport:
+    def size(self, /, vary_name: str | None = None, start: Value | Range | None = None, stop: Value | None = None, *, margin: Value | None = None, max_effort: Value | None = None, max_normal_force: Value | None = None, max_pressure: Value | None = None, min_efficiency: Value | None = None, against: MarginAgainst = "locking", load: str | None = None, both_directions: bool = False, time_limit: Number | None = None, progress: Progress | None = None, **ranges: Range | None) -> reports.SizeReport:
         """
         For which values of a quantity a wanted margin against locking is met, or a limit is kept.
 
@@ -1131,7 +1159,7 @@ class Model:
         >>> round(size.met[0].from_, 6)     # L = 2 (2 mu) a, in m
         0.36
         """
-    def solve(self, /, *, margins: bool = True, max_solutions: int = 100, max_nodes: int | None = None, max_found: int | None = None, time_limit: float | None = None, progress: Progress | None = None) -> reports.SolveReport:
+    def solve(self, /, *, margins: bool = True, max_solutions: int = 100, max_nodes: int | None = None, max_found: int | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> reports.SolveReport:
         """
         All solutions of the equations of motion in this state, with their contact modes.
 
@@ -1170,7 +1198,7 @@ class Model:
         >>> answer.solutions[0].normal_forces     # +- F a / L with F = Q / (1 - 2 mu a / L), in N
         array([ 27.27..., -27.27...])
         """
-    def sweep(self, /, *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
+    def sweep(self, /, *, samples: int | None = None, sampling: SamplingName = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, shard: tuple[int, int] | None = None, time_limit: Number | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> _sweep.Sweep:
         """
         All solutions at every point of a grid, or of random samples, as a table.
 
@@ -1267,7 +1295,12 @@ class Model:
         """
         Its title, if it has one.
         """
-    def with_(self, /, *, at: Mapping[str, Value] | None = None, rate: Mapping[str, Value] | None = None, time: Value | None = None, units: str | None = None, **values: Value) -> Model:
+    @property
+    def values(self, /) -> dict[str, Quantity]:
+        """
+        The present values of its parameters in SI units, each with its unit.
+        """
+    def with_(self, /, *, at: Mapping[str, Value] | None = None, rate: Mapping[str, Value] | None = None, time: Value | None = None, units: UnitsName | None = None, **values: Value) -> Model:
         """
         The same model with other values.
 
@@ -1302,7 +1335,7 @@ class Model:
         >>> model.settings
         ['mu=0.5', 'L=450 mm', 'rate x=2 m/s']
         """
-    def write_shard(self, /, output: str | PathLike[str], shard: tuple[int, int], *, samples: int | None = None, sampling: str = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, time_limit: float | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> Path:
+    def write_shard(self, /, output: str | PathLike[str], shard: tuple[int, int], *, samples: int | None = None, sampling: SamplingName = "random", seed: int = 0, breakpoints: bool = False, attainability: bool = False, all_columns: bool = False, time_limit: Number | None = None, progress: Progress | None = None, **values: str | ArrayLike | Sequence[Value]) -> Path:
         """
         Computes a part of a sweep and writes it to a folder, unless it is there.
 
@@ -1370,7 +1403,7 @@ class Motion:
     """
     A motion: private half of `slideway.Motion`.
     """
-    def animation(self, /, theme_name: str, slow_motion: float | None = None) -> str:
+    def animation(self, /, theme_name: str, slow_motion: Number | None = None) -> str:
         """
         A moving picture as a page.
         """
@@ -1390,7 +1423,7 @@ class Motion:
         """
         The report as text, with all events.
         """
-    def times(self, /, step: float | None = None) -> NDArray[np.float64]:
+    def times(self, /, step: Number | None = None) -> NDArray[np.float64]:
         """
         The times of the steps of the solver, or those in even steps.
         """
@@ -1400,7 +1433,7 @@ class Plot:
     """
     A plot of an answer, a motion or a sweep.
     """
-    def drawn(self, /, width: float, height: float) -> list[reports.DrawnPanel]:
+    def drawn(self, /, width: Number, height: Number) -> list[reports.DrawnPanel]:
         """
         What its panels show in frames of this width and height (px, of which small text has 13).
         """
@@ -1437,7 +1470,7 @@ class Table:
         """
         The names of the contacts, in the order of the signs of patterns.
         """
-    def plot(self, /, quantity: str, time_limit: float | None = None, progress: Any | None = None) -> Plot:
+    def plot(self, /, quantity: str, time_limit: Number | None = None, progress: Any | None = None) -> Plot:
         """
         The plot of a quantity along every branch, or of its distribution over samples. All points are computed
         again: the table does not hold what a plot needs.
@@ -1506,7 +1539,7 @@ def hlcp(a: ArrayLike, b: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> r
     All solutions of `A w - B z = q`.
     """
 
-def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str | None = None, time_limit: float | None = None, progress: Progress | None = None) -> str:
+def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> str:
     """
     The text of a model file with the outlines and points of a drawing, to be completed with joints, masses and
     coordinates.
@@ -1563,7 +1596,7 @@ def mcp(m: ArrayLike, q: ArrayLike, bounds: tuple[ArrayLike, ArrayLike], options
     All solutions of `w = M z + q` within bounds.
     """
 
-def merge(folder: str | PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None) -> _sweep.Sweep:
+def merge(folder: str | PathLike[str], *, time_limit: Number | None = None, progress: Progress | None = None) -> _sweep.Sweep:
     """
     One table of all parts of a sweep in a folder, with numbers of branches.
 
@@ -1601,7 +1634,7 @@ def mode_problem(columns_positive: ArrayLike, columns_negative: ArrayLike, right
     All solutions of a mode problem.
     """
 
-def png(svg: str, scale: float) -> bytes:
+def png(svg: str, scale: Number) -> bytes:
     """
     A drawing as PNG, with so many pixels for each unit of the SVG.
     """

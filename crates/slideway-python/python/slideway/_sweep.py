@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import polars
 
     from . import _slideway, reports
+    from ._values import QuantityName
 
 
 class Sweep:
@@ -29,31 +30,33 @@ class Sweep:
     >>> sweep["normal_force.guide.front"][:3].round(2)
     array([15.  , 17.65, 21.43])
 
-    A point without a solution has one row, whose numbers are NaN (null in data frames).
+    A point without a solution has one row, whose numbers are NaN (null in data frames). A sweep that was pickled has all of
+    this but plots.
     """
 
     def __init__(self, table: _slideway.Table) -> None:
-        self._table = table
+        self._table: Any = table
 
     @property
     def columns(self) -> list[str]:
         """The names of the columns."""
-        return self._table.columns
+        return list(self._table.columns)
 
     @property
     def units(self) -> dict[str, str]:
         """The unit of each column of numbers; empty for pure numbers."""
-        return self._table.units
+        return dict(self._table.units)
 
     @property
     def contacts(self) -> tuple[str, ...]:
         """The names of the contacts, in the order of the signs in `pattern`."""
-        return self._table.contacts
+        return tuple(self._table.contacts)
 
     @property
     def tally(self) -> reports.Tally:
         """How many points came to what."""
-        return self._table.tally()
+        tally: reports.Tally = self._table.tally()
+        return tally
 
     def __getitem__(self, column: str) -> NDArray[Any]:
         """A column as an array: numbers share the memory of `to_numpy` and cannot be written to, words are copied."""
@@ -65,7 +68,7 @@ class Sweep:
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __len__(self) -> int:
-        return self._table.rows
+        return int(self._table.rows)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
@@ -138,16 +141,22 @@ class Sweep:
 
     @property
     def __array_interface__(self) -> dict[str, Any]:
-        return self._table.__array_interface__
+        interface: dict[str, Any] = self._table.__array_interface__
+        return interface
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return self._table.__arrow_c_stream__(requested_schema)
+        stream: object = self._table.__arrow_c_stream__(requested_schema)
+        return stream
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_table": Kept(self._table, self.to_numpy())}
 
     def plot(
         self,
         ax: Any = None,
         *,
-        quantity: str = "normal-force",
+        quantity: QuantityName = "normal-force",
+        legend: plotting.LegendPlace | None = None,
         theme: plotting.ThemeName = "light",
         time_limit: float | None = None,
     ) -> Any:
@@ -159,6 +168,9 @@ class Sweep:
         ax : Axes, optional
             Where to draw; an array of them if there are several panels. Default: the Axes of a new figure.
         quantity : {"normal-force", "friction", "acceleration", "effort"}
+        legend : bool or "outside", optional
+            Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within
+            given ones.
         theme : {"light", "dark"}
         time_limit : float, optional
             The longest that it may take (s).
@@ -180,7 +192,7 @@ class Sweep:
         >>> ax = slideway.Model.gallery("drawer").sweep(mu="0..0.6:61").plot()   # doctest: +SKIP
         """
         plot = self._table.plot(quantity, time_limit)
-        return plotting.plot_figure(plot.figure(), plot.drawn, ax, theme=theme)
+        return plotting.plot_figure(plot.figure(), plot.drawn, ax, legend=legend, theme=theme)
 
     def _repr_html_(self) -> str:
         return _display.words_html(self.text())
@@ -203,10 +215,51 @@ class Sweep:
         >>> print(slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).text().splitlines()[0])
         2 points: 2 rows, 1 branch
         """
-        return self._table.text(color)
+        text: str = self._table.text(color)
+        return text
 
     def __str__(self) -> str:
         return self.text()
 
     def __repr__(self) -> str:
         return f"<slideway.Sweep: {self._table.points} points, {len(self)} rows, {len(self.columns)} columns>"
+
+
+class Kept:
+    """What is kept of a sweep that was pickled: its records, and its columns if pyarrow is there."""
+
+    def __init__(self, table: Any, records: NDArray[np.void]) -> None:
+        self.columns, self.units, self.contacts = table.columns, table.units, table.contacts
+        self.rows, self.points = table.rows, table.points
+        self._tally: reports.Tally = table.tally()
+        self._text: str = table.text(False)
+        self._records = records
+        self._arrow = _arrow(table)
+
+    def tally(self) -> reports.Tally:
+        return self._tally
+
+    def text(self, color: bool) -> str:
+        return self._text
+
+    @property
+    def __array_interface__(self) -> dict[str, Any]:
+        self._records.setflags(write=False)
+        return self._records.__array_interface__
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        if self._arrow is None:
+            raise TypeError("a sweep that was pickled without pyarrow has records only, which to_numpy() gives")
+        return self._arrow.__arrow_c_stream__(requested_schema)
+
+    def plot(self, *_: object) -> Any:
+        raise TypeError("a sweep that was pickled has no plot: ask the model again")
+
+
+def _arrow(table: Any) -> Any:
+    """The table of pyarrow."""
+    try:
+        import pyarrow
+    except ImportError:
+        return None
+    return table._arrow if isinstance(table, Kept) else pyarrow.table(table)

@@ -7,12 +7,13 @@ time is small. Each is a task of its own; one whose worker dies is computed agai
 from __future__ import annotations
 
 import math
-import time
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import dask.dataframe as dd
+import numpy as np
 import pandas
 import pyarrow
 import pyarrow.parquet
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["sweep"]
 
-# The longest that is spent here on finding out how long a point takes (s).
-_TRIAL = 1.0
+# About how long a point of a mechanism with a few contacts takes on one core (s).
+_POINT = 5e-5
 _RETRIES = 3
 
 
@@ -49,10 +50,11 @@ def sweep(
     output : str or path, optional
         A folder that all workers reach: each shard becomes a Parquet file there, with the rows and the name that
         `slideway sweep --shard` gives it. Shards that are there already are left as they are, so that an interrupted
-        sweep goes on. Without it the rows stay in the memory of the workers.
+        sweep goes on, and one that is done is not computed again. Without it the rows stay in the memory of the workers,
+        as long as a frame needs them.
     shards : int, optional
-        How many shards. By default as many as let each take about `chunk_seconds` on one core of this machine, as a
-        short trial tells.
+        How many shards. By default as many as the folder has of them already; else as many as let each take about
+        `chunk_seconds` if a point takes 50 microseconds, so that the same question has the same shards.
     chunk_seconds : float, default 5
         See `shards` (s).
     options : dict, optional
@@ -70,6 +72,8 @@ def sweep(
     ------
     ModelError
         The model or the axes make no sense: once, before anything is sent.
+    ValueError
+        The folder has shards of another number than `shards`.
     RuntimeError
         The workers have another version of slideway.
 
@@ -83,10 +87,9 @@ def sweep(
     _compare_versions(client)
     question = dict(options or {}) | values
     meta = _frame(pyarrow.table(model.sweep(**question, shard=(1, 1 << 31))))
-    if shards is None:
-        shards = _shards(model, question, chunk_seconds)
-    parts = list(range(1, shards + 1))
     folder = None if output is None else str(Path(output).absolute())
+    shards = _number(None if folder is None else Path(folder), shards, _shards(question, chunk_seconds))
+    parts = list(range(1, shards + 1))
     # Arrays are sent once, not with each task; as a task, so that they are there again if their worker dies.
     held = client.submit(_held, model, question)
     name = f"slideway-sweep-{str(held.key)[-16:]}-{shards}" + ("" if folder is None else "-files")
@@ -116,20 +119,47 @@ def _version() -> str:
     return slideway.__version__
 
 
-def _shards(model: Model, question: Mapping[str, Any], chunk_seconds: float) -> int:
-    """How many shards let each take so many seconds, as ever larger parts of the sweep tell."""
+def _number(folder: Path | None, wanted: int | None, usual: int) -> int:
+    """How many shards: those of which the folder has some, whatever would be usual."""
+    if wanted is not None and wanted < 1:
+        raise ValueError(f"shards must be at least 1, not {wanted}")
+    names = [path.name for path in folder.iterdir()] if folder is not None and folder.is_dir() else []
+    found = {int(match[1]) for name in names if (match := re.match(r"shard-\d+-of-(\d+)\.parquet", name))}
+    if not found:
+        return usual if wanted is None else wanted
+    there = " and ".join(map(str, sorted(found)))
+    if len(found) > 1:
+        raise ValueError(f"{folder} has shards of sweeps in {there} shards: take a folder for each")
+    if wanted is not None and found != {wanted}:
+        message = f"{folder} has shards of a sweep in {there} shards, but shards is {wanted}"
+        raise ValueError(f"{message}: leave it out to go on, or take another folder")
+    return found.pop()
+
+
+def _shards(question: Mapping[str, Any], chunk_seconds: float) -> int:
+    """How many shards let each take about so many seconds: the question alone says, so that it is asked again alike."""
     if not (chunk_seconds > 0.0 and math.isfinite(chunk_seconds)):
         raise ValueError(f"chunk_seconds must be a positive number, not {chunk_seconds}")
-    of, begun = 1 << 24, time.perf_counter()
-    while True:
-        start = time.perf_counter()
-        model.sweep(**question, shard=(of // 2 or 1, of))
-        end = time.perf_counter()
-        # A trial that takes a tenth of its time tells enough; it uses all cores here, a worker one.
-        if of == 1 or end - start > 0.1 * _TRIAL or end - begun > _TRIAL:
-            break
-        of = max(1, of // 8)
-    return max(1, min(of, round((end - start) * of / chunk_seconds)))
+    points = _points(question)
+    return max(1, min(points, round(points * _POINT / chunk_seconds)))
+
+
+def _points(question: Mapping[str, Any]) -> int:
+    """How many points a sweep has, without those that are inserted where modes end."""
+    if question.get("samples") is not None:
+        return int(question["samples"])
+    options = ("samples", "sampling", "seed", "breakpoints", "attainability", "all_columns", "time_limit", "progress")
+    points = 1
+    for name, values in question.items():
+        if name in options:
+            continue
+        if isinstance(values, str):
+            # "0..1:101", or values apart from each other by commas.
+            steps = re.search(r":\s*(\d+)\s*$", values)
+            points *= int(steps[1]) if steps else values.count(",") + 1
+        else:
+            points *= np.size(values) if hasattr(values, "__array__") else len(list(values)) if np.iterable(values) else 1
+    return points
 
 
 def _held(model: Model, question: Mapping[str, Any]) -> tuple[Model, Mapping[str, Any]]:

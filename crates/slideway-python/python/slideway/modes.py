@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from typing import Any
 
@@ -23,6 +24,31 @@ Progress = Callable[[float | None, int, str], object]
 
 
 def _options(
+    max_solutions: int,
+    max_nodes: int | None,
+    max_found: int | None,
+    uniqueness: bool,
+    time_limit: float | None,
+    progress: Progress | None,
+) -> dict[str, Any]:
+    options: dict[str, Any] = dict(locals())
+    for name in ("max_solutions", "max_nodes", "max_found"):
+        count = options[name]
+        if count is None and name != "max_solutions":
+            continue
+        try:
+            options[name] = operator.index(count)
+        except TypeError:
+            raise TypeError(f"{name} must be a whole number, not {count!r}") from None
+        if not 0 <= options[name] < 1 << 63:
+            raise ValueError(f"{name} must be a whole number from 0 on, not {count}")
+    return options
+
+
+def solve(
+    A: ArrayLike,
+    B: ArrayLike,
+    b: ArrayLike,
     *,
     max_solutions: int = 100,
     max_nodes: int | None = None,
@@ -30,11 +56,7 @@ def _options(
     uniqueness: bool = False,
     time_limit: float | None = None,
     progress: Progress | None = None,
-) -> dict[str, Any]:
-    return locals()
-
-
-def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.RawReport:
+) -> reports.RawReport:
     """All solutions `x` of the absolute value equation `A x + B |x| = b`.
 
     Parameters
@@ -73,11 +95,21 @@ def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **options: Any) -> reports.R
     >>> [solution.x.tolist() for solution in solve([[1.0]], [[-0.5]], [1.0])]
     [[2.0]]
     """
-    return _slideway.solve(A, B, b, _options(**options))
+    return _slideway.solve(A, B, b, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
 def block_ave(
-    B: ArrayLike, b: ArrayLike, blocks: ArrayLike, A: ArrayLike | None = None, **options: Any
+    B: ArrayLike,
+    b: ArrayLike,
+    blocks: ArrayLike,
+    A: ArrayLike | None = None,
+    *,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
 ) -> reports.RawReport:
     """All solutions of `A x + B |x| = b`, where `|x|` has the lengths of blocks of one or two components.
 
@@ -97,8 +129,8 @@ def block_ave(
 
     Other Parameters
     ----------------
-    **options
-        Those of :func:`solve`.
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
+        As for `solve`.
 
     Returns
     -------
@@ -116,10 +148,20 @@ def block_ave(
     >>> sorted(round(float(abs(solution.x[0])), 12) for solution in answer)
     [0.333333333333, 1.0]
     """
-    return _slideway.blocks((B, A), b, blocks, _options(**options))
+    return _slideway.blocks((B, A), b, blocks, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
-def lcp(M: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:
+def lcp(
+    M: ArrayLike,
+    q: ArrayLike,
+    *,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+) -> reports.RawReport:
     """All solutions of the linear complementarity problem `w = M z + q`, `w >= 0`, `z >= 0`, `w z = 0`.
 
     Parameters
@@ -129,7 +171,7 @@ def lcp(M: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:
 
     Other Parameters
     ----------------
-    **options
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
         As for `solve`.
 
     Returns
@@ -141,10 +183,21 @@ def lcp(M: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:
     >>> [solution.z.tolist() for solution in lcp([[2.0]], [-1.0])]
     [[0.5]]
     """
-    return _slideway.lcp(M, q, _options(**options))
+    return _slideway.lcp(M, q, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
-def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **options: Any) -> reports.RawReport:
+def hlcp(
+    A: ArrayLike,
+    B: ArrayLike,
+    q: ArrayLike,
+    *,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+) -> reports.RawReport:
     """All solutions of the horizontal linear complementarity problem `A w - B z = q`, `w >= 0`, `z >= 0`, `w z = 0`.
 
     Parameters
@@ -154,7 +207,7 @@ def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **options: Any) -> reports.Ra
 
     Other Parameters
     ----------------
-    **options
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
         As for `solve`.
 
     Returns
@@ -166,11 +219,23 @@ def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **options: Any) -> reports.Ra
     >>> [solution.z.tolist() for solution in hlcp([[1.0]], [[2.0]], [-1.0])]
     [[0.5]]
     """
-    return _slideway.hlcp(A, B, q, _options(**options))
+    return _slideway.hlcp(A, B, q, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
 def mlcp(
-    A: ArrayLike, B: ArrayLike, C: ArrayLike, D: ArrayLike, a: ArrayLike, b: ArrayLike, **options: Any
+    A: ArrayLike,
+    B: ArrayLike,
+    C: ArrayLike,
+    D: ArrayLike,
+    a: ArrayLike,
+    b: ArrayLike,
+    *,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
 ) -> reports.RawReport:
     """All solutions of the mixed linear complementarity problem `A u + C z + a = 0`, `w = D u + B z + b`, `w >= 0`,
     `z >= 0`, `w z = 0`, in which `u` is free.
@@ -182,7 +247,7 @@ def mlcp(
 
     Other Parameters
     ----------------
-    **options
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
         As for `solve`.
 
     Returns
@@ -195,10 +260,22 @@ def mlcp(
     >>> [(solution.u.tolist(), solution.z.tolist()) for solution in answer]
     [([1.0], [1.0])]
     """
-    return _slideway.mlcp((A, B, C, D), (a, b), _options(**options))
+    return _slideway.mlcp((A, B, C, D), (a, b), _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
-def mcp(M: ArrayLike, q: ArrayLike, l: ArrayLike, u: ArrayLike, **options: Any) -> reports.RawReport:  # noqa: E741
+def mcp(
+    M: ArrayLike,
+    q: ArrayLike,
+    l: ArrayLike,
+    u: ArrayLike,
+    *,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+) -> reports.RawReport:  # noqa: E741
     """All solutions of the mixed complementarity problem `w = M z + q`, `l <= z <= u`, with `w >= 0` where `z < u`, and
     `w <= 0` where `z > l`.
 
@@ -210,7 +287,7 @@ def mcp(M: ArrayLike, q: ArrayLike, l: ArrayLike, u: ArrayLike, **options: Any) 
 
     Other Parameters
     ----------------
-    **options
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
         As for `solve`.
 
     Returns
@@ -223,10 +300,20 @@ def mcp(M: ArrayLike, q: ArrayLike, l: ArrayLike, u: ArrayLike, **options: Any) 
     >>> [(solution.z.tolist(), solution.w.tolist()) for solution in answer]
     [([3.0], [-2.0])]
     """
-    return _slideway.mcp(M, q, (l, u), _options(**options))
+    return _slideway.mcp(M, q, (l, u), _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
-def game(A: ArrayLike, B: ArrayLike | None = None, **options: Any) -> reports.RawReport:
+def game(
+    A: ArrayLike,
+    B: ArrayLike | None = None,
+    *,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+) -> reports.RawReport:
     """All Nash equilibria of a bimatrix game: `x` maximises `x A y`, and `y` maximises `x B y`.
 
     Parameters
@@ -238,7 +325,7 @@ def game(A: ArrayLike, B: ArrayLike | None = None, **options: Any) -> reports.Ra
 
     Other Parameters
     ----------------
-    **options
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
         As for `solve`.
 
     Returns
@@ -251,7 +338,7 @@ def game(A: ArrayLike, B: ArrayLike | None = None, **options: Any) -> reports.Ra
     >>> [(solution.x.round(3).tolist(), round(solution.payoff_1, 3)) for solution in answer]
     [([0.667, 0.333], 0.667), ([1.0, 0.0], 2.0), ([0.0, 1.0], 1.0)]
     """
-    return _slideway.game(A, B, _options(**options))
+    return _slideway.game(A, B, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
 
 
 def mode_problem(
@@ -260,7 +347,12 @@ def mode_problem(
     right_hand_side: ArrayLike,
     *,
     jumps: tuple[ArrayLike, ArrayLike] | None = None,
-    **options: Any,
+    max_solutions: int = 100,
+    max_nodes: int | None = None,
+    max_found: int | None = None,
+    uniqueness: bool = False,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
 ) -> reports.RawReport:
     """All solutions of a mode problem, eq. (6) of Klepp (2002).
 
@@ -275,7 +367,7 @@ def mode_problem(
 
     Other Parameters
     ----------------
-    **options
+    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
         As for `solve`.
 
     Returns
@@ -288,4 +380,4 @@ def mode_problem(
     >>> [solution.normal_forces.tolist() for solution in answer]
     [[2.0]]
     """
-    return _slideway.mode_problem(columns_positive, columns_negative, right_hand_side, jumps, _options(**options))
+    return _slideway.mode_problem(columns_positive, columns_negative, right_hand_side, jumps, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))

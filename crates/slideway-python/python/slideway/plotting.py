@@ -24,7 +24,6 @@ from ._plot_style import (
     INCH,
     LEGENDS,
     LETTER,
-    LINE,
     MARGIN,
     MARKERS,
     POINT,
@@ -35,6 +34,7 @@ from ._plot_style import (
     TEXT,
     TITLE,
     WIDTH,
+    LegendPlace,
     ThemeName,
     named,
     plain,
@@ -46,10 +46,11 @@ from ._plot_style import (
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.container import Container
 
     from . import reports
 
-__all__ = ["ThemeName", "plot_figure", "plot_map"]
+__all__ = ["LegendPlace", "ThemeName", "plot_figure", "plot_map"]
 
 Drawn = Callable[[float, float], "list[reports.DrawnPanel]"]
 
@@ -59,6 +60,7 @@ def plot_figure(
     drawn: Drawn,
     ax: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None = None,
     *,
+    legend: LegendPlace | None = None,
     theme: ThemeName = "light",
 ) -> Any:
     """Draws a figure, as `plot()` of an answer does.
@@ -70,7 +72,11 @@ def plot_figure(
     drawn : callable
         Gives what its panels show in frames of a given width and height (px).
     ax : Axes, optional
-        Where to draw; an array of them if there are several panels. Default: the Axes of a new figure of pyplot.
+        Where to draw; an array of them if there are several panels. Their figure keeps its size and its layout.
+        Default: the Axes of a new figure of pyplot.
+    legend : bool or "outside", optional
+        Whether there is a legend within the Axes, or below them. Default: below the Axes of a new figure, within given
+        ones. `ax.get_legend_handles_labels()` has its entries in any case.
     theme : {"light", "dark"}
 
     Returns
@@ -93,7 +99,7 @@ def plot_figure(
             scale = axes.figure.dpi * INCH
             size = (box.width / scale, box.height / scale)
             panel = figure.panels[index]
-            _Painter(figure, panel, drawn(*size)[index], axes, colours, size).paint(panel.title)
+            _Painter(figure, panel, drawn(*size)[index], axes, colours, size).paint(panel.title, legend is None or legend)
         return given[0] if count == 1 else given
     new, grid = pyplot().subplots(count, 1, squeeze=False, layout="constrained", facecolor=colours.background)
     new.set_size_inches(WIDTH * INCH, count * height * INCH)
@@ -101,7 +107,8 @@ def plot_figure(
     size = (FRAME_WIDTH, height)
     panels = zip(figure.panels, drawn(*size), grid[:, 0], strict=True)
     painters = [_Painter(figure, *each, colours, size) for each in panels]
-    needed = sum(painter.paint(painter.panel.title) for painter in painters)
+    place: LegendPlace = "outside" if legend is None else legend
+    needed = sum(painter.paint(painter.panel.title, place) for painter in painters)
     lines = wrapped(figure.title, WIDTH, TITLE)
     painters[0].heading(lines, wrapped(figure.subtitle, WIDTH, SMALL))
     needed += painters[0].above
@@ -127,7 +134,7 @@ class _Painter:
         self.above = 0.0
         """What is above the frame already (px)."""
 
-    def paint(self, title: str) -> float:
+    def paint(self, title: str, legend: LegendPlace) -> float:
         """Draws everything, and returns the height of what is above and below the frame (px)."""
         styled(self.ax, self.theme)
         self._axes()
@@ -137,7 +144,7 @@ class _Painter:
         self._ends()
         self._flags()
         self._bands()
-        below = 62.0 + self._legend()
+        below = 62.0 + self._legend(legend)
         if title:
             self.ax.set_title(
                 plain(title), loc="left", color=self.theme.ink, fontsize=TEXT * POINT, fontweight="bold",
@@ -307,46 +314,54 @@ class _Painter:
                 self.ax.add_artist(line)
         self.ax.tick_params(axis="x", length=0.0, pad=(BAND + 7.0) * POINT)
 
-    def _legend(self) -> float:
-        """The legend below the panel; returns its height (px)."""
-        if not self.drawn.legend:
-            return 0.0
-        height = 62.0 if self.panel.bands else 48.0
-        before = None
-        # Curves first, then points, then all else; `ax.get_legend()` is the last of them.
-        for kinds in LEGENDS:
-            entries = [entry for entry in self.drawn.legend if entry.sample["kind"] in kinds]
-            if entries:
-                height += self._entries(entries, height)
-                if before is not None:
-                    self.ax.add_artist(before)
-                before = self.ax.get_legend()
-        return height - 48.0
-
-    def _entries(self, entries: list[reports.LegendEntry], below: float) -> float:
-        """Entries of a legend so far (px) below the frame; returns their height (px)."""
+    def _legend(self, place: LegendPlace) -> float:
+        """The legend within the panel or below it; returns its height below (px)."""
         from matplotlib.legend_handler import HandlerTuple
         from matplotlib.transforms import ScaledTranslation
 
-        handles = [self._sample(entry.sample) for entry in entries]
-        texts = [plain("\n".join(wrapped(entry.text, WIDTH - 90.0, SMALL))) for entry in entries]
-        longest = max(len(line) for text in texts for line in text.split("\n"))
-        columns = max(1, min(len(texts), int(self.size[0] / (longest * LETTER * SMALL + 60.0))))
+        # Curves first, then points, then all else.
+        entries = [entry for kinds in LEGENDS for entry in self.drawn.legend if entry.sample["kind"] in kinds]
+        width = self.size[0]
+        texts = [plain("\n".join(wrapped(entry.text, max(width - 60.0, 200.0), SMALL))) for entry in entries]
+        handles = [self._handle(entry.sample, text) for entry, text in zip(entries, texts, strict=True)]
+        if place is False or not entries:
+            return 0.0
+        look: dict[str, Any] = {
+            "fontsize": SMALL * POINT, "labelcolor": self.theme.ink, "handlelength": 2.9,
+            "handler_map": {tuple: HandlerTuple(ndivide=1, pad=0.0)},
+        }
+        if place is True:
+            look |= {"facecolor": self.theme.background, "edgecolor": self.theme.muted, "loc": "best"}
+            # What lies within the Axes needs no room beside them.
+            self.ax.legend(handles, texts, **look).set_in_layout(False)
+            return 0.0
+        below = 62.0 if self.panel.bands else 48.0
         down = ScaledTranslation(0.0, -below * INCH, self.ax.figure.dpi_scale_trans)
-        self.ax.legend(
-            handles, texts, ncols=columns, loc="upper left", bbox_to_anchor=(0.0, 0.0),
-            bbox_transform=self.ax.transAxes + down, borderaxespad=0.0, borderpad=0.0, frameon=False, handlelength=2.9,
-            columnspacing=1.5, fontsize=SMALL * POINT, labelcolor=self.theme.ink,
-            handler_map={tuple: HandlerTuple(ndivide=1, pad=0.0)},
-        )
-        rows = [text.count("\n") + 1 for text in texts]
-        per_column = -(-len(rows) // columns)
-        return LINE * max(sum(rows[start : start + per_column]) for start in range(0, len(rows), per_column))
+        look |= {
+            "loc": "upper left", "bbox_to_anchor": (0.0, 0.0), "bbox_transform": self.ax.transAxes + down,
+            "borderaxespad": 0.0, "borderpad": 0.0, "columnspacing": 1.5, "frameon": False,
+        }
+        longest = max(len(line) for text in texts for line in text.split("\n"))
+        columns = max(1, min(len(texts), int(width / (longest * LETTER * SMALL + 60.0))))
+        box = self.ax.legend(handles, texts, ncols=columns, **look).get_window_extent()
+        return below - 48.0 + float(box.height) / (self.ax.figure.dpi * INCH)
+
+    def _handle(self, sample: Any, text: str) -> Artist | Container:
+        """An entry of the legend as an artist of the Axes with its label, which draws nothing there."""
+        from matplotlib.container import Container
+
+        handle = self._sample(sample)
+        if isinstance(handle, tuple):
+            several = Container(handle, label=text)
+            self.ax.add_container(several)
+            return several
+        handle.set_label(text)
+        return self.ax.add_artist(handle)
 
     def _sample(self, sample: Any) -> Artist | tuple[Artist, ...]:
         """What stands in the legend beside a text."""
         from matplotlib.lines import Line2D
-        from matplotlib.patches import Patch
+        from matplotlib.patches import Rectangle
 
         ink = self.theme.ink
         match sample["kind"], sample.get("value"):
@@ -357,9 +372,9 @@ class _Painter:
             case "marker", quantity:
                 return Line2D([], [], linestyle="none", **self._marker(quantity, ink))
             case "hatched", hatching:
-                return Patch(**self._hatched(hatching))
+                return Rectangle((0.0, 0.0), 0.0, 0.0, **self._hatched(hatching))
             case "filled", colour:
-                return Patch(facecolor=self._series(colour), linewidth=0.0)
+                return Rectangle((0.0, 0.0), 0.0, 0.0, facecolor=self._series(colour), linewidth=0.0)
             case "end", _:
                 return Line2D([], [], linestyle="none", marker="o", markersize=6.4 * POINT, color=ink)
             case "point", kind:

@@ -822,7 +822,7 @@ class CauseReport(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class CheckReport(Report):
+class CheckReport(_mixins.CheckReport, Report):
     """What a model consists of, and what stands in the way of solving it."""
 
     _absent = {"sharing": None, "steps_from_drawing": None}
@@ -1767,6 +1767,8 @@ class InfluenceSummary(Record):
     """Accelerations of the coordinates without friction."""
     normal_forces: NDArray[np.float64]
     """Normal forces without friction, N(0) (N)."""
+    drives: tuple[Drive, ...]
+    """The drives with their efforts without friction."""
     eta_positive: tuple[NDArray[np.float64], ...]
     """eta_jk for friction at the faces of positive normal force; row j is the contact that answers."""
     eta_negative: tuple[NDArray[np.float64], ...]
@@ -1837,7 +1839,7 @@ class LegendEntry(Record):
 class LimitsReport(_mixins.LimitsReport, Report):
     """For which values each mode exists."""
 
-    _absent = {"steps_from_drawing": None, "between_faces_at": _mixins.EMPTY, "reversed": None}
+    _absent = {"steps_from_drawing": None, "between_faces_at": _mixins.EMPTY, "reversed": None, "not_examined": ()}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1867,7 +1869,9 @@ class LimitsReport(_mixins.LimitsReport, Report):
     reversed: Direction | None
     """The opposite direction, if it was asked for."""
     conclusion: tuple[str, ...]
-    """What it comes to, in words."""
+    """What it comes to, in words: a sentence for each stretch."""
+    not_examined: tuple[str, ...]
+    """What was left out, in words; absent if nothing was."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1995,6 +1999,9 @@ class Margins(Record):
 
     another_count: float | None = None
     """Up to this factor there is the same number of solutions (and of gap states); absent if it never changes."""
+    mu: float | None = None
+    """The coefficient of friction of all contacts, to which the factors apply; absent where contacts differ in
+    theirs, and where none has friction."""
     no_solution: float | None = None
     """Just beyond this factor there is no solution, so that nothing moves; absent if there always is one."""
     tips: tuple[str, ...] = ()
@@ -2478,7 +2485,7 @@ class Release(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class RestLimitsReport(Report):
+class RestLimitsReport(_mixins.RestLimitsReport, Report):
     """For which values a mechanism can stay at rest."""
 
     _absent = {"load": None}
@@ -2617,11 +2624,13 @@ class SizeReport(_mixins.SizeReport, Report):
     """The margin at evenly spaced values, and where the wanted one is just met."""
     guarantee: str
     """What the search can miss, in words."""
+    narrowest: float
+    """Two steps of what was tried: narrower ranges could be missed (unit of what is varied)."""
     conclusion: tuple[str, ...]
     """What it comes to, in words."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Solution(_mixins.Solution, Record):
     """One solution, or one state of a preload gap."""
 
@@ -2885,7 +2894,7 @@ class Tipping(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class TreeReport(Report):
+class TreeReport(_mixins.TreeReport, Report):
     """The report of all motions."""
 
     schema: str
@@ -2976,7 +2985,7 @@ class Unlocking(Record):
     factor: float
     """As a factor of that of the model, below 1."""
     mu: float | None = None
-    """The coefficient itself; absent where contacts differ in theirs."""
+    """The coefficient itself; absent where contacts with friction differ in theirs."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

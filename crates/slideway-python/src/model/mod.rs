@@ -9,7 +9,8 @@ mod pickle;
 mod state;
 
 use crate::answer::{Answer, Asked, not_finite, theme as named};
-use crate::arguments::{choice, settings, varied, vary, vary_between};
+use crate::arguments::{choice, count, optional_count, settings, varied, varied_one, vary};
+use crate::fault::file_error;
 use crate::motion;
 use crate::work::Watch;
 use crate::{gallery, shards, sweep};
@@ -18,7 +19,7 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use slideway::choice::Choice;
 use slideway::fault::{Fault, FaultKind};
-use slideway::limits::{curves_with, rest_limits_with};
+use slideway::limits::curves_with;
 use slideway::map::map_with;
 use slideway::mechanism::Mechanism;
 use slideway::modes::SearchOptions;
@@ -71,10 +72,21 @@ impl Model {
         Ok(Self::new(py, &gallery::filled_in(py, name, sizes)?)?.in_file(&format!("{name}.toml")))
     }
 
-    /// The text of the model, without what was changed.
+    /// The text of the model, with what was changed.
     #[getter]
-    fn text(&self) -> &str {
-        &self.asked.text
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        self.changed_text(py)
+    }
+
+    /// The present values of its parameters in SI units, each with its unit.
+    #[getter]
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.quantities(py)
+    }
+
+    #[doc = include_str!("../../docs/save.txt")]
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        std::fs::write(&path, self.changed_text(py)?).map_err(|error| file_error(&path, &error))
     }
 
     /// Its title, if it has one.
@@ -108,7 +120,7 @@ impl Model {
     }
 
     #[doc = include_str!("../../docs/with_.txt")]
-    #[pyo3(signature = (*, at: "Mapping[str, Value] | None" = None, rate: "Mapping[str, Value] | None" = None, time: "Value | None" = None, units = None, **values: "Value"))]
+    #[pyo3(signature = (*, at: "Mapping[str, Value] | None" = None, rate: "Mapping[str, Value] | None" = None, time: "Value | None" = None, units: "UnitsName | None" = None, **values: "Value"))]
     fn with_(
         &self,
         py: Python<'_>,
@@ -142,14 +154,16 @@ impl Model {
         &self,
         py: Python<'py>,
         margins: bool,
-        max_solutions: usize,
-        max_nodes: Option<u64>,
-        max_found: Option<usize>,
+        max_solutions: i64,
+        max_nodes: Option<i64>,
+        max_found: Option<i64>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options = SolveOptions::default().margins(margins).most(max_solutions);
-        let options = options.search(SearchOptions::within(max_nodes, max_found));
+        let (nodes, found) =
+            (optional_count("max_nodes", max_nodes)?, optional_count("max_found", max_found)?);
+        let options = SolveOptions::default().margins(margins).most(count("max_solutions", max_solutions)?);
+        let options = options.search(SearchOptions::within(nodes, found));
         let model = &self.asked.model;
         let watch = Watch::new(time_limit, progress)?;
         let report = watch.run(py, |callback| solve_with(model, &options, callback))?.so_far();
@@ -159,26 +173,29 @@ impl Model {
 
     #[doc = include_str!("../../docs/limits.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, max_reaction = None, both_directions = false,
-        effort: "int" = slideway::limits::EFFORT, quantity = "normal-force", time_limit = None,
-        progress: "Progress | None" = None) -> "reports.LimitsReport")]
+    #[pyo3(signature = (vary_name = None, start: "Value | Range | None" = None, stop: "Value | None" = None, *, max_reaction = None, both_directions = false,
+        effort = 800, quantity: "QuantityName" = "normal-force", time_limit = None,
+        progress: "Progress | None" = None, **ranges: "Range | None") -> "reports.LimitsReport")]
     fn limits<'py>(
         &self,
         py: Python<'py>,
-        vary_name: &str,
+        vary_name: Option<&str>,
         start: Option<&Bound<'_, PyAny>>,
         stop: Option<&Bound<'_, PyAny>>,
         max_reaction: Option<f64>,
         both_directions: bool,
-        effort: u64,
+        effort: i64,
         quantity: &str,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
+        ranges: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options = LimitsOptions::new(vary(vary_name, [start, stop])?)
+        // Signatures show numbers only if they stand there.
+        const { assert!(slideway::limits::EFFORT == 800) };
+        let options = LimitsOptions::new(vary(vary_name, [start, stop], ranges)?)
             .max_reaction(max_reaction)
             .both_directions(both_directions)
-            .effort(effort);
+            .effort(count("effort", effort)?);
         let quantity = choice("quantity", quantity)?;
         let found = self.ask(py, (time_limit, progress), |model, callback| {
             curves_with(model, &options, quantity, callback)
@@ -187,8 +204,9 @@ impl Model {
     }
 
     #[doc = include_str!("../../docs/hold.txt")]
-    #[pyo3(signature = (load = None, *, vary = None, drives = "release", time_limit = None,
-        progress: "Progress | None" = None) -> "reports.HoldReport")]
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
+    #[pyo3(signature = (load = None, *, vary = None, drives: "DrivesAtRest" = "release", time_limit = None,
+        progress: "Progress | None" = None, **ranges: "Range | None") -> "reports.HoldReport")]
     fn hold<'py>(
         &self,
         py: Python<'py>,
@@ -197,8 +215,15 @@ impl Model {
         drives: &str,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
+        ranges: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let options = options::hold(load, vary, drives)?;
+        if let Some(range) = varied_one(None, [None, None], ranges)? {
+            if options.vary.is_some() {
+                return Err(PyTypeError::new_err("vary and a range cannot be given together"));
+            }
+            return self.rest_limits_over(py, (&range, &options), (time_limit, progress));
+        }
         let report =
             self.ask(py, (time_limit, progress), |model, callback| hold_with(model, &options, callback))?;
         Answer::object(py, "HoldReport", report, Some(self.asked.clone()))
@@ -206,36 +231,36 @@ impl Model {
 
     #[doc = include_str!("../../docs/rest_limits.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start: "Value", stop: "Value", *, load = None, drives = "release", time_limit = None,
-        progress: "Progress | None" = None) -> "reports.RestLimitsReport")]
+    #[pyo3(signature = (vary_name = None, start: "Value | Range | None" = None, stop: "Value | None" = None, *, load = None,
+        drives: "DrivesAtRest" = "release", time_limit = None, progress: "Progress | None" = None,
+        **ranges: "Range | None") -> "reports.RestLimitsReport")]
     fn rest_limits<'py>(
         &self,
         py: Python<'py>,
-        vary_name: &str,
-        start: &Bound<'_, PyAny>,
-        stop: &Bound<'_, PyAny>,
+        vary_name: Option<&str>,
+        start: Option<&Bound<'_, PyAny>>,
+        stop: Option<&Bound<'_, PyAny>>,
         load: Option<String>,
         drives: &str,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
+        ranges: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let options = options::hold(load, None, drives)?;
-        let vary = vary(vary_name, [Some(start), Some(stop)])?;
-        let report = self.ask(py, (time_limit, progress), |model, callback| {
-            rest_limits_with(model, &vary, &options, callback)
-        })?;
-        Answer::object(py, "RestLimitsReport", report, Some(self.asked.clone()))
+        let range = vary(vary_name, [start, stop], ranges)?;
+        self.rest_limits_over(py, (&range, &options), (time_limit, progress))
     }
 
     #[doc = include_str!("../../docs/size.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (vary_name, start: "Value | None" = None, stop: "Value | None" = None, *, margin: "Value | None" = None, max_effort: "Value | None" = None,
-        max_normal_force: "Value | None" = None, max_pressure: "Value | None" = None, min_efficiency: "Value | None" = None, against = "locking", load = None,
-        both_directions = false, time_limit = None, progress: "Progress | None" = None) -> "reports.SizeReport")]
+    #[pyo3(signature = (vary_name = None, start: "Value | Range | None" = None, stop: "Value | None" = None, *, margin: "Value | None" = None,
+        max_effort: "Value | None" = None, max_normal_force: "Value | None" = None, max_pressure: "Value | None" = None,
+        min_efficiency: "Value | None" = None, against: "MarginAgainst" = "locking", load = None, both_directions = false,
+        time_limit = None, progress: "Progress | None" = None, **ranges: "Range | None") -> "reports.SizeReport")]
     fn size<'py>(
         &self,
         py: Python<'py>,
-        vary_name: &str,
+        vary_name: Option<&str>,
         start: Option<&Bound<'_, PyAny>>,
         stop: Option<&Bound<'_, PyAny>>,
         margin: Option<&Bound<'_, PyAny>>,
@@ -248,6 +273,7 @@ impl Model {
         both_directions: bool,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
+        ranges: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [
             ("margin", margin),
@@ -270,7 +296,7 @@ impl Model {
             _ => Against::margin(choice("against", against)?, load, &self.asked.model),
         };
         let against = against.map_err(|faults| self.refused(py, &faults))?;
-        let options = SizeOptions::new(vary(vary_name, [start, stop])?, wanted)
+        let options = SizeOptions::new(vary(vary_name, [start, stop], ranges)?, wanted)
             .against(against)
             .both_directions(both_directions)
             .typed_in(typed_in);
@@ -280,19 +306,21 @@ impl Model {
     }
 
     #[doc = include_str!("../../docs/drive.txt")]
+    #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
     #[pyo3(signature = (vary = None, between: "Range | None" = None, *, rows = 41, time_limit = None,
-        progress: "Progress | None" = None) -> "reports.DriveReport")]
+        progress: "Progress | None" = None, **ranges: "Range | None") -> "reports.DriveReport")]
     fn drive<'py>(
         &self,
         py: Python<'py>,
         vary: Option<&str>,
         between: Option<&Bound<'_, PyAny>>,
-        rows: usize,
+        rows: i64,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
+        ranges: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        options::within("rows", rows, 2..=slideway::drive::GREATEST_ROWS)?;
-        let vary = vary.map(|name| vary_between(name, between)).transpose()?;
+        let rows = options::within("rows", rows, 2..=slideway::drive::GREATEST_ROWS)?;
+        let vary = varied_one(vary, [between, None], ranges)?;
         let options = DriveOptions::default().vary(vary).rows(rows);
         let report = self.ask(py, (time_limit, progress), |model, callback| {
             slideway::drive::drive_with(model, &options, callback)
@@ -302,14 +330,14 @@ impl Model {
 
     #[doc = include_str!("../../docs/map.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (*, colour_by = "solutions", size = None, probe = None, time_limit = None,
+    #[pyo3(signature = (*, colour_by: "ColourBy" = "solutions", size = None, probe = None, time_limit = None,
         progress: "Progress | None" = None, **axes: "Range | None") -> "reports.MapReport")]
     fn map<'py>(
         &self,
         py: Python<'py>,
         colour_by: &str,
-        size: Option<(usize, usize)>,
-        probe: Option<usize>,
+        size: Option<(i64, i64)>,
+        probe: Option<i64>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
         axes: Option<&Bound<'_, PyDict>>,
@@ -322,19 +350,19 @@ impl Model {
 
     #[doc = include_str!("../../docs/sweep.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (*, samples = None, sampling = "random", seed = 0, breakpoints = false,
+    #[pyo3(signature = (*, samples = None, sampling: "SamplingName" = "random", seed = 0, breakpoints = false,
         attainability = false, all_columns = false, shard = None, time_limit = None, progress: "Progress | None" = None,
         **values: "str | ArrayLike | Sequence[Value]") -> "_sweep.Sweep")]
     fn sweep<'py>(
         &self,
         py: Python<'py>,
-        samples: Option<u64>,
+        samples: Option<i64>,
         sampling: &str,
-        seed: u64,
+        seed: i128,
         breakpoints: bool,
         attainability: bool,
         all_columns: bool,
-        shard: Option<(u32, u32)>,
+        shard: Option<(i64, i64)>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
         values: Option<&Bound<'_, PyDict>>,
@@ -349,17 +377,17 @@ impl Model {
 
     #[doc = include_str!("../../docs/write_shard.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (output, shard, *, samples = None, sampling = "random", seed = 0, breakpoints = false,
+    #[pyo3(signature = (output, shard, *, samples = None, sampling: "SamplingName" = "random", seed = 0, breakpoints = false,
         attainability = false, all_columns = false, time_limit = None, progress: "Progress | None" = None,
         **values: "str | ArrayLike | Sequence[Value]"))]
     fn write_shard(
         &self,
         py: Python<'_>,
         output: PathBuf,
-        shard: (u32, u32),
-        samples: Option<u64>,
+        shard: (i64, i64),
+        samples: Option<i64>,
         sampling: &str,
-        seed: u64,
+        seed: i128,
         breakpoints: bool,
         attainability: bool,
         all_columns: bool,
@@ -377,7 +405,7 @@ impl Model {
 
     #[doc = include_str!("../../docs/simulate.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer = "rule", all_branches = None,
+    #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer: "Preference" = "rule", all_branches = None,
         tolerance = 1e-8, longest_step: "Value | None" = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
         time_limit = None, progress: "Progress | None" = None) -> "_motion.Motion")]
     fn simulate<'py>(
@@ -385,13 +413,13 @@ impl Model {
         py: Python<'py>,
         until: &Bound<'_, PyAny>,
         mode: Option<&str>,
-        branches: Option<Vec<usize>>,
+        branches: Option<Vec<i64>>,
         prefer: &str,
-        all_branches: Option<usize>,
+        all_branches: Option<i64>,
         tolerance: f64,
         longest_step: Option<&Bound<'_, PyAny>>,
-        max_steps: usize,
-        max_events: usize,
+        max_steps: i64,
+        max_events: i64,
         max_reaction: Option<f64>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
@@ -402,13 +430,14 @@ impl Model {
         if end <= start {
             return Err(refused(Fault::general(FaultKind::NothingToSimulate { start, end }).into()));
         }
+        let all_branches = optional_count("all_branches", all_branches)?;
         let branches = options::branches(branches.unwrap_or_default())?;
         let longest_step = longest_step.map(|step| self.time(py, "longest_step", step)).transpose()?;
         let mut options = SimulateOptions::new(end - start)
             .tolerance(tolerance)
             .longest_step(longest_step)
-            .most_steps(max_steps)
-            .most_events(max_events)
+            .most_steps(count("max_steps", max_steps)?)
+            .most_events(count("max_events", max_events)?)
             .reaction_limit(max_reaction)
             .branches(branches)
             .prefers_sliding(options::prefers_sliding(prefer)?)
@@ -444,12 +473,8 @@ impl Model {
     }
 
     #[doc = include_str!("../../docs/draw.txt")]
-    #[pyo3(signature = (solution = None, *, theme = "light") -> "_display.Drawing")]
-    fn draw<'py>(
-        slf: &Bound<'py, Self>,
-        solution: Option<usize>,
-        theme: &str,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (solution = None, *, theme: "ThemeName" = "light") -> "_display.Drawing")]
+    fn draw<'py>(slf: &Bound<'py, Self>, solution: Option<i64>, theme: &str) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let Some(solution) = solution else {
             let svg = slf.get().asked.drawing(py, None, (Shown::Mechanism, named(theme)?))?;
@@ -509,7 +534,7 @@ impl Model {
             PyTuple::new(py, self.asked.settings.entries().iter().map(pickle::kept).collect::<Vec<_>>())?;
         let units = self.units.map(Choice::word);
         let restore = py.get_type::<Self>().getattr("_restore")?;
-        (restore, (self.text(), settings, units, &*self.file)).into_pyobject(py)
+        (restore, (&*self.asked.text, settings, units, &*self.file)).into_pyobject(py)
     }
 
     /// The model that was pickled.

@@ -1,6 +1,6 @@
 //! What is asked of a question beside the model.
 
-use crate::arguments::{value, varied};
+use crate::arguments::{optional_count, value, varied};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -32,12 +32,12 @@ pub(super) fn limit(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(f64, Opti
 }
 
 /// Refuses a count outside of its range.
-pub(super) fn within(name: &str, count: usize, range: RangeInclusive<usize>) -> PyResult<()> {
-    if range.contains(&count) {
-        return Ok(());
+pub(super) fn within(name: &str, given: i64, range: RangeInclusive<usize>) -> PyResult<usize> {
+    if let Some(count) = usize::try_from(given).ok().filter(|count| range.contains(count)) {
+        return Ok(count);
     }
     let (least, most) = range.into_inner();
-    Err(PyValueError::new_err(format!("{name} must be from {least} to {most}, not {count}")))
+    Err(PyValueError::new_err(format!("{name} must be from {least} to {most}, not {given}")))
 }
 
 /// How a mechanism is asked to rest.
@@ -58,27 +58,28 @@ pub(super) fn hold(load: Option<String>, vary: Option<String>, drives: &str) -> 
 pub(super) fn map(
     axes: Option<&Bound<'_, PyDict>>,
     colour_by: ColourBy,
-    (size, probe): (Option<(usize, usize)>, Option<usize>),
+    (size, probe): (Option<(i64, i64)>, Option<i64>),
 ) -> PyResult<MapOptions> {
     let Ok([x, y]) = <[_; 2]>::try_from(varied(axes)?) else {
         return Err(PyTypeError::new_err("two quantities must be given, such as map(mu=(0, 1), x=(0, 0.3))"));
     };
     let mut options = MapOptions::new(x, y).colour_by(colour_by);
     if let Some((width, height)) = size {
-        within("width and height in size", width, 1..=GREATEST_SIZE)?;
-        within("width and height in size", height, 1..=GREATEST_SIZE)?;
+        let width = within("width and height in size", width, 1..=GREATEST_SIZE)?;
+        let height = within("width and height in size", height, 1..=GREATEST_SIZE)?;
         options = options.size(width, height);
     }
-    Ok(match probe {
+    Ok(match optional_count("probe", probe)? {
         Some(pixels) => options.probe(pixels),
         None => options,
     })
 }
 
 /// Branches as the library counts them, from 0.
-pub(super) fn branches(counted_from_one: Vec<usize>) -> PyResult<Vec<usize>> {
-    let wanted = || PyValueError::new_err("branches are counted from 1");
-    counted_from_one.into_iter().map(|branch| branch.checked_sub(1).ok_or_else(wanted)).collect()
+pub(super) fn branches(counted_from_one: Vec<i64>) -> PyResult<Vec<usize>> {
+    let refused = |branch| PyValueError::new_err(format!("branches are counted from 1, not {branch}"));
+    let index = |branch: i64| branch.checked_sub(1).and_then(|index| usize::try_from(index).ok());
+    counted_from_one.into_iter().map(|branch| index(branch).ok_or_else(|| refused(branch))).collect()
 }
 
 /// Whether sliding is preferred where a motion branches.

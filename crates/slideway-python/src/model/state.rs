@@ -1,15 +1,17 @@
 //! What a model holds, and how it is asked.
 
-use super::Model;
-use crate::answer::Asked;
+use super::{Model, pickle};
+use crate::answer::{Answer, Asked};
 use crate::arguments::value;
-use crate::fault::Texts;
+use crate::fault::{Texts, file_error, in_file};
 use crate::work::Watch;
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
 use slideway::fault::{Fault, FaultKind};
-use slideway::model::{Setting, SettingKind, Settings};
+use slideway::limits::{Vary, rest_limits_with};
+use slideway::model::{Parameter, Setting, SettingKind, Settings};
 use slideway::progress::Callback;
-use slideway::{Faults, UnitSystem};
+use slideway::{Faults, HoldOptions, UnitSystem};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -98,12 +100,53 @@ impl Model {
         let too_large =
             || Faults::from(Fault::general(FaultKind::TooLarge { limit: slideway::model::SIZE_LIMIT }));
         let nothing = Texts { model: "", settings: &Settings::default() };
-        if std::fs::metadata(path)?.len() > slideway::model::SIZE_LIMIT {
-            return Err(nothing.error(py, &too_large()));
+        let unread = |error| file_error(path, &error);
+        if std::fs::metadata(path).map_err(unread)?.len() > slideway::model::SIZE_LIMIT {
+            return Err(in_file(py, path, nothing.error(py, &too_large())));
         }
-        let bytes = std::fs::read(path)?;
-        let read = Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes))?;
+        let bytes = std::fs::read(path).map_err(unread)?;
+        let read = Self::read(py, &String::from_utf8_lossy(&bytes), || slideway::Model::parse_bytes(&bytes));
+        let read = read.map_err(|error| in_file(py, path, error))?;
         Ok(read.in_file(&path.to_string_lossy()))
+    }
+
+    /// The text with what was changed.
+    pub(super) fn changed_text(&self, py: Python<'_>) -> PyResult<String> {
+        let settings = self.asked.settings.entries();
+        if settings.is_empty() {
+            return Ok(self.asked.text.to_string());
+        }
+        let units = |setting: &Setting| match setting.kind {
+            SettingKind::Parameter => self.asked.model.parameter_unit(&setting.name),
+            _ => String::new(),
+        };
+        let changes = settings.iter().map(|setting| (pickle::kept(setting), units(setting)));
+        let changes = PyTuple::new(py, changes.collect::<Vec<_>>())?;
+        py.import("slideway._text")?.getattr("changed")?.call1((&*self.asked.text, changes))?.extract()
+    }
+
+    /// The values of the parameters in SI units with these units, by name.
+    pub(super) fn quantities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let model = &self.asked.model;
+        let values = model.constants().map(|constants| model.parameter_values(&constants));
+        let values = values.map_err(|faults| self.refused(py, &faults))?;
+        let entry = |(parameter, value): (&Parameter, f64)| {
+            (parameter.name.to_string(), value, model.parameter_unit(&parameter.name))
+        };
+        let entries: Vec<_> = model.parameters.iter().zip(values).map(entry).collect();
+        Ok(py.import("slideway._values")?.getattr("quantities")?.call1((entries,))?.cast_into()?)
+    }
+
+    /// The limits of rest over a range.
+    pub(super) fn rest_limits_over<'py>(
+        &self,
+        py: Python<'py>,
+        (range, options): (&Vary, &HoldOptions),
+        watched: (Option<f64>, Option<Py<PyAny>>),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let report =
+            self.ask(py, watched, |model, callback| rest_limits_with(model, range, options, callback))?;
+        Answer::object(py, "RestLimitsReport", report, Some(self.asked.clone()))
     }
 
     /// The parameters as texts: name, value, and the range between whose ends it is known, if it has one.
