@@ -128,7 +128,7 @@ fn an_unrelated_pendulum_changes_no_motion_of_random_mechanisms() {
 }
 
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "takes minutes; seeds 66, 85, 218 and 500 differ by up to 3e-5 s in when their last event happens"]
 fn an_unrelated_pendulum_changes_none_of_a_thousand_motions() {
     random_mechanisms(1000);
 }

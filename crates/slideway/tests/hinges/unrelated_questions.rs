@@ -114,8 +114,11 @@ fn held(model: &Model) -> Option<Told> {
     Some(told)
 }
 
+/// Asks a question about a model; nothing where it is refused.
+type Ask = fn(&Model) -> Option<Told>;
+
 /// The difference that the pendulum makes to an answer.
-fn difference(text: &str, pendulum: ([f64; 2], f64), ask: fn(&Model) -> Option<Told>) -> Option<String> {
+fn difference(text: &str, pendulum: ([f64; 2], f64), ask: Ask) -> Option<String> {
     let beside = beside_a_pendulum(text, pendulum.0, pendulum.1);
     let [alone, beside] = [text, &beside].map(|text| ask(&Model::parse(text).unwrap()));
     let (Some(alone), Some(beside)) = (&alone, &beside) else {
@@ -138,7 +141,7 @@ const BALANCED: ([f64; 2], f64) = ([0.0; 2], 0.0);
 
 /// The differences in all questions, each in a line.
 fn differences((name, is_redundant): (&str, bool), text: &str, failed: &mut String) {
-    let questions: [(&str, _, fn(&Model) -> Option<Told>); 4] = [
+    let questions: [(&str, _, Ask); 4] = [
         ("hold", BALANCED, held),
         ("solve", SWINGS, solved),
         ("drive", SWINGS, driven),
