@@ -80,7 +80,7 @@ fn uniqueness_for_every_right_hand_side_is_decided() {
             r#"{"columns_positive": [[1]], "columns_negative": [[-1]], "right_hand_side": [1],
                 "jumps_positive": [[1]], "jumps_negative": [[0]]}"#,
             "jumps",
-            "; column 1 of `jumps_positive` jumps with the sign",
+            "Not decided: whether there is exactly one solution",
         ),
     ];
     for (problem, answer, words) in cases {

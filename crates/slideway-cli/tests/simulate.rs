@@ -188,7 +188,7 @@ fn a_load_without_a_value_ends_the_motion_and_keeps_what_was_computed() {
 fn the_step_limit_is_told_with_the_state() {
     let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--max-steps", "20"]);
     assert_eq!(run.code, 3);
-    assert_tells(&run.stdout, &["after the 20 steps that were permitted", "At the end: x = "]);
+    assert_tells(&run.stdout, &["in 20 steps, the most allowed", "At the end: x = "]);
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
     let path = file.to_str().unwrap();
     let run = slideway(&["simulate", KLEPP, "--until", "1e6 s", "--time-limit", "300ms", "--output", path]);
     assert_eq!(run.code, 3, "{}", run.stderr);
-    assert_tells(&run.stdout, &["It was interrupted at ", "At the end: q = "]);
+    assert_tells(&run.stdout, &["Interrupted at ", "At the end: q = "]);
     assert!(std::fs::read_to_string(&file).unwrap().lines().count() > 1);
 }
 
@@ -221,7 +221,7 @@ fn an_interrupted_motion_keeps_its_table_beside() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert_tells(&String::from_utf8(output.stdout).unwrap(), &["It was interrupted at ", "At the end: q = "]);
+    assert_tells(&String::from_utf8(output.stdout).unwrap(), &["Interrupted at ", "At the end: q = "]);
     assert_tells(&said, &["the table of the motion so far is in", "motion.csv.partial"]);
     assert!(!file.exists() && !plot.exists());
     let partial = folder.path().join("motion.csv.partial");
@@ -232,7 +232,7 @@ fn an_interrupted_motion_keeps_its_table_beside() {
 fn a_normal_force_beyond_its_limit_ends_the_motion() {
     let run = slideway(&["simulate", KLEPP, "--until", "1s", "--max-reaction", "10"]);
     assert_eq!(run.code, 1, "{}", run.stderr);
-    assert_tells(&run.stdout, &["the normal force of upper has reached its limit", "At the end: q = "]);
+    assert_tells(&run.stdout, &["the normal force of upper reaches its limit", "At the end: q = "]);
 }
 
 /// What is refused, in full: exit code, message, place and help.
@@ -267,7 +267,7 @@ fn early_ends_in_words() {
 fn a_branch_that_does_not_exist_is_told() {
     let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--branch", "7"]);
     assert_eq!(run.code, 2);
-    assert_tells(&run.stdout, &["the branch requested", "does not exist"]);
+    assert_tells(&run.stdout, &["there is no branch with the number asked for"]);
 }
 
 #[test]

@@ -423,8 +423,26 @@ fn texts(style: Style) -> Vec<(String, String)> {
         let history = motion::simulate(&model, &options).ok();
         tell("simulate", history.map(|history| motion::report(&history, &options).text(style)));
     }
+    let drawer = model("drawer", &[]);
+    let sweep = Sweep::new(&drawer, &grid("mu=0..1:101")).unwrap();
+    all.push(("sweep".to_owned(), sweep.text(&all_points(&sweep), style)));
+    let axes = MapOptions::new("mu=0..1".parse().unwrap(), "a=0 m..0.4 m".parse().unwrap()).size(16, 16);
+    all.push(("map".to_owned(), map(&drawer, &axes).unwrap().text(style)));
+    for (name, problem) in RAW {
+        let problem = RawProblem::from_json(problem.as_bytes()).unwrap();
+        let options = SearchOptions::default();
+        let report = raw_problem::solve(&problem, &options, 100, &mut |_| ControlFlow::Continue(())).unwrap();
+        all.push((format!("modes {name}"), report.text(style)));
+    }
     all
 }
+
+const RAW: [(&str, &str); 4] = [
+    ("eight", include_str!("../../slideway-cli/tests/raw/good/eight.json")),
+    ("game", include_str!("../../slideway-cli/tests/raw/good/game.json")),
+    ("gap", include_str!("../../slideway-cli/tests/raw/good/gap.json")),
+    ("segment", include_str!("../../slideway-cli/tests/raw/good/segment.json")),
+];
 
 #[test]
 fn no_line_is_longer_than_the_page() {

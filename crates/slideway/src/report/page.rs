@@ -112,5 +112,5 @@ fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
         .break_words(false)
         .word_splitter(WordSplitter::NoHyphenation)
         .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit);
-    wrap(line.trim_start(), options).into_iter().map(|line| line.into_owned()).collect()
+    wrap(line.trim_start(), options).into_iter().map(std::borrow::Cow::into_owned).collect()
 }

@@ -19,16 +19,19 @@ impl Style {
     const NARROWEST: usize = 40;
 
     /// With ANSI colours, or without.
+    #[must_use]
     pub const fn colour(self, colour: bool) -> Self {
         Self { colour, ..self }
     }
 
     /// With the details, or without.
+    #[must_use]
     pub const fn verbose(self, verbose: bool) -> Self {
         Self { verbose, ..self }
     }
 
     /// In lines of so many columns, at least 40.
+    #[must_use]
     pub const fn width(self, width: usize) -> Self {
         Self { width: if width < Self::NARROWEST { Self::NARROWEST } else { width }, ..self }
     }

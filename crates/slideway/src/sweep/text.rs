@@ -11,6 +11,9 @@ impl Sweep {
     pub fn answer(&self, state: &SweepState) -> String {
         let tally = &state.tally;
         let all = tally.points - tally.breakpoints;
+        if tally.solved() == 0 {
+            return format!("None of {} could be solved.", counted(all, "point"));
+        }
         let jams = if self.plan.model.has_guided_sliders() { "jams or tips" } else { "jams" };
         let probability = if self.has_branches() { None } else { tally.probability_of_jamming() };
         let mut sentences = vec![match probability {
@@ -30,8 +33,10 @@ impl Sweep {
         let several: u64 =
             tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
         let unsolved = all - tally.solved();
-        sentences.extend((several > 0).then(|| format!("{several} of them have several solutions.")));
-        sentences.extend((unsolved > 0).then(|| format!("{unsolved} of them could not be solved.")));
+        let [of, ending] =
+            if self.has_branches() { ["of them", ""] } else { ["of the samples", " and are not counted"] };
+        sentences.extend((several > 0).then(|| format!("{several} {of} have several solutions.")));
+        sentences.extend((unsolved > 0).then(|| format!("{unsolved} {of} could not be solved{ending}.")));
         sentences.join(" ")
     }
 
