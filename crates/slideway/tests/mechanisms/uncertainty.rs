@@ -1,7 +1,6 @@
 //! Parameters that are known within bounds: which solutions exist for all their values.
 
 use crate::answers::{model, report, report_with};
-use slideway::fault::FaultKind;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
 use slideway::report::{Persistence, SolveReport, Uncertainty};
