@@ -57,15 +57,13 @@ pub(super) fn brief<'a>(entries: impl Iterator<Item = (&'a str, &'a str)> + Clon
     entries.map(one).collect()
 }
 
-/// The beginning of a text that fits: the first sentence, what stands before its colon, or as many words as there is
-/// room for.
+/// The beginning of a text that fits: the first sentence, or as many words as there is room for.
 fn shortened(text: &str, width: usize) -> String {
     let fits = |part: &&str| part.chars().count() <= width;
     // No initial of a name ends a sentence.
     let ends = text.match_indices(". ").find(|(at, _)| text[..*at].ends_with(char::is_lowercase));
     let sentence = ends.map_or(text, |(at, _)| &text[..at]);
-    let name = sentence.split(": ").next().unwrap_or_default();
-    match [text, sentence, name].into_iter().find(fits) {
+    match [text, sentence].into_iter().find(fits) {
         Some(part) => part.trim_end_matches('.').to_owned(),
         None => wrapped(text, width.saturating_sub(MORE.len())).into_iter().next().unwrap_or_default() + MORE,
     }

@@ -50,16 +50,7 @@ pub(crate) fn new(arguments: &NewArguments, output: &Output) -> Result<Outcome, 
     let named = given.and_then(|destination| destination.output.clone());
     let asks = asks && arguments.settings.entries().is_empty() && named.as_deref() != Some(Path::new("-"));
     let (settings, file, to_file) = if asks {
-        // Better said before the questions than after them.
-        let early = named.as_deref().map(|file| to_file(file, force)).transpose()?;
-        let settings = dialogue::dimensions(template, output.color())?;
-        match named.zip(early) {
-            Some((file, to_file)) => (settings, file, to_file),
-            None => {
-                let (file, to_file) = dialogue::file(template, output.color(), &to_file)?;
-                (settings, file, to_file)
-            }
-        }
+        dialogue::answers(template, named.as_deref().map(|file| (file, force)), output.color(), &to_file)?
     } else {
         let file = named.unwrap_or_else(|| PathBuf::from(format!("{}.toml", template.name)));
         let to_file = to_file(&file, force)?;

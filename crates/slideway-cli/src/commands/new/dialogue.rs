@@ -41,10 +41,28 @@ fn no_template(name: &str) -> String {
     }
 }
 
+/// What writes a file, which may overwrite another one or not.
+type ToFile<'f> = &'f dyn Fn(&Path, bool) -> Result<Output, Failure>;
+
+/// Asks for the dimensions of a template and, unless it is named, for the file; gives them and what writes the file.
+pub(super) fn answers(
+    template: &Template,
+    named: Option<(&Path, bool)>,
+    color: ColorChoice,
+    to_file: ToFile<'_>,
+) -> Result<(Settings, PathBuf, Output), Failure> {
+    // Better said before the questions than after them.
+    let early =
+        named.map(|(file, force)| Ok::<_, Failure>((file.to_owned(), to_file(file, force)?))).transpose()?;
+    let settings = dimensions(template, color)?;
+    let (path, output) = early.map_or_else(|| file(template, color, to_file), Ok)?;
+    Ok((settings, path, output))
+}
+
 /// Asks for every parameter of a template; those that are not answered stay as they are.
 ///
 /// A value is checked with those before it, so that what is wrong can be put right at once.
-pub(super) fn dimensions(template: &Template, color: ColorChoice) -> Result<Settings, Failure> {
+fn dimensions(template: &Template, color: ColorChoice) -> Result<Settings, Failure> {
     let rule = format!("{} Rule: {}", template.summary(), template.rule());
     let rule = columns::wrapped(&rule, columns::WIDTH).join("\n");
     complain(&format!("\n{rule}\n\nEnter keeps the value in brackets."), color);
@@ -83,9 +101,8 @@ fn dimension(
             return Ok(Answer::Kept);
         }
         let with = |value: &str| settings.clone().parameter(parameter.name, value);
-        let faults = match template.model(&with(&value), FILE) {
-            Ok(_) => return Ok(Answer::Value(with(&value))),
-            Err(faults) => faults,
+        let Err(faults) = template.model(&with(&value), FILE) else {
+            return Ok(Answer::Value(with(&value)));
         };
         let Some(value) = with_unit(&faults) else {
             say(&slip(&faults), color);
@@ -119,11 +136,7 @@ fn slip(faults: &Faults) -> String {
 }
 
 /// Asks for the name of the file until it can be written; gives it and what writes it.
-pub(super) fn file(
-    template: &Template,
-    color: ColorChoice,
-    to_file: &impl Fn(&Path, bool) -> Result<Output, Failure>,
-) -> Result<(PathBuf, Output), Failure> {
+fn file(template: &Template, color: ColorChoice, to_file: ToFile<'_>) -> Result<(PathBuf, Output), Failure> {
     let usual = free_name(Path::new(template.name), ".toml", false);
     loop {
         let answer = reply(&format!("File [{}]: ", usual.display()))?.unwrap_or_default();
