@@ -597,3 +597,27 @@ fn at_rest_guides_without_friction_slide_nowhere() {
     let words = "0 gl is flat on the lower guide; gr is flat on the lower guide; pl sticks; pr sticks";
     assert_eq!(self::words(&history), [words]);
 }
+
+/// A block of 1 kg that a cart pulls through a spring of 100 N/m, at 50 mm/s (a model of an independent review). While it
+/// sticks its friction is the pull of the spring, k v t: 1, 2 and 3 N at 0.2, 0.4 and 0.6 s, until mu_static W = 3.924 N.
+/// It slides with mu W.
+#[test]
+fn friction_of_what_sticks_is_known_where_statics_determines_it() {
+    let model = Model::parse(include_str!("findings/block_pulled_through_a_spring.toml")).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(1.0)).unwrap();
+    let series = history.series(&[0.2, 0.4, 0.6, 0.9]);
+    assert_eq!(series.modes, ["=+", "=+", "=+", "++"]);
+    let friction = &series.column("floor.friction_force").unwrap().values;
+    for (found, expected) in friction.iter().zip([1.0, 2.0, 3.0, 0.2 * G]) {
+        assert!((found.unwrap() - expected).abs() < 1e-9, "{friction:?}");
+    }
+    // At rest with one end on each side of its guide, the block leaves open how these share its friction.
+    let text = include_str!("findings/block_pulled_through_a_spring.toml");
+    let text = text.replacen("guided_slider", "block_slider", 1);
+    let history = simulate(&Model::parse(&text).unwrap(), &SimulateOptions::new(0.4)).unwrap();
+    let series = history.series(&[0.2]);
+    assert_eq!(series.modes, ["==+"]);
+    for end in ["front", "rear"] {
+        assert_eq!(series.column(&format!("floor.{end}.friction_force")).unwrap().values, [None]);
+    }
+}

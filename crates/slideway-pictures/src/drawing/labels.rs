@@ -243,9 +243,8 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> 
             | Class::Velocity => IMPORTANT,
             Class::Dimension => 2.0 * IMPORTANT,
             Class::Hatch => 3.0,
-            Class::Slot => 0.4,
+            Class::Slot | Class::Cone | Class::Overlap => 0.4,
             Class::Leader => 1.0,
-            Class::Cone | Class::Overlap => 0.4,
             _ => EDGE,
         };
         match &element.shape {

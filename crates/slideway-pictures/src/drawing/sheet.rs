@@ -2,7 +2,7 @@
 
 use super::forces::forces_on;
 use super::paragraph::{LINE, beside, paragraph};
-use super::scene::{Bounds, Class, Point, Scene, Shape};
+use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
 use super::units::{in_units_of, known_forces};
 use super::{
@@ -54,17 +54,19 @@ pub(crate) fn scale_of_circles(magnification: f64) -> String {
     format!("Friction circles are drawn {} times as large as they are.", number(magnification))
 }
 
-/// "Pins: O 1.2 kN and 1.5 N m on crank; ..."
-fn pins(solution: &Solution, mechanism: &Mechanism) -> Option<String> {
+/// A table of the pins with friction, a row for each: its name, its force, its friction couple, and on what both act.
+fn pins(solution: &Solution, mechanism: &Mechanism) -> Vec<[String; 4]> {
     let [force, moment] = ["N", "N m"].map(|unit| mechanism.units.of(unit));
     let one = |hinge: &slideway::report::Hinge| {
         let friction = hinge.friction?;
         let size = quantity(hinge.force[0].hypot(hinge.force[1]), &force);
         let couple = quantity(friction.couple.abs(), &moment);
-        Some(format!("{} {size} and {couple} on {}", hinge.name, hinge.on))
+        Some([hinge.name.clone(), size, couple, hinge.on.clone()])
     };
-    let pins: Vec<String> = solution.hinges.iter().filter_map(one).collect();
-    (!pins.is_empty()).then(|| format!("Pins, force and friction couple: {}", pins.join("; ")))
+    let pins: Vec<[String; 4]> = solution.hinges.iter().filter_map(one).collect();
+    let heading = ["pin", "force", "friction couple", "on"].map(str::to_owned);
+    let heading = Some(heading).filter(|_| !pins.is_empty());
+    heading.into_iter().chain(pins).collect()
 }
 
 /// "guide tipped: lower right, upper left"
@@ -92,6 +94,8 @@ pub struct Caption {
     pub heading: String,
     /// What follows.
     pub lines: Vec<String>,
+    /// A table below: a row for each pin with friction, after one of headings.
+    pub table: Vec<[String; 4]>,
 }
 
 /// One drawing of a sheet.
@@ -262,7 +266,7 @@ impl Drawn<'_> {
         let options = SceneOptions { force_scale, ..SceneOptions::overview() };
         let states = ContactStates::default();
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let caption = Caption { heading: "The mechanism, to scale".to_owned(), lines: Vec::new() };
+        let caption = Caption { heading: "The mechanism, to scale".to_owned(), ..Caption::default() };
         Panel { scene, caption, force_scale }
     }
 
@@ -285,7 +289,8 @@ impl Drawn<'_> {
         lines.push("The arrows show proportions, not sizes.".to_owned());
         lines.extend(scale_of_play(&scene));
         let heading = format!("Why it jams:  {}", signs(&locking.pattern));
-        Some(Panel { scene, caption: Caption { heading, lines }, force_scale: None })
+        let caption = Caption { heading, lines, ..Caption::default() };
+        Some(Panel { scene, caption, force_scale: None })
     }
 
     /// Why the forces of a mode lock a mechanism.
@@ -314,18 +319,19 @@ impl Drawn<'_> {
     fn solution(&self, solution: &Solution, heading: String, names: bool) -> Panel {
         let greatest = self.greatest_force(solution);
         let force_scale = if greatest > 0.0 { LONGEST_FORCE / greatest } else { 1.0 };
-        let options = SceneOptions { names, ..SceneOptions::contact_mode(force_scale) };
+        // Beside the mechanism itself, which shows them, velocities would only be repeated.
+        let options = SceneOptions { names, velocities: names, ..SceneOptions::contact_mode(force_scale) };
         let states = ContactStates::of(solution);
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
         let signs = signs(&solution.pattern);
         let mut lines: Vec<String> = joint_modes(&solution.joints).collect();
         lines.push(solution.attainability.in_words());
-        lines.extend(pins(solution, self.mechanism));
         lines.extend(scale_of_play(&scene));
         lines.extend(scene.friction_circles.map(scale_of_circles));
         let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
         let force_scale = (greatest > 0.0).then_some(force_scale);
-        Panel { scene, caption: Caption { heading, lines }, force_scale }
+        let table = pins(solution, self.mechanism);
+        Panel { scene, caption: Caption { heading, lines, table }, force_scale }
     }
 
     /// The greatest force of a contact or of a hinge with friction (N), or of a load if none has any.
@@ -375,8 +381,11 @@ fn described(lines: &[String], panels: &[Panel]) -> String {
 
 impl Caption {
     fn in_words(&self) -> String {
-        let Self { heading, lines } = self;
-        std::iter::once(heading).chain(lines).map(String::as_str).collect::<Vec<_>>().join(". ")
+        let Self { heading, lines, table } = self;
+        let rows: Vec<String> = table.iter().map(|row| row.join(", ")).collect();
+        let sentences =
+            std::iter::once(heading).chain(lines).chain(&rows).map(|line| line.trim_end_matches('.'));
+        format!("{}.", sentences.collect::<Vec<_>>().join(". "))
     }
 }
 
@@ -466,7 +475,7 @@ impl Layout<'_> {
         for line in &panel.caption.lines {
             foot = paragraph(scene, line, VALUE_SIZE, Point::new(corner.x, foot), width);
         }
-        foot
+        table(scene, &panel.caption.table, Point::new(corner.x, foot))
     }
 
     /// Bars of a length and of a force.
@@ -488,6 +497,22 @@ impl Layout<'_> {
             beside(scene, to, quantity(force, &unit));
         }
     }
+}
+
+/// Writes a table below a place, each column as wide as its widest entry; the y below it.
+fn table(scene: &mut Scene, rows: &[[String; 4]], corner: Point) -> f64 {
+    let widest = |column: usize| rows.iter().map(|row| width(&row[column], VALUE_SIZE)).fold(0.0, f64::max);
+    let mut at = corner;
+    for column in 0..4 {
+        at.y = corner.y;
+        for row in rows {
+            at.y += LINE * VALUE_SIZE;
+            let text = row[column].clone();
+            scene.write(Class::Words, Text { text, at, anchor: Anchor::Start, size: VALUE_SIZE });
+        }
+        at.x += widest(column) + 18.0;
+    }
+    at.y
 }
 
 /// The bounds of all pictures.

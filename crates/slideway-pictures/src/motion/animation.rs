@@ -230,7 +230,10 @@ impl<'h> Painted<'h> {
     /// The drawing at a time.
     fn scene(&self, sample: &Sample) -> Scene {
         let mode = self.mode(sample);
-        let contacts = sample.contacts.iter().zip(mode.chars()).map(|(contact, sign)| ContactState {
+        let forces = self.history.forces(sample);
+        let contacts = sample.contacts.iter().zip(forces).zip(mode.chars());
+        // Where joints stick, what statics leaves open has no arrow.
+        let contacts = contacts.map(|((contact, [normal, friction]), sign)| ContactState {
             side: match sign {
                 '+' => 1.0,
                 '-' => -1.0,
@@ -239,8 +242,8 @@ impl<'h> Painted<'h> {
                 _ => contact.normal_force.signum(),
             },
             forces: Some(ContactForces {
-                normal: contact.normal_force,
-                friction: contact.friction_force.unwrap_or(0.0),
+                normal: normal.unwrap_or(0.0),
+                friction: friction.unwrap_or(0.0),
                 couple: 0.0,
             }),
             ..ContactState::default()

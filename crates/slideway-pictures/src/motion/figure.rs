@@ -8,7 +8,7 @@ use crate::plot::{
 };
 use crate::theme::LIGHT;
 use slideway::mechanism::Mechanism;
-use slideway::motion::{Cause, History, PhaseInterval, Series, modes_in_words};
+use slideway::motion::{Cause, History, JointPhase, PhaseInterval, Series, modes_in_words};
 use slideway::report::precise;
 use slideway::units::{Unit, Units};
 
@@ -27,8 +27,8 @@ const RARE: f64 = 0.05;
 /// Beside what is so many times as large a curve is too flat to be read.
 const MANY: f64 = 4.0;
 
-/// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, energies. Lines
-/// mark where it jams; where joints stick and statics leaves normal forces open the panel is hatched.
+/// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, friction if joints stick
+/// at times, energies. Lines mark where it jams; where joints stick and statics leaves forces open the panel is hatched.
 ///
 /// Where normal forces grow for a short time to many times what they are else, as before a jam, the axis shows
 /// the rest, and the legend tells what they reach.
@@ -50,6 +50,7 @@ pub fn motion_figure(history: &History) -> Figure {
         }
     }
     panels.extend(builder.forces(history));
+    panels.extend(builder.friction(history));
     let energies = [
         ("kinetic energy", "energy.kinetic"),
         ("potential energy", "energy.potential"),
@@ -385,6 +386,24 @@ impl Builder<'_> {
         let mut panels: Vec<Panel> = panels.into_iter().map(panel).collect();
         panels[0].bands = modes;
         panels
+    }
+
+    /// The friction of the contacts, if some of them stick at times and statics determines it then: where all slide it is
+    /// that of their normal forces.
+    fn friction(&mut self, history: &History) -> Option<Panel> {
+        let sticks = |interval: &PhaseInterval| {
+            interval.to > interval.from && interval.phase.joints.contains(&JointPhase::Sticking)
+        };
+        let contacts = history.mechanism.contacts.iter();
+        let frictions = contacts.map(|one| (one.name.to_string(), format!("{}.friction_force", one.name)));
+        let frictions: Vec<_> = frictions.filter(|(_, column)| self.samples.is_used(column)).collect();
+        if frictions.is_empty() || !history.phases.iter().any(sticks) {
+            return None;
+        }
+        let mut panel = self.panel("Friction, against positive sliding", ("friction", "N"), &frictions);
+        panel.y.range = range_of_what_lasts(&panel.curves);
+        panel.zones = self.samples.left_open(&frictions, &self.units.of("s"));
+        Some(panel)
     }
 }
 

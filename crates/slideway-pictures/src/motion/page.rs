@@ -2,15 +2,18 @@
 
 use super::animation::{Animation, FrameOf};
 use crate::coordinate::{NotFinite, coordinate, exact, finished, finished_parts, tenths, thousandths};
-use crate::drawing::svg::{Colour, markup, rules};
+use crate::drawing::svg::{Colour, class_name, markup, rules};
 use crate::drawing::{Class, EXAGGERATED, Element, Point, Shape, nice, quantity};
 use crate::escaped;
 use crate::plot::svg::wrapped;
 use crate::typeface::{STACK, width};
 use std::fmt::Write;
 
-/// Room for the words below the drawing (drawing units).
-const CAPTION: f64 = 94.0;
+/// Room for the title above the drawing, and for the words and the key to the colours below it (drawing units).
+const HEAD: f64 = 38.0;
+const CAPTION: f64 = 138.0;
+/// Size of the title.
+const TITLE: f64 = 17.0;
 /// From the left edge to the words (drawing units).
 const INDENT: f64 = 12.0;
 /// How far the background of a frame that stands still goes beyond its edges (drawing units).
@@ -201,7 +204,7 @@ requestAnimationFrame(tick);
 
 /// A document that moves by itself: every frame is a group that is shown in its time.
 fn svg(animation: &Animation) -> String {
-    let size = animation.bounds.size();
+    let (corner, size) = (animation.bounds.least, animation.bounds.size());
     let theme = &animation.theme;
     let total = animation.frame_time * animation.frames.len() as f64;
     let mut out = String::new();
@@ -212,22 +215,22 @@ fn svg(animation: &Animation) -> String {
          @media (prefers-reduced-motion: reduce) {{ .frame, .told {{ display: none !important; }} \
          .first {{ display: inline !important; }} }}\n</style>",
         coordinate(size.x),
-        coordinate(size.y + CAPTION),
-        view_box(animation, CAPTION),
+        coordinate(HEAD + size.y + CAPTION),
+        [corner.x, corner.y - HEAD, size.x, HEAD + size.y + CAPTION].map(coordinate).join(" "),
         escaped(&animation.title),
         rules(&Colour::of_theme(theme)),
     );
-    let corner = animation.bounds.least;
     let _ = writeln!(
         out,
         "<rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\
          <animate id=\"clock\" attributeName=\"opacity\" from=\"1\" to=\"1\" begin=\"0s;clock.end\" dur=\"{}s\"/></rect>",
         coordinate(corner.x),
-        coordinate(corner.y),
+        coordinate(corner.y - HEAD),
         coordinate(size.x),
-        coordinate(size.y + CAPTION),
+        coordinate(HEAD + size.y + CAPTION),
         thousandths(total),
     );
+    title_and_key(animation, &mut out);
     let common = common(animation);
     for index in &common {
         out.push_str(&animation.shapes[*index]);
@@ -264,13 +267,14 @@ pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
          viewBox=\"{x} {y} {width} {height}\">\n<style>\n{rules}</style>\n\
          <rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
         coordinate(corner.x - BLEED),
-        coordinate(corner.y - BLEED),
+        coordinate(corner.y - HEAD - BLEED),
         width + 2.0 * BLEED,
         height + 2.0 * BLEED,
         x = coordinate(corner.x),
-        y = coordinate(corner.y),
+        y = coordinate(corner.y - HEAD),
         rules = rules(&Colour::of_theme(&animation.theme)),
     );
+    title_and_key(animation, &mut out);
     for index in &frame.shapes {
         out.push_str(&animation.shapes[*index]);
     }
@@ -288,13 +292,71 @@ pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
 #[cfg(feature = "png")]
 pub(super) fn still_size(animation: &Animation) -> [f64; 2] {
     let size = animation.bounds.size();
-    [size.x.ceil(), (size.y + CAPTION).ceil()]
+    [size.x.ceil(), (HEAD + size.y + CAPTION).ceil()]
 }
 
 /// Time and mode of a frame with its words.
 fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
     let words = animation.words.get(frame.words).map_or("", |words| words);
-    words_below(animation, 16.0, &format!("t = {:.4} s, mode {}: {words}", frame.time, frame.mode), out);
+    words_below(
+        animation,
+        16.0,
+        &format!("t = {}, mode {}: {words}", seconds(animation, frame.time), frame.mode),
+        out,
+    );
+}
+
+/// A time with the digits that neighbouring frames differ in.
+fn seconds(animation: &Animation, time: f64) -> String {
+    let step = animation.frame_time / animation.slow_motion;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 9")]
+    let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
+    format!("{time:.decimals$} s")
+}
+
+/// What the colours of arrows mean, of those that occur.
+fn colours(animation: &Animation) -> Vec<(Class, &'static str)> {
+    let all = [
+        (Class::Reaction, "normal reaction"),
+        (Class::Friction, "friction"),
+        (Class::PinForce, "force of a pin"),
+        (Class::Load, "load, weight or drive"),
+        (Class::Velocity, "sliding velocity"),
+    ];
+    let occurs = |class: Class| {
+        let (name, line) =
+            (format!("class=\"{}\"", class_name(class)), format!("class=\"{} ", class_name(class)));
+        animation.shapes.iter().any(|shape| shape.contains(&name) || shape.contains(&line))
+    };
+    all.into_iter().filter(|(class, _)| occurs(*class)).collect()
+}
+
+/// The title above the drawing, and at the foot of the picture the key to the colours of arrows.
+fn title_and_key(animation: &Animation, out: &mut String) {
+    let (corner, foot) = (animation.bounds.least, animation.bounds.greatest.y);
+    let space = animation.bounds.size().x - 2.0 * INDENT;
+    let mut words = |class: &str, place: Point, size: f64, words: &str| {
+        let [x, y] = [place.x, place.y].map(coordinate);
+        let words = escaped(words);
+        let _ =
+            writeln!(out, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\">{words}</text>");
+    };
+    let title = wrapped(&animation.title, TITLE, space);
+    let title = title.first().map_or("", |line| line);
+    words("s-words", corner + Point::new(INDENT, TITLE + 4.0 - HEAD), TITLE, title);
+    let mut place = Point::new(corner.x + INDENT, foot + 110.0);
+    let mut arrows = String::new();
+    for (class, meaning) in colours(animation) {
+        let reach = 34.0 + width(meaning, WORDS);
+        if place.x > corner.x + INDENT && place.x + reach > corner.x + INDENT + space {
+            place = Point::new(corner.x + INDENT, place.y + 1.3 * LINE);
+        }
+        let to = place + Point::new(26.0, 0.0);
+        arrows += &markup(&Element { class, shape: Shape::Arrow { from: place, to } });
+        words("s-words", to + Point::new(8.0, 4.5), WORDS, meaning);
+        place.x += reach + 22.0;
+    }
+    out.push_str(&arrows);
 }
 
 /// An arrow of a round force in the lower left corner of the drawing; nothing without forces.
@@ -326,7 +388,7 @@ fn speed_below(animation: &Animation, out: &mut String) {
 
 /// The words of an event.
 fn words_of_event(animation: &Animation, time: f64, words: &str, out: &mut String) {
-    words_below(animation, 54.0, &format!("{time:.4} s: {words}"), out);
+    words_below(animation, 54.0, &format!("{}: {words}", seconds(animation, time)), out);
 }
 
 /// Words in lines from a place below the drawing on; three dots where these do not hold all.
@@ -414,12 +476,13 @@ fn common(animation: &Animation) -> Vec<usize> {
 
 pub(super) fn speed(animation: &Animation) -> String {
     let factor = animation.slow_motion;
+    let times = |factor: f64| tenths(factor).trim_end_matches(".0").to_owned();
     if factor == 1.0 {
         "In real time".to_owned()
     } else if factor > 1.0 {
-        format!("{} times slower than real time", tenths(factor))
+        format!("{} times slower than real time", times(factor))
     } else {
-        format!("{} times faster than real time", tenths(1.0 / factor))
+        format!("{} times faster than real time", times(1.0 / factor))
     }
 }
 

@@ -143,7 +143,7 @@ impl Builder<'_> {
                 curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
             }
             for (pattern, why) in without_efficiency(direction) {
-                title += &format!("; {}: {why}", signs(pattern));
+                title.extend(["; ", &*signs(pattern), ": ", why]);
             }
         }
         let y = Axis { name: "efficiency".to_owned(), unit: "%".to_owned(), ..Axis::default() };

@@ -183,10 +183,14 @@ impl<'s> System<'s> {
         self.group.joints.iter().copied().filter(is_bound).collect()
     }
 
-    /// The normal force of a contact, in units; `None` if the equations leave it open.
-    pub(super) fn determined_normal_force(&self, k: usize) -> Option<f64> {
-        let normal = self.solutions.function(&self.friction[k].as_ref()?.normal_force());
-        (!normal.varies()).then_some(normal.constant)
+    /// The normal force and the friction of a contact, in units; `None` if the equations leave it open.
+    pub(super) fn determined_forces(&self, k: usize) -> [Option<f64>; 2] {
+        let Some(friction) = &self.friction[k] else { return [None; 2] };
+        let both = friction.faces[0].clone().plus(1.0, &friction.faces[1]);
+        [friction.normal_force(), both].map(|force| {
+            let force = self.solutions.function(&force);
+            (!force.varies()).then_some(force.constant)
+        })
     }
 
     /// Every inequality of the pattern.

@@ -175,5 +175,6 @@ fn normal_forces(
     if has_rough_hinges(mechanism) {
         return Ok(vec![None; mechanism.contacts.len()]);
     }
-    super::determined_normal_forces(mechanism, configuration, phase)
+    let forces = super::determined_forces(mechanism, configuration, phase)?;
+    Ok(forces.into_iter().map(|[normal, _]| normal).collect())
 }

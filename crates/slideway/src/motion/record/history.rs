@@ -156,7 +156,7 @@ pub struct Sample {
 pub struct ContactSample {
     /// N. While the joint sticks the two ends of a block share it as if friction acted on the centre line.
     pub normal_force: f64,
-    /// N; nothing while the joint sticks, where friction is a range.
+    /// N; nothing while the joint sticks: [`History::forces`] has it where statics determines it.
     pub friction_force: Option<f64>,
     /// m/s
     pub sliding_velocity: f64,

@@ -3,7 +3,7 @@
 use crate::configuration::unit;
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
-use crate::motion::decision::determined_normal_forces;
+use crate::motion::decision::determined_forces;
 use crate::motion::record::history::{History, Sample};
 use serde::Serialize;
 use std::fmt::Write;
@@ -104,24 +104,28 @@ impl History {
         let mut row = Vec::with_capacity(columns.len());
         for sample in times.iter().filter_map(|time| reader.at(*time)) {
             row.clear();
-            values(mechanism, &sample, &self.normal_forces(&sample), &mut row);
+            values(mechanism, &sample, &self.forces(&sample), &mut row);
             columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
             modes.push(patterns.get(sample.phase).cloned().unwrap_or_default());
         }
         Series { columns, modes }
     }
 
-    /// The normal forces at a sample, where they are determined.
-    fn normal_forces(&self, sample: &Sample) -> Vec<Option<f64>> {
-        let all = || sample.contacts.iter().map(|contact| Some(contact.normal_force)).collect();
+    /// The normal force and the friction of each contact at a sample (N); nothing where joints stick and statics leaves it
+    /// open. Friction is positive against positive sliding.
+    pub fn forces(&self, sample: &Sample) -> Vec<[Option<f64>; 2]> {
+        let all = || {
+            let contacts = sample.contacts.iter();
+            contacts.map(|contact| [Some(contact.normal_force), contact.friction_force]).collect()
+        };
         let phase = self.phases.get(sample.phase).map(|interval| &interval.phase);
         let Some(phase) = phase.filter(|phase| phase.sticks()) else { return all() };
         if !phase.hinges.is_empty() {
             let determined = sample.hinges.iter().all(|hinge| hinge.is_determined);
-            return if determined { all() } else { vec![None; sample.contacts.len()] };
+            return if determined { all() } else { vec![[None; 2]; sample.contacts.len()] };
         }
-        let found = determined_normal_forces(&self.mechanism, &sample.configuration, phase);
-        found.unwrap_or_else(|_| vec![None; sample.contacts.len()])
+        let found = determined_forces(&self.mechanism, &sample.configuration, phase);
+        found.unwrap_or_else(|_| vec![[None; 2]; sample.contacts.len()])
     }
 }
 
@@ -162,7 +166,7 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
 }
 
 /// The numbers of a row, in the order of the columns.
-fn values(mechanism: &Mechanism, sample: &Sample, normal_forces: &[Option<f64>], row: &mut Vec<Option<f64>>) {
+fn values(mechanism: &Mechanism, sample: &Sample, forces: &[[Option<f64>; 2]], row: &mut Vec<Option<f64>>) {
     let configuration = &sample.configuration;
     row.push(Some(configuration.time));
     let mut equation = ConstraintRow::empty();
@@ -174,8 +178,8 @@ fn values(mechanism: &Mechanism, sample: &Sample, normal_forces: &[Option<f64>],
         let acceleration = terms.sum::<f64>() - equation.right_hand_side;
         row.extend([Some(*value), Some(*rate), Some(acceleration)]);
     }
-    for (contact, normal_force) in sample.contacts.iter().zip(normal_forces) {
-        row.extend([*normal_force, contact.friction_force, Some(contact.sliding_velocity)]);
+    for (contact, [normal_force, friction]) in sample.contacts.iter().zip(forces) {
+        row.extend([*normal_force, *friction, Some(contact.sliding_velocity)]);
     }
     for hinge in &sample.hinges {
         let [x, y] = hinge.force;
