@@ -34,6 +34,11 @@ pub(crate) struct Options {
     progress: Option<Py<PyAny>>,
 }
 
+/// A text with the names of arrays as callers wrote them.
+fn as_called(text: &str) -> String {
+    text.replace("jumps_positive", "jumps[0]").replace("jumps_negative", "jumps[1]")
+}
+
 fn answer<'py>(
     py: Python<'py>,
     kind: RawKind,
@@ -44,9 +49,9 @@ fn answer<'py>(
     // In a mixed problem an empty list is a matrix without rows or columns.
     if let Some((name, ..)) = arrays.iter().find(|(.., entries)| entries.is_empty() && kind != RawKind::Mlcp)
     {
-        return Err(PyValueError::new_err(format!("{name} must not be empty")));
+        return Err(PyValueError::new_err(as_called(&format!("{name} must not be empty"))));
     }
-    let refused = |faults: RawFaults| PyValueError::new_err(faults.to_string());
+    let refused = |faults: RawFaults| PyValueError::new_err(as_called(&faults.to_string()));
     let problem = RawProblem::from_arrays(kind, arrays).map_err(refused)?;
     let search = SearchOptions::within(options.max_nodes, options.max_found);
     let watch = Watch::new(options.time_limit, options.progress)?;
@@ -175,7 +180,10 @@ pub(crate) fn mode_problem<'py>(
         array("right_hand_side", right_hand_side),
     ];
     if let Some((positive, negative)) = &jumps {
-        arrays.extend([array("jumps[0]", positive), array("jumps[1]", negative)]);
+        let named = [("jumps[0]", "jumps_positive", positive), ("jumps[1]", "jumps_negative", negative)];
+        let renamed =
+            |(called, name, given)| array(called, given).map(|(_, sizes, entries)| (name, sizes, entries));
+        arrays.extend(named.map(renamed));
     }
     answer(py, RawKind::Modes, arrays, options)
 }

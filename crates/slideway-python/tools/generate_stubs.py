@@ -84,6 +84,11 @@ def signature(line: str) -> str:
             other = re.sub(r"-> .*:", f"-> {answer}: ...", other)
             line = line.replace(f"{name}: {type_} | None = None", f"{name}: None = None")
             return f"    @overload\n{other}\n    @overload\n{line}"
+    if line.startswith("    def hold("):
+        # With a range it is `rest_limits`.
+        plain = line.replace(", **ranges: Range | None", "").removesuffix(":")
+        ranged = line.replace("reports.HoldReport", "reports.RestLimitsReport")
+        return f"    @overload\n{plain}: ...\n    @overload\n{ranged}"
     return line
 
 

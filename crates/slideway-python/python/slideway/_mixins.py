@@ -71,7 +71,8 @@ class Solution:
 class _Solutions(Generic[One]):
     """An answer that is a sequence of its solutions."""
 
-    solutions: tuple[One, ...]
+    if TYPE_CHECKING:
+        solutions: tuple[One, ...]
 
     @overload
     def __getitem__(self, index: SupportsIndex) -> One: ...

@@ -743,7 +743,7 @@ class Model:
         Parameters
         ----------
         vary : str, optional
-            A parameter or coordinate over whose range the efforts are wanted.
+            A parameter or coordinate over whose range the efforts are wanted, in the place of `**ranges`.
         between : pair, optional
             The ends of that range. Default: a usual one.
         rows : int, default 41
@@ -753,6 +753,8 @@ class Model:
         progress : callable, optional
             Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
             raises.
+        **ranges : pair
+            What is varied by its name, with the ends of its range, such as `mu=(0, 1)`; `mu=None` for a usual range.
 
         Returns
         -------
@@ -818,10 +820,14 @@ class Model:
         progress : callable, optional
             Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
             raises.
+        **ranges : pair
+            What is varied by its name, with the ends of its range, such as `friction=(0, 2)`: for which values of it can the
+            mechanism stay at rest? This is `rest_limits`.
 
         Returns
         -------
-        reports.HoldReport
+        reports.HoldReport or reports.RestLimitsReport
+            The latter with a range.
 
         Raises
         ------
@@ -840,16 +846,16 @@ class Model:
 
         Parameters
         ----------
-        vary_name : str
-            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction.
+        vary_name : str, optional
+            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction, in the place of `**ranges`.
         start, stop : float or str, optional
-            The ends of the range. Default: a usual one for coefficients of friction and `"friction"`, and for what has a
+            The ends of its range, or a pair of them. Default: a usual one for coefficients of friction and `"friction"`, and for what has a
             value in the model.
         max_reaction : float, optional
             The greatest normal force that counts as a solution (N): where it is exceeded a mode ends.
         both_directions : bool, default False
             Whether to find the limits of the opposite direction of motion, too.
-        effort : int
+        effort : int, default 800
             How many values are examined at most where the ends of modes are not zeros of determinants.
         quantity : {"normal-force", "friction", "acceleration", "effort"}
             What the plot of the answer shows.
@@ -858,6 +864,8 @@ class Model:
         progress : callable, optional
             Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
             raises.
+        **ranges : pair
+            What is varied by its name, with the ends of its range, such as `mu=(0, 1)`; `mu=None` for a usual range.
 
         Returns
         -------
@@ -872,7 +880,7 @@ class Model:
         Examples
         --------
         >>> import slideway
-        >>> limits = slideway.Model.gallery("drawer").limits("mu", 0, 1)
+        >>> limits = slideway.Model.gallery("drawer").limits(mu=(0, 1))
         >>> [(count.solutions, round(count.to, 6)) for count in limits.counts]     # locked beyond L / (2 a)
         [(1, 0.666667), (0, 1.0)]
         """
@@ -893,9 +901,9 @@ class Model:
         Raises
         ------
         ModelError
-            With everything that is wrong with it, each fault with its line and column.
+            With everything that is wrong with it, each fault with its line and column; `filename` is the file.
         OSError
-            The file cannot be read.
+            The file cannot be read; `filename` is the file.
 
         Examples
         --------
@@ -1019,10 +1027,10 @@ class Model:
 
         Parameters
         ----------
-        vary_name : str
-            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction.
-        start, stop : float or str
-            The ends of the range.
+        vary_name : str, optional
+            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction, in the place of `**ranges`.
+        start, stop : float or str, optional
+            The ends of its range, or a pair of them.
         load : str, optional
             The name of a load or drive, or `"gravity"`, which is to be held however great it is.
         drives : {"release", "hold"}
@@ -1032,6 +1040,8 @@ class Model:
         progress : callable, optional
             Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
             raises.
+        **ranges : pair
+            What is varied by its name, with the ends of its range, such as `mu=(0, 1)`; `mu=None` for a usual range.
 
         Returns
         -------
@@ -1046,11 +1056,30 @@ class Model:
         --------
         >>> import slideway
         >>> wedge = slideway.Model.gallery("wedge")
-        >>> len(wedge.rest_limits("friction", 0, 2).spans) > 0
+        >>> len(wedge.rest_limits(friction=(0, 2)).spans) > 0
         True
         """
     def save(self, /, path: str | PathLike[str]) -> None:
-        """ """
+        """
+        Writes the text of the model, with what was changed, to a file.
+
+        Parameters
+        ----------
+        path : str or path
+            A file of this name is overwritten.
+
+        Returns
+        -------
+        None
+
+        Examples
+        --------
+        >>> import pathlib, slideway, tempfile
+        >>> path = pathlib.Path(tempfile.mkdtemp(), "drawer.toml")
+        >>> slideway.Model.gallery("drawer").with_(L="450 mm").save(path)
+        >>> slideway.Model.load(path).values["L"]
+        0.45 m
+        """
     @property
     def settings(self, /) -> list[str]:
         """
@@ -1114,10 +1143,10 @@ class Model:
 
         Parameters
         ----------
-        vary_name : str
-            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction.
+        vary_name : str, optional
+            A parameter, a coordinate, or `"friction"`, the factor on all coefficients of friction, in the place of `**ranges`.
         start, stop : float or str, optional
-            The ends of the range. Default: a usual one for coefficients of friction and `"friction"`, and for what has a
+            The ends of its range, or a pair of them. Default: a usual one for coefficients of friction and `"friction"`, and for what has a
             value in the model.
         margin : float, optional
             The factor by which friction shall be able to grow.
@@ -1141,6 +1170,8 @@ class Model:
         progress : callable, optional
             Called with the fraction that is done (None if it is not known), a count, and what is counted. Work ends if it
             raises.
+        **ranges : pair
+            What is varied by its name, with the ends of its range, such as `mu=(0, 1)`; `mu=None` for a usual range.
 
         Returns
         -------
@@ -1155,7 +1186,7 @@ class Model:
         Examples
         --------
         >>> import slideway
-        >>> size = slideway.Model.gallery("drawer").size("L", "0.1 m", "1 m", margin=2)
+        >>> size = slideway.Model.gallery("drawer").size(L=("0.1 m", "1 m"), margin=2)
         >>> round(size.met[0].from_, 6)     # L = 2 (2 mu) a, in m
         0.36
         """
@@ -1288,7 +1319,7 @@ class Model:
     @property
     def text(self, /) -> str:
         """
-        The text of the model, without what was changed.
+        The text of the model, with what was changed.
         """
     @property
     def title(self, /) -> str | None:
