@@ -397,7 +397,7 @@ fn modes_answers() {
             "No solution, but there is a state with an unknown in its preload gap.",
         ),
         (
-            found(&lcp("[[-1, 0.5], [0.5, -1]]", "[1, 1]"), &SearchOptions { nodes: 1, ..all.clone() }),
+            found(&lcp("[[-1, 0.5], [0.5, -1]]", "[1, 1]"), &SearchOptions { nodes: 1, ..all }),
             "One solution found so far.",
         ),
         (
