@@ -156,8 +156,8 @@ def test_a_range_is_given_alike_everywhere() -> None:
     assert drawer.drive(mu=(0, 1), rows=3) == drawer.drive("mu", (0, 1), rows=3)
     rest = drawer.rest_limits("friction", 0, 2)
     assert drawer.rest_limits(friction=(0, 2)) == drawer.hold(friction=(0, 2)) == rest
-    assert drawer.hold("gravity", friction=(0, 2), drives="hold") == drawer.rest_limits(
-        "friction", 0, 2, load="gravity", drives="hold"
+    assert drawer.hold("resistance", friction=(0, 2), drives="hold") == drawer.rest_limits(
+        "friction", 0, 2, load="resistance", drives="hold"
     )
     for ask in (drawer.limits, drawer.rest_limits, drawer.drive, drawer.hold):
         with pytest.raises(TypeError, match="one quantity can be varied"):

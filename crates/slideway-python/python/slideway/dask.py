@@ -158,7 +158,7 @@ def _points(question: Mapping[str, Any]) -> int:
             steps = re.search(r":\s*(\d+)\s*$", values)
             points *= int(steps[1]) if steps else values.count(",") + 1
         else:
-            points *= np.size(values) if hasattr(values, "__array__") else len(list(values)) if np.iterable(values) else 1
+            points *= np.size(values)
     return points
 
 

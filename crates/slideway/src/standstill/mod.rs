@@ -148,7 +148,7 @@ pub fn hold_with(
 /// # Errors
 /// As [`hold`] without a load.
 pub(crate) fn can_hold(model: &Model) -> Result<(), Faults> {
-    let setup = Setup::new(model, &HoldOptions::default())?;
+    let setup = undisturbed(|work| Setup::new(model, &HoldOptions::default(), work))?;
     check_states(&setup, MOST_STATES).map(|_| ())
 }
 
