@@ -1620,6 +1620,8 @@ class Figure(Record):
     """What colours and strokes of curves mean, in the order of the legend."""
     quantities: tuple[str, ...]
     """Names of what several curves of one branch show; told apart by markers if there are several."""
+    one_legend: bool
+    """Whether one legend below all panels stands for those of each."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2017,6 +2019,9 @@ class Margins(Record):
     moves_below: Unlocking | None = None
     """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
     and where none comes."""
+    locking: LockedMode | None = None
+    """Where there is no solution: the mode that locks last as all friction grows to the present one; absent
+    where none does, and of redundant guides."""
     critical_contact: CriticalContact | None = None
     """The contact whose friction alone changes the number of solutions first; absent if none does."""
 
@@ -3021,8 +3026,8 @@ class WarningReport(Record):
     """A warning as a report tells it."""
 
     kind: str
-    """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed", "far_from_drawing",
-    "great_friction", "wide_friction_circle" or "nothing_presses"."""
+    """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed",
+    "far_from_drawing", "great_friction", "wide_friction_circle" or "nothing_presses"."""
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""
     message: str
