@@ -4,7 +4,7 @@ use crate::quantity::{MOST, Quantity, quantities};
 use crate::question::Asked;
 use crate::told_fault::{ToldFault, told};
 use serde::Serialize;
-use slideway::check::check;
+use slideway::check::coordinates_of;
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
@@ -82,21 +82,21 @@ impl Verdict {
 pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) -> Result<Look, Faults> {
     let file = Model::parse(&asked.text)?;
     let model = asked.set(&file)?;
-    let checked = check(&model)?;
     let mechanism = Mechanism::new(&model)?;
     let configuration = Configuration::new(&mechanism);
     let options = SolveOptions::default().margins(margins);
     let solved = configuration.as_ref().map_err(Clone::clone);
     let solved = solved.and_then(|_| solve_with(&model, &options, callback));
     let configuration = configuration.unwrap_or_else(|_| Configuration::drawing(&mechanism));
+    let coordinates = coordinates_of(&model, &mechanism, &configuration)?;
     let sheets = pieces(&mechanism, &configuration, solved.as_ref().ok());
     Ok(Look {
         title: line(&title(&mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
         left_out: model.parameters.len().saturating_sub(MOST),
-        quantities: quantities(&file, &model, &asked.text, &mechanism, &checked.coordinates)?,
-        loads: checked.loads,
-        drives: checked.drives.into_iter().map(|drive| drive.name).collect(),
+        quantities: quantities(&file, &model, &asked.text, &mechanism, &coordinates)?,
+        loads: mechanism.loads.iter().map(|load| load.name.to_string()).collect(),
+        drives: mechanism.drives.iter().map(|drive| drive.name.to_string()).collect(),
         drawings: sheets.iter().filter_map(Drawing::of).collect(),
         answer: solved.as_ref().ok().map(Verdict::of),
         reasons: solved.as_ref().err().map(reasons).unwrap_or_default(),

@@ -468,6 +468,19 @@ fn drives(mechanism: &Mechanism) -> Vec<DriveSummary> {
     mechanism.drives.iter().map(one).collect()
 }
 
+/// The coordinates alone, as [`check`] has them.
+///
+/// # Errors
+/// If the mechanism is too large to be solved.
+pub fn coordinates_of(
+    model: &Model,
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<Vec<CoordinateSummary>, Faults> {
+    mechanism.check_size()?;
+    Ok(coordinates((model, mechanism), configuration))
+}
+
 fn coordinates(
     (model, mechanism): (&Model, &Mechanism),
     configuration: &Configuration,
