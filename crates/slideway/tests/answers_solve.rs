@@ -15,7 +15,7 @@ fn model(name: &str) -> Model {
 fn with(name: &str, parameters: &[(&str, &str)]) -> Model {
     let settings = parameters
         .iter()
-        .fold(Settings::default(), |settings, (name, value)| settings.parameter(*name, *value));
+        .fold(Settings::default(), |settings, (name, value)| settings.parameter(name, *value));
     model(name).with(&settings).expect("sound")
 }
 

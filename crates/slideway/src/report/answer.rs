@@ -35,13 +35,13 @@ impl SolveReport {
     pub fn safety_in_words(&self) -> Vec<String> {
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
-            let below = margins.moves_below.map(|below| self.friction(below.mu, below.factor));
+            let below = margins.moves_below.map(|below| friction(below.mu, below.factor));
             return below
                 .map(|below| format!("It {} below {below}.", self.what_ends()))
                 .into_iter()
                 .collect();
         }
-        let at = |factor: f64| self.friction(margins.mu.map(|mu| factor * mu), factor);
+        let at = |factor: f64| friction(margins.mu.map(|mu| factor * mu), factor);
         let mut sentences = Vec::new();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
@@ -85,12 +85,6 @@ impl SolveReport {
     /// What happens below the friction that is told: "moves".
     fn what_ends(&self) -> &'static str {
         if self.rejected.is_empty() { "moves" } else { "does not tip" }
-    }
-
-    /// "mu = 0.6667, 2.222 times this friction", or the factor alone.
-    fn friction(&self, mu: Option<f64>, factor: f64) -> String {
-        let times = format!("{} times this friction", brief(factor));
-        mu.map_or(times.clone(), |mu| format!("mu = {}, {times}", brief(mu)))
     }
 
     /// "It moves: push needs 36.36 N (20 N without friction)."
@@ -269,6 +263,12 @@ fn end_in_words(margins: &Margins, at: &str) -> String {
         [] => format!("It would jam from {at}{again}."),
         joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
     }
+}
+
+/// "mu = 0.6667, 2.222 times this friction", or the factor alone.
+fn friction(mu: Option<f64>, factor: f64) -> String {
+    let times = format!("{} times this friction", brief(factor));
+    mu.map_or(times.clone(), |mu| format!("mu = {}, {times}", brief(mu)))
 }
 
 /// The kind of an effort in this unit.
