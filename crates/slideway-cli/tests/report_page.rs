@@ -47,12 +47,12 @@ fn pages_have_all_parts_and_need_nothing_else() {
     assert_self_contained(&html);
     for part in [
         "<h1>A bar sliding in two horizontal slots</h1>",
-        "3 solutions, each in its own contact mode.",
+        "3 solutions: from this state it can go on in 3 ways.",
         "The list is proven complete.",
         "Solution 3 of 3",
         "Preload gap 1 of 1",
         "<h3>Margins of friction</h3>",
-        "the number of solutions changes beyond a factor of 3.901",
+        "The number of solutions changes from 3.901 times this friction.",
         "<h3>At rest</h3>",
         "Not attainable: threshold between sliding (solution 2) and jamming.",
         "<svg ",
@@ -85,7 +85,7 @@ fn efficiency_margins_and_rest_are_on_the_page() {
     for part in [
         "<h3>Efforts and efficiency</h3>",
         "efficiency 55 %",
-        "there is no solution beyond a factor of 2.2222",
+        "It would jam from mu = 0.6667, 2.222 times this friction.",
         "<p>Without the drive push</p>\n<p>It does not hold: it starts to slide (x: -4 m/s^2).</p>",
     ] {
         assert!(html.contains(part), "{part}");

@@ -292,7 +292,9 @@ impl Painter<'_> {
         self.line(class, sweep);
         self.scene.add(class, Shape::Head(tip + direction * 6.0, direction));
         let up = Point::new(0.0, -1.0);
-        self.value(class, text, centre + up * TORQUE, up);
+        let top = centre + up * TORQUE;
+        let aside = Point::new(TORQUE, 0.0);
+        self.value_along(class, text, [top - aside, top + aside], up);
     }
 
     /// A known effort is a load; an unknown one the direction in which it is counted.

@@ -59,11 +59,11 @@ impl SpeedChange {
     }
 }
 
-/// What "slows down" means where no drive prescribes the motion.
+/// Of a solution that slows down although the loads push it: that it is no jam, and how to ask whether it jams.
 pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
 
-/// What is to be said of limits where no drive prescribes the motion.
-pub(crate) const NO_DRIVE: &str = "Without a drive, \"slows down\" means that friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
+/// Of limits where no drive prescribes the motion: that slowing down is no jam, and how to ask whether it jams.
+pub(crate) const NO_DRIVE: &str = "Without a drive it slows down where friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
 
 /// When and where a coordinate stops if its acceleration stays as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
