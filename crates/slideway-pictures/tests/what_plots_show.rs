@@ -95,7 +95,12 @@ fn motions_tell_where_they_jam_and_which_forces_are_open() {
     for panel in &jammed.panels {
         let [jam] = &panel.marked[..] else { panic!("{:?}", panel.marked) };
         assert!(jam.at == at && jam.label.ends_with(": jams"), "{jam:?}");
-        assert!(panel.zones.is_empty());
+        // Jammed, it is pressed at two corners: the normal forces are determined, how they share the friction is not.
+        let is_open = panel.y.name == "friction";
+        assert_eq!(
+            panel.zones.iter().map(|zone| zone.from == at).collect::<Vec<_>>(),
+            vec![true; usize::from(is_open)]
+        );
     }
     let (stuck, history) = of("klepp-2002-spring", &Settings::default().parameter("mu_1", "0.5"), 0.3);
     let [zone] = &stuck.panels[1].zones[..] else { panic!("{:?}", stuck.panels[1].zones) };
