@@ -154,9 +154,10 @@ def test_a_drawing_without_a_unit(tmp_path: Path) -> None:
 
 def test_same_page(program: Program) -> None:
     """But for the command and the name of the file, of which Python knows nothing."""
-    model = slideway.Model.gallery("klepp-2002").with_(F_20=0)
+    unchanged = slideway.Model.gallery("klepp-2002")
+    model = unchanged.with_(F_20=0)
     options = ["--set", "F_20=0", "--vary", "mu_1=0..0.8", "--vary", "friction", "--output", "page.html"]
-    _, complaints = program.run(["report", *options], model.text)
+    _, complaints = program.run(["report", *options], unchanged.text)
     written = (program.folder / "page.html").read_text()
     page = model.report(mu_1=(0, 0.8), friction=None)
     told = re.compile("<p class=\"quiet\">Report made by .*?</p>|<p>[^<]*, changed by</p>")

@@ -771,7 +771,7 @@ class Model:
         >>> import slideway
         >>> report = slideway.Model.gallery("drawer").drive()
         >>> report.conclusion[0]
-        'Moving as in the model: push needs 36.364 N instead of 20 N without friction; efficiency 55 %.'
+        'push needs 36.36 N (20 N without friction): efficiency 55 %.'
         """
     @staticmethod
     def gallery(name: str) -> Model:

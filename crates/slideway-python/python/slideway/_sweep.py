@@ -213,7 +213,7 @@ class Sweep:
         --------
         >>> import slideway
         >>> print(slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).text().splitlines()[0])
-        2 points: 2 rows, 1 branch
+        It jams at none of 2 points.
         """
         text: str = self._table.text(color)
         return text
