@@ -11,7 +11,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::printable::line;
 use slideway::progress::Callback;
-use slideway::report::{Proof, Report, SolveReport, Status};
+use slideway::report::{Proof, SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use slideway::warning::{ranges_at_middle, warnings};
 use slideway_pictures::drawing::svg::{Colours, write};
@@ -67,7 +67,12 @@ impl Verdict {
             complete: report.complete,
             partial: report.partial,
             count: report.count.clone(),
-            words: report.answer(),
+            // What a glance takes in beside the drawing.
+            words: [report.verdict_in_words()]
+                .into_iter()
+                .chain(report.safety_in_words().into_iter().take(1))
+                .collect::<Vec<_>>()
+                .join(" "),
             patterns: report.solutions.iter().map(|solution| solution.pattern.clone()).collect(),
             sections: solve_parts(report),
         }
