@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::{Progress, Work};
 use crate::report::{CoordinateState, Solution, SolveReport, Status};
-use crate::solve::{SolveOptions, Stages, never_turning, pattern, solve_with};
+use crate::solve::{SolveOptions, Stages, common_coefficient, never_turning, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
 pub(super) const PATTERNS: u64 = 1 << 12;
@@ -62,13 +62,9 @@ pub(super) fn direction(
 
 /// The coefficient of friction, if there is one.
 fn only_mu(mechanism: &Mechanism) -> Option<f64> {
-    let rough = mechanism.contacts.iter().filter(|contact| contact.mu != [0.0; 2]);
-    if rough.clone().any(Contact::depends_on_speed) || mechanism.rough_hinges().next().is_some() {
-        return None;
-    }
-    let mut coefficients = rough.flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
-    let first = coefficients.next()?;
-    coefficients.all(|mu| mu == first).then_some(first)
+    let mut rough = mechanism.contacts.iter().filter(|contact| contact.mu != [0.0; 2]);
+    let is_one = !rough.any(Contact::depends_on_speed) && mechanism.rough_hinges().next().is_none();
+    is_one.then(|| common_coefficient(mechanism)).flatten()
 }
 
 /// The efforts of all solutions.

@@ -17,7 +17,7 @@ impl SolveReport {
                 tips(&self.tipping_joints()).map_or_else(String::new, |tips| format!("No answer: {tips}."))
             }
             Status::None => format!("It jams: {}.", self.nothing_moves_it()),
-            Status::One => self.moves_in_words(&self.solutions),
+            Status::One => self.moves_in_words(),
             Status::Several => self.ways_in_words(),
             Status::Continuum => self.open_in_words(),
             Status::PreloadGap => self.gap_in_words(),
@@ -88,8 +88,8 @@ impl SolveReport {
     }
 
     /// "It moves: push needs 36.36 N (20 N without friction)."
-    fn moves_in_words(&self, solutions: &[Solution]) -> String {
-        let [solution] = solutions else { return String::new() };
+    fn moves_in_words(&self) -> String {
+        let [solution] = self.solutions.as_slice() else { return String::new() };
         if !solution.drives.is_empty() {
             let needs: Vec<String> = self.needs(solution);
             return format!("It moves: {}.", needs.join(", "));

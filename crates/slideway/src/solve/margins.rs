@@ -70,6 +70,9 @@ pub(super) fn add(
         };
         solution.margin = all.end_of(&solution.pattern).map(margin);
     }
+    // Where there is no solution, less friction may leave one.
+    let is_jammed = all.counts.first().is_some_and(CountInterval::is_empty);
+    let falling = is_jammed.then(|| Growth::over(FALLING, data, &|_| true)).flatten();
     report.margins = Some(Margins {
         mu: common_coefficient(mechanism),
         another_count: all.another_count(),
@@ -77,12 +80,11 @@ pub(super) fn add(
         tips: all.tips(mechanism),
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
-        moves_below: all.counts.first().filter(|count| count.is_empty()).and_then(|_| moves_below(data)),
-        locking: all
-            .counts
-            .first()
-            .filter(|count| count.is_empty())
-            .and_then(|_| locking_in_words(data, joints)),
+        moves_below: falling.as_ref().and_then(|falling| falling.moves_below(mechanism)),
+        locking: falling
+            .filter(|_| mechanism.excess.is_empty())
+            .and_then(Growth::locking_mode)
+            .map(|(mode, _)| locking_in_words(&mode, joints)),
         critical_contact: critical_contact(data),
     });
 }
@@ -138,45 +140,28 @@ struct Growth {
     counts: Vec<CountInterval>,
 }
 
-/// To what all friction would have to fall for a solution; none if there is none down to no friction at all, or
-/// one comes at once.
-fn moves_below(data: ProblemData<'_>) -> Option<Unlocking> {
-    let falling = Growth::over(FALLING, data, &|_| true)?;
-    let last = falling.counts.iter().rfind(|count| !count.is_empty())?;
-    let factor = last.to;
-    let mu = common_coefficient(data.mechanism).map(|mu| factor * mu);
-    (factor < 1.0 - AT_ONCE).then_some(Unlocking { factor, mu })
-}
-
 /// The coefficient of all contacts that have friction; none where they differ, and where none has.
-fn common_coefficient(mechanism: &Mechanism) -> Option<f64> {
+pub(crate) fn common_coefficient(mechanism: &Mechanism) -> Option<f64> {
     let mut coefficients = mechanism.contacts.iter().flat_map(|contact| contact.mu).filter(|mu| *mu > 0.0);
     let first = coefficients.next()?;
     coefficients.all(|mu| mu == first).then_some(first)
 }
 
-/// The mode that locks a mechanism without solution, in words.
+/// A mode that locks, in words.
 fn locking_in_words(
-    data: ProblemData<'_>,
+    mode: &[ContactState],
     joints: &dyn Fn(&[i8]) -> Vec<report::JointMode>,
-) -> Option<report::LockedMode> {
-    let (mode, _) = data.mechanism.excess.is_empty().then(|| locking_mode(data)).flatten()?;
-    let pattern = pattern(&mode);
+) -> report::LockedMode {
+    let pattern = pattern(mode);
     let sign = |state: u8| i8::from(state == b'+') - i8::from(state == b'-');
     let signs: Vec<i8> = pattern.bytes().map(sign).collect();
-    Some(report::LockedMode { joints: joints(&signs), pattern })
+    report::LockedMode { joints: joints(&signs), pattern }
 }
 
 /// Of a mechanism without solution: the mode that locks last as all friction grows to the present one, and at what part
 /// of it; none if none locks, or past the limit of work.
 pub(super) fn locking_mode(data: ProblemData<'_>) -> Option<(Vec<ContactState>, f64)> {
-    let falling = Growth::over(FALLING, data, &|_| true)?;
-    let ends = falling.existence.modes.into_iter().flat_map(|mode| {
-        let ModeInterval { pattern, from, to } = mode;
-        [(pattern.clone(), from), (pattern, to)]
-    });
-    let locking = ends.filter(|(_, end)| end.cause == EndCause::Singular);
-    locking.map(|(pattern, end)| (pattern, end.at)).max_by(|one, other| one.1.total_cmp(&other.1))
+    Growth::over(FALLING, data, &|_| true)?.locking_mode()
 }
 
 /// The contact whose friction alone changes the number of solutions at the smallest factor.
@@ -199,6 +184,25 @@ fn line(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Result<ModeProb
 }
 
 impl Growth {
+    /// To what all friction would have to fall for a solution, with friction that falls to none; none if there is none
+    /// down to no friction at all, or one comes at once.
+    fn moves_below(&self, mechanism: &Mechanism) -> Option<Unlocking> {
+        let last = self.counts.iter().rfind(|count| !count.is_empty())?;
+        let factor = last.to;
+        let mu = common_coefficient(mechanism).map(|mu| factor * mu);
+        (factor < 1.0 - AT_ONCE).then_some(Unlocking { factor, mu })
+    }
+
+    /// The mode that locks last, and at what factor; none if none locks.
+    fn locking_mode(self) -> Option<(Vec<ContactState>, f64)> {
+        let ends = self.existence.modes.into_iter().flat_map(|mode| {
+            let ModeInterval { pattern, from, to } = mode;
+            [(pattern.clone(), from), (pattern, to)]
+        });
+        let locking = ends.filter(|(_, end)| end.cause == EndCause::Singular);
+        locking.map(|(pattern, end)| (pattern, end.at)).max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
     /// The modes while the friction of some contacts grows; none past the limit of work.
     fn along(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
         Self::over(GROWING, data, grows)

@@ -50,7 +50,7 @@ pub(crate) use hinges::{
     turning_hinges, unknowns_of,
 };
 pub use locking::{Locking, locking};
-pub(crate) use margins::{AT_ONCE, FALLING, GROWING};
+pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient};
 pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
     without_rounding,
