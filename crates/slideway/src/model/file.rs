@@ -126,128 +126,50 @@ pub enum PinLaw {
     MuRho,
 }
 
-/// A block with a contact at each end.
+/// A sliding joint: what the tables of all three kinds may have between them. `schema.rs` says which has what.
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
-pub(super) struct BlockSliderTable {
-    /// The body that is the block, or "ground".
+pub(super) struct SliderTable {
+    /// The body that is the block or carries the pin, or "ground".
     pub(super) block: Name,
-    /// The body that is the guide. Default: "ground".
+    /// The body that is the guide or has the slot. Default: "ground".
     pub(super) guide: Option<Name>,
-    /// Middle of the block on the guide's centre line, in the drawing: a point's name or [x, y].
+    /// Middle of the block on the guide's centre line, or the pin, in the drawing: a point's name or [x, y].
     pub(super) at: Place,
     /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Direction,
-    /// Distance of the two contacts in the drawing.
-    pub(super) length: Quantity,
+    /// Distance of the two contacts of a block in the drawing; for a guided slider the length of the pressed face: its
+    /// couple is at most normal force times half of it.
+    pub(super) length: Option<Quantity>,
     /// Distance of the two rubbing faces. Default: 0.
     pub(super) height: Option<Quantity>,
     /// "inside": the block is inside the guide (default); "around": it surrounds the guide.
     pub(super) fit: Option<Fit>,
-    /// Kinetic friction coefficient of both contacts, or { plus = .., minus = .. } by the side of contact.
-    pub(super) mu: Option<PerSide>,
-    /// Static friction coefficient, not below `mu`. Default: `mu`.
-    pub(super) mu_static: Option<PerSide>,
-    /// Preload: friction force at zero normal force, F0 of eq. (2). Default: 0.
-    pub(super) preload: Option<PerSide>,
-    /// Where the preload's friction acts: at the "pressed" face (default) or at the "centre" line.
-    pub(super) preload_line: Option<PreloadLine>,
-    /// Stiffness of the guide at each contact (N/m).
-    pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
-    /// press fit. Default: 0.
-    pub(super) play: Option<Quantity>,
-    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
-    /// a load; may depend on coordinates. Default: 0.
-    pub(super) misalignment: Option<Quantity>,
-    /// Area in contact at each contact, for the bearing pressure: { length = .., width = .. }.
-    pub(super) pad: Option<PadTable>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
     /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
     /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
-    /// The contact at the end in the direction of `along`.
-    pub(super) front: Option<EndTable>,
-    /// The contact at the other end.
-    pub(super) rear: Option<EndTable>,
+    /// The contact at the end in the direction of `along`: what differs there.
+    #[cfg_attr(test, schemars(with = "Option<super::schema::EndTable>"))]
+    pub(super) front: Option<ContactTable>,
+    /// The contact at the other end: what differs there.
+    #[cfg_attr(test, schemars(with = "Option<super::schema::EndTable>"))]
+    pub(super) rear: Option<ContactTable>,
     /// Further contacts by their names, such as `middle = { at = "20 mm" }`: they are redundant, and share the load
     /// by play, stiffness and misalignment.
-    pub(super) supports: Option<BTreeMap<String, SupportTable>>,
+    #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::schema::SupportTable>>"))]
+    pub(super) supports: Option<BTreeMap<String, ContactTable>>,
 }
 
-/// What differs at one end of a block.
+/// A contact of a sliding joint, or what all of its contacts have in common.
 #[derive(Deserialize, Default)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
-pub(super) struct EndTable {
-    /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
-    pub(super) carried_by: Option<CarriedBy>,
-    /// Kinetic friction coefficient of this contact.
-    pub(super) mu: Option<PerSide>,
-    /// Static friction coefficient of this contact.
-    pub(super) mu_static: Option<PerSide>,
-    /// Preload of this contact.
-    pub(super) preload: Option<PerSide>,
-    /// Where the preload's friction acts.
-    pub(super) preload_line: Option<PreloadLine>,
-    /// Stiffness of the guide at this contact (N/m).
-    pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
-    /// press fit. Default: 0.
-    pub(super) play: Option<Quantity>,
-    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
-    /// a load; may depend on coordinates. Default: 0.
-    pub(super) misalignment: Option<Quantity>,
-    /// Area in contact at this contact, for the bearing pressure: { length = .., width = .. }.
-    pub(super) pad: Option<PadTable>,
-}
-
-/// A further contact of a block.
-#[derive(Deserialize)]
-#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
-pub(super) struct SupportTable {
+pub(super) struct ContactTable {
     /// Its place in the drawing: how far from the middle of the block in the direction of `along`.
-    pub(super) at: Quantity,
+    pub(super) at: Option<Quantity>,
     /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
     pub(super) carried_by: Option<CarriedBy>,
-    /// Kinetic friction coefficient of this contact.
-    pub(super) mu: Option<PerSide>,
-    /// Static friction coefficient of this contact.
-    pub(super) mu_static: Option<PerSide>,
-    /// Preload of this contact.
-    pub(super) preload: Option<PerSide>,
-    /// Where the preload's friction acts.
-    pub(super) preload_line: Option<PreloadLine>,
-    /// Stiffness of the guide at this contact (N/m).
-    pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
-    /// press fit. Default: 0.
-    pub(super) play: Option<Quantity>,
-    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
-    /// a load; may depend on coordinates. Default: 0.
-    pub(super) misalignment: Option<Quantity>,
-    /// Area in contact at this contact, for the bearing pressure: { length = .., width = .. }.
-    pub(super) pad: Option<PadTable>,
-}
-
-/// A slider with one normal force and a couple.
-#[derive(Deserialize)]
-#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
-pub(super) struct GuidedSliderTable {
-    /// The body that is the block, or "ground".
-    pub(super) block: Name,
-    /// The body that is the guide. Default: "ground".
-    pub(super) guide: Option<Name>,
-    /// Middle of the block on the guide's centre line, in the drawing: a point's name or [x, y].
-    pub(super) at: Place,
-    /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
-    pub(super) along: Direction,
-    /// Length of the pressed face; the couple is at most normal force times half of it.
-    pub(super) length: Quantity,
-    /// Distance of the two rubbing faces. Default: 0.
-    pub(super) height: Option<Quantity>,
-    /// "inside": the block is inside the guide (default); "around": it surrounds the guide.
-    pub(super) fit: Option<Fit>,
     /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
     pub(super) mu: Option<PerSide>,
     /// Static friction coefficient, not below `mu`. Default: `mu`.
@@ -256,7 +178,7 @@ pub(super) struct GuidedSliderTable {
     pub(super) preload: Option<PerSide>,
     /// Where the preload's friction acts: at the "pressed" face (default) or at the "centre" line.
     pub(super) preload_line: Option<PreloadLine>,
-    /// Stiffness of the guide at the contact (N/m).
+    /// Stiffness of the guide or slot at a contact (N/m).
     pub(super) stiffness: Option<Quantity>,
     /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
     /// press fit. Default: 0.
@@ -264,49 +186,9 @@ pub(super) struct GuidedSliderTable {
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
     pub(super) misalignment: Option<Quantity>,
-    /// Area in contact, for the bearing pressure: { width = .. }; its length is that of the pressed face
-    /// unless given.
+    /// Area in contact, for the bearing pressure: { length = .., width = .. }; a guided slider's has the length of
+    /// its pressed face unless it is given.
     pub(super) pad: Option<PadTable>,
-    /// Limits [least, greatest] of the slide displacement.
-    pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
-    /// }. Default: the motion ends there.
-    pub(super) stop: Option<StopTable>,
-}
-
-/// A pin in a slot.
-#[derive(Deserialize)]
-#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
-pub(super) struct PinInSlotTable {
-    /// The body that carries the pin, or "ground".
-    pub(super) block: Name,
-    /// The body that has the slot. Default: "ground".
-    pub(super) guide: Option<Name>,
-    /// The pin in the drawing: a point's name or [x, y].
-    pub(super) at: Place,
-    /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
-    pub(super) along: Direction,
-    /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
-    pub(super) mu: Option<PerSide>,
-    /// Static friction coefficient, not below `mu`. Default: `mu`.
-    pub(super) mu_static: Option<PerSide>,
-    /// Preload: friction force at zero normal force, F0 of eq. (2). Default: 0.
-    pub(super) preload: Option<PerSide>,
-    /// Stiffness of the slot at the contact (N/m).
-    pub(super) stiffness: Option<Quantity>,
-    /// Total play between the two faces (m), which counts where redundant contacts share a load; negative for a
-    /// press fit. Default: 0.
-    pub(super) play: Option<Quantity>,
-    /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
-    /// a load; may depend on coordinates. Default: 0.
-    pub(super) misalignment: Option<Quantity>,
-    /// Area in contact, for the bearing pressure: { length = .., width = .. }.
-    pub(super) pad: Option<PadTable>,
-    /// Limits [least, greatest] of the slide displacement.
-    pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
-    /// }. Default: the motion ends there.
-    pub(super) stop: Option<StopTable>,
 }
 
 /// The area in contact at a contact.
@@ -324,29 +206,25 @@ pub(super) struct PadTable {
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct StopTable {
-    /// Coefficient of restitution at both ends, from 0 to 1: the part of the velocity with which the block
-    /// comes back.
-    pub(super) restitution: Option<Quantity>,
-    /// Stiffness of the pads at both ends (N/m), in place of `restitution`.
-    pub(super) stiffness: Option<Quantity>,
-    /// Damping coefficient of the pads (N s/m). Default: 0.
-    pub(super) damping: Option<Quantity>,
-    /// The stop at the least displacement.
-    pub(super) least: Option<StopAtEndTable>,
-    /// The stop at the greatest displacement.
-    pub(super) greatest: Option<StopAtEndTable>,
-}
-
-/// What stops a block at one end of its travel.
-#[derive(Deserialize)]
-#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
-pub(super) struct StopAtEndTable {
-    /// Coefficient of restitution, from 0 to 1.
+    /// Coefficient of restitution, from 0 to 1: the part of the velocity with which the block comes back.
     pub(super) restitution: Option<Quantity>,
     /// Stiffness of a pad (N/m), in place of `restitution`.
     pub(super) stiffness: Option<Quantity>,
     /// Damping coefficient of the pad (N s/m). Default: 0.
     pub(super) damping: Option<Quantity>,
+    /// The stop at the least displacement.
+    #[cfg_attr(test, schemars(with = "Option<super::schema::StopAtEndTable>"))]
+    pub(super) least: Option<Box<StopTable>>,
+    /// The stop at the greatest displacement.
+    #[cfg_attr(test, schemars(with = "Option<super::schema::StopAtEndTable>"))]
+    pub(super) greatest: Option<Box<StopTable>>,
+}
+
+impl StopTable {
+    /// Whether it says nothing for both ends.
+    pub(super) fn is_empty(&self) -> bool {
+        self.restitution.is_none() && self.stiffness.is_none() && self.damping.is_none()
+    }
 }
 
 /// How block and guide lie in each other.

@@ -3,11 +3,14 @@
 //! The program reads `schema.json`. If the test says that it differs, this makes it anew:
 //! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > /tmp/schema.json`, to be moved here.
 
-use super::file::{BodyTable, CoordinateTable, DriveTable, EventTable, TableTable};
+use super::file::{
+    BodyTable, ContactTable, CoordinateTable, DriveTable, EventTable, HingeTable, SliderTable, StopTable,
+    TableTable,
+};
 use super::quantity::{
     Components, Direction, Gravity, Name, OutlinePlace, PerSide, Place, Quantity, Sides, Through,
 };
-use super::sections::{JointContents, LoadContents};
+use super::sections::LoadContents;
 use crate::units::UnitSystem;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
 use std::borrow::Cow;
@@ -39,7 +42,7 @@ struct ModelFile {
     /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
     bodies: BTreeMap<String, BodyTable>,
     /// Hinges and sliding joints, each between two bodies or a body and `ground`.
-    joints: BTreeMap<String, JointContents>,
+    joints: BTreeMap<String, JointTable>,
     /// Forces, torques, springs and dampers.
     loads: Option<BTreeMap<String, LoadContents>>,
     /// Prescribed motions, each with the unknown force or torque that produces it.
@@ -48,6 +51,82 @@ struct ModelFile {
     coordinates: Option<BTreeMap<String, CoordinateTable>>,
     /// What a motion in time is watched for, beside what the joints do.
     events: Option<BTreeMap<String, EventTable>>,
+}
+
+/// A joint between two bodies.
+#[derive(JsonSchema)]
+#[schemars(tag = "type", rename_all = "snake_case")]
+#[expect(dead_code, reason = "only its schema is used")]
+enum JointTable {
+    /// A hinge, without friction unless it is given.
+    Hinge(HingeTable),
+    /// A carriage, sledge or bushing with a contact at each end.
+    BlockSlider(BlockSliderTable),
+    /// A slider pressed on one side along its whole length: one normal force and a couple.
+    GuidedSlider(GuidedSliderTable),
+    /// A pin in a slot, free to rotate: one contact.
+    PinInSlot(PinInSlotTable),
+}
+
+/// A table that has some keys of others.
+macro_rules! some_keys {
+    ($name:ident: $($of:ty),+; without $without:expr; required $required:expr; $doc:literal) => {
+        pub(super) struct $name;
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                some_keys(&[$(<$of>::json_schema(generator)),+], &$without, &$required, $doc)
+            }
+        }
+    };
+}
+
+some_keys!(BlockSliderTable: ContactTable, SliderTable; without ["carried_by"]; required ["length"];
+    "A block with a contact at each end.");
+some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", "front", "rear", "supports"];
+    required ["length"]; "A slider with one normal force and a couple.");
+some_keys!(PinInSlotTable: ContactTable, SliderTable;
+    without ["carried_by", "front", "rear", "supports", "length", "height", "fit", "preload_line"];
+    required []; "A pin in a slot.");
+some_keys!(EndTable: ContactTable; without ["at"]; required []; "What differs at one end of a block.");
+some_keys!(SupportTable: ContactTable; without []; required ["at"]; "A further contact of a block.");
+some_keys!(StopAtEndTable: StopTable; without ["least", "greatest"]; required [];
+    "What stops a block at one end of its travel.");
+
+/// The keys of tables (those of the last where several have one), without some of them, and some more of them required.
+fn some_keys(tables: &[Schema], without: &[&str], required: &[&str], description: &str) -> Schema {
+    let mut keys = serde_json::Map::new();
+    let mut needed: Vec<serde_json::Value> = Vec::new();
+    for table in tables {
+        let properties = table.get("properties").and_then(|keys| keys.as_object()).expect("a table has keys");
+        keys.extend(properties.clone());
+        needed.extend(table.get("required").and_then(|keys| keys.as_array()).into_iter().flatten().cloned());
+    }
+    needed.extend(required.iter().map(|&key| key.into()));
+    keys.retain(|key, _| !without.contains(&key.as_str()));
+    for key in required {
+        let key = keys.get_mut(*key).expect("a required key is one of the table");
+        if let Some(not_null) = key["anyOf"].as_array().and_then(|kinds| kinds.first()).cloned() {
+            let description = key["description"].clone();
+            *key = serde_json::json!({ "description": description });
+            key.as_object_mut()
+                .expect("an object")
+                .extend(not_null.as_object().expect("a reference").clone());
+        }
+    }
+    let mut schema = json_schema!({
+        "additionalProperties": false,
+        "description": description,
+        "properties": keys,
+        "type": "object"
+    });
+    if !needed.is_empty() {
+        schema.insert("required".to_owned(), needed.into());
+    }
+    schema
 }
 
 impl JsonSchema for Name {

@@ -1,10 +1,11 @@
 //! The sections of a model file: TOML text to the tables of [`super::file`], entry by entry, so that one
 //! faulty entry hides no other.
 
+use super::SliderKind;
 use super::file::{
-    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, Entry, EventTable, ForceTable,
-    GuidedSliderTable, HingeTable, PinInSlotTable, SpringTable, TableTable, TorqueTable,
-    TorsionalDamperTable, TorsionalSpringTable,
+    BodyTable, ContactTable, CoordinateTable, DamperTable, DriveTable, Entry, EventTable, ForceTable,
+    HingeTable, SliderTable, SpringTable, TableTable, TorqueTable, TorsionalDamperTable,
+    TorsionalSpringTable,
 };
 use super::quantity::{Components, Gravity, Name, Quantity};
 use super::structure::StructureCheck;
@@ -34,17 +35,16 @@ pub(super) struct Sections {
 }
 
 /// A joint between two bodies.
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(test, schemars(tag = "type", rename_all = "snake_case", rename = "JointTable"))]
 pub(super) enum JointContents {
-    /// A hinge, without friction unless it is given.
     Hinge(Box<HingeTable>),
-    /// A carriage, sledge or bushing with a contact at each end.
-    BlockSlider(Box<BlockSliderTable>),
-    /// A slider pressed on one side along its whole length: one normal force and a couple.
-    GuidedSlider(Box<GuidedSliderTable>),
-    /// A pin in a slot, free to rotate: one contact.
-    PinInSlot(Box<PinInSlotTable>),
+    Slider(Box<SliderContents>),
+}
+
+/// A sliding joint: one table of the file, read as that of the joint and as that of its contacts.
+pub(super) struct SliderContents {
+    pub(super) kind: SliderKind,
+    pub(super) joint: SliderTable,
+    pub(super) contacts: ContactTable,
 }
 
 /// A force, torque, spring or damper.
@@ -219,12 +219,23 @@ fn type_of(value: Spanned<DeValue<'_>>) -> (String, Spanned<DeValue<'_>>) {
 
 fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> {
     let (kind, value) = type_of(value);
-    Ok(match kind.as_str() {
-        "hinge" => JointContents::Hinge(Box::new(deserialize(value)?)),
-        "block_slider" => JointContents::BlockSlider(Box::new(deserialize(value)?)),
-        "guided_slider" => JointContents::GuidedSlider(Box::new(deserialize(value)?)),
-        _ => JointContents::PinInSlot(Box::new(deserialize(value)?)),
-    })
+    let kind = match kind.as_str() {
+        "hinge" => return Ok(JointContents::Hinge(Box::new(deserialize(value)?))),
+        "block_slider" => SliderKind::Block,
+        "guided_slider" => SliderKind::Guided,
+        _ => SliderKind::Pin,
+    };
+    let joint = deserialize(value.clone())?;
+    let contacts = deserialize(without_place(value))?;
+    Ok(JointContents::Slider(Box::new(SliderContents { kind, joint, contacts })))
+}
+
+/// Takes the place of a joint out of its table: that of a contact is another kind of value.
+fn without_place(mut joint: Spanned<DeValue<'_>>) -> Spanned<DeValue<'_>> {
+    if let DeValue::Table(table) = joint.get_mut() {
+        table.remove("at");
+    }
+    joint
 }
 
 fn load(value: Spanned<DeValue<'_>>) -> Result<LoadContents, toml::de::Error> {
