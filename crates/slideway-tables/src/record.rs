@@ -2,8 +2,9 @@
 //! a Parquet file is made from.
 
 use crate::Layout;
+use slideway::report::Verdict;
 use slideway::report::defined;
-use slideway::sweep::{Breakpoint, PointStatus, RowKind, RowVerdict, Rows};
+use slideway::sweep::{Breakpoint, PointStatus, RowKind, Rows};
 
 /// A field of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -94,10 +95,10 @@ pub(crate) fn fields(layout: &Layout) -> Vec<Field> {
 /// Bytes of the longest word that tells this of a row.
 fn longest(meaning: Meaning) -> usize {
     let lengths: Vec<usize> = match meaning {
-        Meaning::Breakpoint => Breakpoint::ALL.map(|breakpoint| breakpoint.word().len()).to_vec(),
-        Meaning::Status => PointStatus::ALL.map(|status| status.word().len()).to_vec(),
-        Meaning::Kind => RowKind::ALL.map(|kind| kind.word().len()).to_vec(),
-        Meaning::Attainability => RowVerdict::ALL.map(|verdict| verdict.word().len()).to_vec(),
+        Meaning::Breakpoint => Breakpoint::ALL.iter().map(|breakpoint| breakpoint.word().len()).collect(),
+        Meaning::Status => PointStatus::ALL.iter().map(|status| status.word().len()).collect(),
+        Meaning::Kind => RowKind::ALL.iter().map(|kind| kind.word().len()).collect(),
+        Meaning::Attainability => Verdict::ALL.iter().map(|verdict| verdict.word().len()).collect(),
         Meaning::DeterminantSign => vec![1],
         _ => Vec::new(),
     };
@@ -166,15 +167,13 @@ mod tests {
             rejected: 0,
             kind: RowKind::Nothing,
             branch: 0,
-            verdict: RowVerdict::NotComputed,
+            verdict: Verdict::NotComputed,
             negative_determinant: None,
         };
-        let heads: Vec<RowHead> = Breakpoint::ALL
-            .map(|breakpoint| RowHead { breakpoint, ..head })
-            .into_iter()
-            .chain(PointStatus::ALL.map(|status| RowHead { status, ..head }))
-            .chain(RowKind::ALL.map(|kind| RowHead { kind, ..head }))
-            .chain(RowVerdict::ALL.map(|verdict| RowHead { verdict, ..head }))
+        let heads: Vec<RowHead> = (Breakpoint::ALL.iter().map(|&breakpoint| RowHead { breakpoint, ..head }))
+            .chain(PointStatus::ALL.iter().map(|&status| RowHead { status, ..head }))
+            .chain(RowKind::ALL.iter().map(|&kind| RowHead { kind, ..head }))
+            .chain(Verdict::ALL.iter().map(|&verdict| RowHead { verdict, ..head }))
             .collect();
         let patterns = vec![b'+'; heads.len()];
         let table = Rows {

@@ -25,3 +25,31 @@ pub trait Choice: Copy + PartialEq + 'static {
         found.map(|(choice, ..)| *choice)
     }
 }
+
+/// Declares an enumeration whose members have a word each in tables.
+macro_rules! worded {
+    ($(#[$about:meta])* pub enum $name:ident { $($(#[$meaning:meta])* $member:ident = $word:literal),+ $(,)? }) => {
+        $(#[$about])*
+        pub enum $name {
+            $($(#[$meaning])* $member),+
+        }
+
+        impl $name {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$member),+];
+
+            /// Its word in tables.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$member => $word),+
+                }
+            }
+
+            /// The one of this word.
+            pub fn of_word(word: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|member| member.word() == word)
+            }
+        }
+    };
+}
+pub(crate) use worded;

@@ -5,11 +5,9 @@
 use rstest::rstest;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{SolveReport, Status};
+use slideway::report::{SolveReport, Status, Verdict};
 use slideway::solve::solve;
-use slideway::sweep::{
-    Breakpoint, PointStatus, RowKind, RowVerdict, Rows, Sampling, Spread, Sweep, SweepOptions,
-};
+use slideway::sweep::{Breakpoint, PointStatus, RowKind, Rows, Sampling, Spread, Sweep, SweepOptions};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -379,7 +377,7 @@ fn attainability_is_that_of_the_theory() {
     let weight = 9.81;
     for row in 0..2 {
         let force = number(&sweep, rows, row, "normal_force.upper") / weight;
-        let expected = if force > 0.0 { RowVerdict::Attainable } else { RowVerdict::Unattainable };
+        let expected = if force > 0.0 { Verdict::Attainable } else { Verdict::Unattainable };
         let known = if force > 0.0 { 0.2625 } else { -1.8754 };
         assert!((force - known).abs() < 5e-5, "{force}");
         assert_eq!(rows.heads[row].verdict, expected);

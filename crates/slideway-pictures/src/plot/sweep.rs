@@ -3,8 +3,9 @@
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
 use super::limits;
 use slideway::limits::Quantity;
+use slideway::report::Verdict;
 use slideway::report::precise;
-use slideway::sweep::{Breakpoint, Line, PointStatus, RowKind, RowVerdict, Rows, Sweep};
+use slideway::sweep::{Breakpoint, Line, PointStatus, RowKind, Rows, Sweep};
 
 /// About as many points of a branch are kept: several for each pixel.
 const POINTS: u64 = 3000;
@@ -188,12 +189,12 @@ fn join(runs: &mut Vec<Run>, next: Run) {
     }
 }
 
-fn stroke(kind: RowKind, verdict: RowVerdict) -> Option<Stroke> {
+fn stroke(kind: RowKind, verdict: Verdict) -> Option<Stroke> {
     Some(match (kind, verdict) {
         (RowKind::PreloadGap, _) => Stroke::Dotted,
         (RowKind::Boundary, _) => return None,
-        (_, RowVerdict::Attainable) => Stroke::Solid,
-        (_, RowVerdict::Unattainable) => Stroke::Dashed,
+        (_, Verdict::Attainable) => Stroke::Solid,
+        (_, Verdict::Unattainable) => Stroke::Dashed,
         _ => Stroke::DashDotted,
     })
 }

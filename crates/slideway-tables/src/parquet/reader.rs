@@ -7,7 +7,8 @@ use ::parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use ::parquet::data_type::{ByteArray, DataType};
 use ::parquet::errors::ParquetError;
 use ::parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
-use slideway::sweep::{Breakpoint, PointStatus, RowHead, RowKind, RowVerdict, Rows, Sweep};
+use slideway::report::Verdict;
+use slideway::sweep::{Breakpoint, PointStatus, RowHead, RowKind, Rows, Sweep};
 use std::fs::File;
 use std::mem;
 
@@ -97,7 +98,7 @@ const HEAD: RowHead = RowHead {
     rejected: 0,
     kind: RowKind::Nothing,
     branch: 0,
-    verdict: RowVerdict::NotComputed,
+    verdict: Verdict::NotComputed,
     negative_determinant: None,
 };
 
@@ -169,7 +170,7 @@ fn put_word(rows: &mut Rows, row: usize, meaning: Meaning, word: &[u8]) -> Optio
         Meaning::Breakpoint => head.breakpoint = Breakpoint::of_word(text)?,
         Meaning::Status => head.status = PointStatus::of_word(text)?,
         Meaning::Kind => head.kind = RowKind::of_word(text)?,
-        Meaning::Attainability => head.verdict = RowVerdict::of_word(text)?,
+        Meaning::Attainability => head.verdict = Verdict::of_word(text)?,
         Meaning::DeterminantSign => {
             head.negative_determinant = match word {
                 b"-" => Some(true),

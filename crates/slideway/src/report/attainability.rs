@@ -1,21 +1,25 @@
 //! Whether a mechanism with slightly elastic guides settles on a solution, as plain data.
 
+use crate::choice::worded;
 use serde::Serialize;
 
-/// What becomes of a solution when the guides are slightly elastic (theory, section 7).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// All fast motions are stable: the mechanism settles on the solution.
-    Attainable,
-    /// Some fast motion leaves the solution whatever the damping of the contacts.
-    Unattainable,
-    /// A fast oscillation grows unless the contacts are damped enough.
-    Flutter,
-    /// The question has no definite answer; see the reason.
-    Undecided,
-    /// Not computed; see the reason.
-    NotComputed,
+worded! {
+    /// What becomes of a solution when the guides are slightly elastic (theory, section 7).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Verdict {
+        /// All fast motions are stable: the mechanism settles on the solution.
+        Attainable = "attainable",
+        /// Some fast motion leaves the solution whatever the damping of the contacts.
+        Unattainable = "unattainable",
+        /// A fast oscillation grows unless the contacts are damped enough.
+        Flutter = "flutter",
+        /// The question has no definite answer; see the reason.
+        Undecided = "undecided",
+        /// Not asked for, or not computed; see the reason.
+        #[default]
+        NotComputed = "",
+    }
 }
 
 /// The unit of the eigenvalues of the fast motion.

@@ -71,7 +71,7 @@ pub use columns::Column;
 pub use distribution::{Sampling, Spread};
 pub use line::Line;
 pub use options::{GridAxis, GridValues, SampledAxis, SampledValues, SweepOptions, SweepPoints};
-pub use rows::{Breakpoint, PointStatus, Refusal, RowHead, RowKind, RowVerdict, Rows};
+pub use rows::{Breakpoint, PointStatus, Refusal, RowHead, RowKind, Rows};
 pub use shard::{Shard, ShardFault};
 pub use summary::{Probability, Tally};
 

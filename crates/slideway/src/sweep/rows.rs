@@ -1,203 +1,85 @@
 //! Rows of a sweep: one for each state of each point.
 
-/// What became of a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PointStatus {
-    /// No solution: friction locks the mechanism.
-    None,
-    /// Exactly one.
-    One,
-    /// Several, each in its own contact mode.
-    Several,
-    /// Infinitely many.
-    Continuum,
-    /// No solution, but a state in a preload gap.
-    PreloadGap,
-    /// Nothing was found, but not every pattern could be decided.
-    Unknown,
-    /// The mechanism cannot be assembled there, or lies outside of its travel.
-    NoPosition,
-    /// `solve` refuses the point for another reason.
-    Refused,
+use crate::choice::worded;
+use crate::report::Verdict;
+
+worded! {
+    /// What became of a point.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum PointStatus {
+        /// No solution: friction locks the mechanism.
+        None = "none",
+        /// Exactly one.
+        One = "one",
+        /// Several, each in its own contact mode.
+        Several = "several",
+        /// Infinitely many.
+        Continuum = "continuum",
+        /// No solution, but a state in a preload gap.
+        PreloadGap = "preload_gap",
+        /// Nothing was found, but not every pattern could be decided.
+        Unknown = "unknown",
+        /// The mechanism cannot be assembled there, or lies outside of its travel.
+        NoPosition = "no_position",
+        /// `solve` refuses the point for another reason.
+        Refused = "refused",
+    }
 }
 
 impl PointStatus {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::None,
-        Self::One,
-        Self::Several,
-        Self::Continuum,
-        Self::PreloadGap,
-        Self::Unknown,
-        Self::NoPosition,
-        Self::Refused,
-    ];
-
-    /// Its word in tables; as in the report of `solve` where that has it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::One => "one",
-            Self::Several => "several",
-            Self::Continuum => "continuum",
-            Self::PreloadGap => "preload_gap",
-            Self::Unknown => "unknown",
-            Self::NoPosition => "no_position",
-            Self::Refused => "refused",
-        }
-    }
-
-    /// The one of this word.
-    pub fn of_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|status| status.word() == word)
-    }
-
     /// Whether there is an answer at the point.
     pub fn is_solved(self) -> bool {
         !matches!(self, Self::NoPosition | Self::Refused)
     }
 }
 
-/// What a row tells of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RowKind {
-    /// A point without any state.
-    #[default]
-    Nothing,
-    /// A solution inside of its contact mode.
-    Solution,
-    /// A solution with some normal force or determinant that is zero within rounding.
-    Boundary,
-    /// A state with a contact between its faces.
-    PreloadGap,
-    /// A corner of infinitely many solutions.
-    Continuum,
-    /// A mode of which it cannot be told whether it has a solution.
-    Undecided,
-}
-
-impl RowKind {
-    /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Nothing, Self::Solution, Self::Boundary, Self::PreloadGap, Self::Continuum, Self::Undecided];
-
-    /// Its word in tables; nothing for [`Self::Nothing`].
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Nothing => "",
-            Self::Solution => "solution",
-            Self::Boundary => "boundary",
-            Self::PreloadGap => "preload_gap",
-            Self::Continuum => "continuum",
-            Self::Undecided => "undecided",
-        }
-    }
-
-    /// The one of this word.
-    pub fn of_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.word() == word)
+worded! {
+    /// What a row tells of.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum RowKind {
+        /// A point without any state.
+        #[default]
+        Nothing = "",
+        /// A solution inside of its contact mode.
+        Solution = "solution",
+        /// A solution with some normal force or determinant that is zero within rounding.
+        Boundary = "boundary",
+        /// A state with a contact between its faces.
+        PreloadGap = "preload_gap",
+        /// A corner of infinitely many solutions.
+        Continuum = "continuum",
+        /// A mode of which it cannot be told whether it has a solution.
+        Undecided = "undecided",
     }
 }
 
-/// What is exact about a point that was inserted: where a mode begins or ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Breakpoint {
-    /// An ordinary point.
-    #[default]
-    No,
-    /// A determinant vanishes, and no solution is left on the other side: friction locks the mechanism.
-    Locking,
-    /// A determinant vanishes, so normal forces of a mode grow without bound; there are other solutions on
-    /// both sides.
-    WithoutBound,
-    /// A normal force vanishes.
-    SideChange,
-    /// The preload friction has moved to one face.
-    GapCloses,
-    /// A guided slider tips.
-    Tipping,
-    /// Two solutions with friction in hinges merge and end; the point lies 1e-10 of the range inside, where both exist.
-    Fold,
-    /// The force of a hinge with friction vanishes.
-    HingeUnloaded,
-    /// Beyond it there is no position, or a value that is not allowed; the point has no states itself.
-    NotSolved,
-}
-
-impl Breakpoint {
-    /// All of them.
-    pub const ALL: [Self; 9] = [
-        Self::No,
-        Self::Locking,
-        Self::WithoutBound,
-        Self::SideChange,
-        Self::GapCloses,
-        Self::Tipping,
-        Self::Fold,
-        Self::HingeUnloaded,
-        Self::NotSolved,
-    ];
-
-    /// Its word in tables; nothing for an ordinary point.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::No => "",
-            Self::Locking => "locking",
-            Self::WithoutBound => "without_bound",
-            Self::SideChange => "side_change",
-            Self::GapCloses => "gap_closes",
-            Self::Tipping => "tipping",
-            Self::Fold => "fold",
-            Self::HingeUnloaded => "hinge_unloaded",
-            Self::NotSolved => "not_solved",
-        }
-    }
-
-    /// The one of this word.
-    pub fn of_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|breakpoint| breakpoint.word() == word)
-    }
-}
-
-/// Whether a mechanism with slightly elastic guides settles on a state (theory, section 7).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum RowVerdict {
-    /// It was not asked for, or cannot be told.
-    #[default]
-    NotComputed,
-    /// It does.
-    Attainable,
-    /// It does, if contacts damp enough.
-    Flutter,
-    /// It never does.
-    Unattainable,
-    /// The eigenvalues do not tell.
-    Undecided,
-}
-
-impl RowVerdict {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::NotComputed, Self::Attainable, Self::Flutter, Self::Unattainable, Self::Undecided];
-
-    /// Its word in tables; nothing where it was not computed.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::NotComputed => "",
-            Self::Attainable => "attainable",
-            Self::Flutter => "flutter",
-            Self::Unattainable => "unattainable",
-            Self::Undecided => "undecided",
-        }
-    }
-
-    /// The one of this word.
-    pub fn of_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|verdict| verdict.word() == word)
+worded! {
+    /// What is exact about a point that was inserted: where a mode begins or ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Breakpoint {
+        /// An ordinary point.
+        #[default]
+        No = "",
+        /// A determinant vanishes, and no solution is left on the other side: friction locks the mechanism.
+        Locking = "locking",
+        /// A determinant vanishes, so normal forces of a mode grow without bound; there are other solutions on
+        /// both sides.
+        WithoutBound = "without_bound",
+        /// A normal force vanishes.
+        SideChange = "side_change",
+        /// The preload friction has moved to one face.
+        GapCloses = "gap_closes",
+        /// A guided slider tips.
+        Tipping = "tipping",
+        /// Two solutions with friction in hinges merge and end; the point lies 1e-10 of the range inside, where both exist.
+        Fold = "fold",
+        /// The force of a hinge with friction vanishes.
+        HingeUnloaded = "hinge_unloaded",
+        /// Beyond it there is no position, or a value that is not allowed; the point has no states itself.
+        NotSolved = "not_solved",
     }
 }
 
@@ -223,7 +105,7 @@ pub struct RowHead {
     /// Number of the branch, from 1; 0 if there is none.
     pub branch: u32,
     /// Whether the state is attainable.
-    pub verdict: RowVerdict,
+    pub verdict: Verdict,
     /// Whether the determinant of the mode is negative; nothing if it is not known.
     pub negative_determinant: Option<bool>,
 }

@@ -1,9 +1,11 @@
 //! Rows of a point from the report of a careful search.
 
 use super::evaluator::{Plan, Point};
-use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
-use super::writer::{head, number_in_modes, verdict};
-use crate::report::{CertificateKind, Continuum, DrivenMotion, Hinge, Solution, SolveReport, Status};
+use super::rows::{PointStatus, RowHead, RowKind, Rows};
+use super::writer::{head, number_in_modes};
+use crate::report::{
+    CertificateKind, Continuum, DrivenMotion, Hinge, Solution, SolveReport, Status, Verdict,
+};
 
 /// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.
 pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &mut Rows) {
@@ -84,9 +86,9 @@ impl Telling<'_> {
                 negative_determinant: (kind == RowKind::Solution || kind == RowKind::PreloadGap)
                     .then_some(state.determinant < 0.0),
                 verdict: if self.plan.attainability {
-                    verdict(state.attainability.verdict)
+                    state.attainability.verdict
                 } else {
-                    RowVerdict::NotComputed
+                    Verdict::NotComputed
                 },
                 ..head(self.point, self.status)
             },

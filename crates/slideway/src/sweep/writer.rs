@@ -2,7 +2,7 @@
 
 use super::columns::CoupleColumn;
 use super::evaluator::{Plan, Point};
-use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
+use super::rows::{PointStatus, RowHead, RowKind, Rows};
 use super::stages::Stages;
 use crate::attainability::ElasticGuides;
 use crate::influence::HingeState;
@@ -196,9 +196,9 @@ impl Writer<'_> {
     }
 
     /// The verdict on a solution, if it was asked for; states between the faces of determinate guides have none.
-    fn verdict(&self, pattern: &[ContactState]) -> RowVerdict {
-        let Some(guides) = &self.guides else { return RowVerdict::NotComputed };
-        verdict(guides.verdict_on(pattern))
+    fn verdict(&self, pattern: &[ContactState]) -> Verdict {
+        let Some(guides) = &self.guides else { return Verdict::NotComputed };
+        guides.verdict_on(pattern)
     }
 }
 
@@ -227,17 +227,7 @@ pub(super) fn head(point: Point<'_>, status: PointStatus) -> RowHead {
         rejected: 0,
         kind: RowKind::Nothing,
         branch: 0,
-        verdict: RowVerdict::NotComputed,
+        verdict: Verdict::NotComputed,
         negative_determinant: None,
-    }
-}
-
-pub(super) fn verdict(verdict: Verdict) -> RowVerdict {
-    match verdict {
-        Verdict::Attainable => RowVerdict::Attainable,
-        Verdict::Unattainable => RowVerdict::Unattainable,
-        Verdict::Flutter => RowVerdict::Flutter,
-        Verdict::Undecided => RowVerdict::Undecided,
-        Verdict::NotComputed => RowVerdict::NotComputed,
     }
 }
