@@ -79,17 +79,16 @@
 //! - `findings/`: what patterns admit, collected and counted; patterns decided within tolerances.
 //! - All patterns: `search/` finds and proves all solutions of exact problems and of problems within bounds
 //!   (groups of contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank
-//!   coupling, otherwise branch and bound with interval propagation and a linear relaxation). `exhaustive/`
-//!   screens every pattern with a rigorous error bound. `enumeration.rs` is the tree within tolerances, which
+//!   coupling, otherwise branch and bound with interval propagation and a linear relaxation). `enumeration.rs` is the tree within tolerances, which
 //!   maps use and tests compare with. `uniqueness/` decides whether every load has exactly one solution.
-//! - Very many points: `batch/` (one structure with varying friction), `screen.rs` (small problems one after
-//!   another).
+//! - Very many points: `screen.rs` (small problems one after another).
 //! - Hinges with friction: `blocks/`, problems with unknowns of two components.
 //! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without
 //!   scanning. `branches/` follows the solutions of problems with hinges.
 //! - `raw_problem/`: problems in their original form.
 
-pub mod batch;
+#![forbid(unsafe_code)]
+
 pub mod blocks;
 pub mod branches;
 pub mod certificate;
@@ -97,7 +96,6 @@ mod combinations;
 mod dense;
 mod enumeration;
 mod error_free;
-pub mod exhaustive;
 pub mod existence;
 mod findings;
 pub mod interval;

@@ -148,7 +148,7 @@ impl CompensatedSum {
         let product = one * other;
         let sum = self.sum + product;
         self.correction +=
-            sum_remainder(self.sum, product, sum) + product_remainder::<true>(one, other, product);
+            sum_remainder(self.sum, product, sum) + product_remainder(one, other, product);
         self.sum = sum;
         self.size += product.abs();
     }
