@@ -20,7 +20,9 @@ mod tests {
     /// The oracle are whole numbers of 128 bits.
     #[test]
     fn rounded_and_remainder_make_the_whole() {
-        for (one, other) in [(9_007_199_254_740_991_i128, 3_i128), (-(1 << 53) + 1, (1 << 52) + 7), (1, 1 << 60)] {
+        for (one, other) in
+            [(9_007_199_254_740_991_i128, 3_i128), (-(1 << 53) + 1, (1 << 52) + 7), (1, 1 << 60)]
+        {
             let [a, b] = [one, other].map(|whole| whole as f64);
             assert_eq!((a as i128, b as i128), (one, other), "numbers that are not rounded");
             let (sum, product) = (a + b, a * b);

@@ -44,7 +44,10 @@ impl From<Side> for ContactState {
 }
 
 /// The next pattern, with the last contact changing fastest; `false` after the last one.
-pub(crate) fn advance<'s>(pattern: &mut [ContactState], states: impl Fn(usize) -> &'s [ContactState]) -> bool {
+pub(crate) fn advance<'s>(
+    pattern: &mut [ContactState],
+    states: impl Fn(usize) -> &'s [ContactState],
+) -> bool {
     for contact in (0..pattern.len()).rev() {
         match states(contact).get(pattern[contact] as usize + 1) {
             Some(&next) => {

@@ -2,8 +2,8 @@
 
 use super::ColourBy;
 use crate::fault::{FaultKind, Faults};
-use crate::modes::existence::{ExistenceOptions, counts};
 use crate::modes::ContactState;
+use crate::modes::existence::{ExistenceOptions, counts};
 use crate::progress::Work;
 use crate::report::SpeedChange;
 use crate::solve::{AT_ONCE, Parts, StateWithinTolerances, pattern};
@@ -205,7 +205,8 @@ fn states(point: &Point, work: Work<'_>) -> Option<States> {
     let parts = &point.parts;
     let found = parts.states_within_tolerances(&mut |_| work.flow())?;
     let mut told: Vec<&StateWithinTolerances> = Vec::new();
-    let mut states = States { gaps: point.between_faces.clone(), continuum: found.continuum, ..States::default() };
+    let mut states =
+        States { gaps: point.between_faces.clone(), continuum: found.continuum, ..States::default() };
     for state in &found.states {
         let StateWithinTolerances { sides, force, zero, shares } = state;
         let is_solution = parts.is_solution(sides);

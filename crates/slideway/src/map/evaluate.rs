@@ -277,8 +277,7 @@ mod tests {
                         let (forwards, opposite) = (at(&model), at(&backwards));
                         let [forwards, opposite] =
                             [&forwards, &opposite].map(|answer| answer.as_ref().map_err(|reason| *reason));
-                        let expected =
-                            undisturbed(|work| class(colour_by, forwards, Some(opposite), work));
+                        let expected = undisturbed(|work| class(colour_by, forwards, Some(opposite), work));
                         assert_eq!(found, ClassKey(expected), "{name} {colour_by:?} at {values:?}");
                     }
                 }

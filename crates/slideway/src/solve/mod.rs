@@ -53,8 +53,7 @@ pub(crate) use hinges::{
 pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, preload_columns, sides, sliding_signs,
-    without_rounding,
+    NO_INFLUENCE, SAME_COLUMN, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;

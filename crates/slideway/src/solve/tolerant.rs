@@ -2,7 +2,9 @@
 
 use crate::kinetics::Accuracy;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
-use crate::modes::{Completeness, ContactState, ModeProblem, OpenContacts, SearchOptions, StateLists, search};
+use crate::modes::{
+    Completeness, ContactState, ModeProblem, OpenContacts, SearchOptions, StateLists, search,
+};
 use crate::progress::Callback;
 use nalgebra::DVector;
 

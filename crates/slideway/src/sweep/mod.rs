@@ -171,15 +171,8 @@ impl Sweep {
         let friction = FrictionFormulas::new(model, &varied)?;
         let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
         let attainability = options.attainability;
-        let mut plan = Plan {
-            model: model.clone(),
-            mechanism,
-            varied,
-            columns,
-            friction,
-            attainability,
-            stages: None,
-        };
+        let mut plan =
+            Plan { model: model.clone(), mechanism, varied, columns, friction, attainability, stages: None };
         plan.prepare();
         let samples = match &options.points {
             SweepPoints::Grid(_) => None,
