@@ -60,7 +60,7 @@ pub enum ClassMeaning {
     },
     /// Infinitely many solutions.
     Continuum,
-    /// Too many patterns to try all of them.
+    /// Too many patterns or solutions to find all of them.
     TooLarge,
     /// There is no mode problem, for this reason.
     NotSolved {
