@@ -1,7 +1,8 @@
 //! Loads that are much faster than the steps: nothing passes unseen.
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
-use crate::model::Model;
-use crate::motion::{Cause, End, History, SimulateOptions, simulate};
+use slideway::model::Model;
+use slideway::motion::{Cause, End, History, SimulateOptions, simulate};
 use std::f64::consts::TAU;
 
 const G: f64 = 9.81;
