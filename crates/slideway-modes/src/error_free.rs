@@ -19,6 +19,7 @@ mod tests {
 
     /// The oracle are whole numbers of 128 bits.
     #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "whole numbers below 2^127")]
     fn rounded_and_remainder_make_the_whole() {
         for (one, other) in
             [(9_007_199_254_740_991_i128, 3_i128), (-(1 << 53) + 1, (1 << 52) + 7), (1, 1 << 60)]
