@@ -40,8 +40,10 @@ def make(options):
     folders = defaultdict(list)
     for command in every_command():
         folders[command.folder or command.name].append(command)
+    # Commands of one folder may need those before them.
+    wanted = [commands for commands in folders.values() if any(re.search(options.only, command.name) for command in commands)]
     with ThreadPoolExecutor(options.jobs) as pool:
-        results = [result for part in pool.map(lambda commands: run_in_folder(program, commands), folders.values()) for result in part]
+        results = [result for part in pool.map(lambda commands: run_in_folder(program, commands), wanted) for result in part]
     results.sort(key=lambda result: result["command"])
     options.store.write_text("".join(json.dumps(result) + "\n" for result in results))
     late = sum(result["exit"] == "over its limit" for result in results)
@@ -96,7 +98,7 @@ def masked(value):
 # Comparing
 
 def compare(options):
-    before, after = load(options.before), load(options.after)
+    before, after = load(options.before, options.only), load(options.after, options.only)
     lists = {"only in the first": before.keys() - after.keys(), "only in the second": after.keys() - before.keys()}
     differing, rounded = 0, 0
     for name in sorted(before.keys() & after.keys()):
@@ -114,8 +116,9 @@ def compare(options):
     sys.exit(1 if differing or any(lists.values()) else 0)
 
 
-def load(store):
-    return {result.pop("command"): result for result in map(json.loads, store.read_text().splitlines())}
+def load(store, only):
+    results = {result.pop("command"): result for result in map(json.loads, store.read_text().splitlines())}
+    return {name: result for name, result in results.items() if re.search(only, name)}
 
 
 def tell(name, found):
@@ -171,6 +174,8 @@ def main():
     comparer.add_argument("after", type=Path)
     comparer.add_argument("--rounding", action="store_true", help=f"also print what differs only within {ROUNDING:g}")
     comparer.set_defaults(action=compare)
+    for action in (maker, comparer):
+        action.add_argument("--only", default="", help="commands that match this regular expression")
     options = parser.parse_args()
     options.action(options)
 
