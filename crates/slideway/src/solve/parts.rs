@@ -258,8 +258,7 @@ impl Parts {
     /// Whether elimination excludes that a normal force vanishes, or nearly, in a solution of some pattern:
     /// then no contact is between its faces but in a pattern that says so.
     pub(crate) fn is_off_boundaries(&self, accuracy: Accuracy) -> bool {
-        self.problem()
-            .is_ok_and(|problem| screened(&problem, &self.open, accuracy, |states| states.len()).is_some())
+        self.problem().is_ok_and(|problem| screened(&problem, &self.open, accuracy, |_| ()).is_some())
     }
 
     /// All states of the mode problem: by elimination, or by a search within tolerances where that leaves a pattern in
