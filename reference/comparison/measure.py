@@ -43,7 +43,7 @@ class Run:
         log(instance.name)
         path = instance.save(self.folder)
         result = {"family": instance.family, "size": instance.size}
-        own = rivals.slideway(self.program, path, self.limit, MOST_TRIED, MOST_CUTS, self.environment)
+        own = rivals.slideway(self.program, path, self.limit, MOST_CUTS, self.environment)
         result["slideway"] = own
         if instance.size <= MOST_TRIED:
             result |= self.every_pattern(instance)
@@ -55,7 +55,7 @@ class Run:
         """The codes that do not need regular matrices, on an instance whose solutions patterns do not tell apart."""
         log(instance.name)
         path = instance.save(self.folder)
-        own = rivals.slideway(self.program, path, self.limit, 0, MOST_CUTS, self.environment)
+        own = rivals.slideway(self.program, path, self.limit, MOST_CUTS, self.environment)
         result = {"family": instance.family, "size": instance.size, "slideway": own}
         if instance.size <= MOST_TRIED:
             try:
@@ -111,7 +111,7 @@ class Run:
         steps = []
         for size in family.ladder:
             path = family.make(name, size).save(self.folder)
-            own = rivals.slideway(self.program, path, limit, 0, 0, self.environment)
+            own = rivals.slideway(self.program, path, limit, 0, self.environment)
             path.unlink()
             search = own["search"]
             steps.append({"size": size, "seconds": search["seconds"], "outcome": search["outcome"]})
@@ -129,7 +129,7 @@ def disagreements(result):
     if not search["complete"] or len(ours) != int(search["count"]):
         return []
     found = []
-    others = {"exhaustive proof": own["exhaustive"]["solutions"] + own["exhaustive"]["boundary"]} if own["exhaustive"] else {}
+    others = {}
     for name in ("lu_lapack", "lu_numpy", "lcp_enum"):
         each = result.get(name)
         if each and each["all"] and "patterns" in each:

@@ -33,10 +33,9 @@ def _json_of(command, environment, timeout=None):
     return json.loads(output.stdout)
 
 
-def slideway(program, path, time_limit, exhaustive, listed, environment):
-    """Search and, up to so many unknowns, exhaustive proof; lists so many solutions at most."""
-    limits = ["--time-limit", time_limit, "--exhaustive", exhaustive, "--listed", listed]
-    command = [program, "solve", *limits, path]
+def slideway(program, path, time_limit, listed, environment):
+    """The search; lists so many solutions at most."""
+    command = [program, "solve", "--time-limit", time_limit, "--listed", listed, path]
     result = _json_of(command, environment)
     result["patterns"] = [signs(values) for values in result["search"].pop("solutions")]
     return result

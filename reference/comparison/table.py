@@ -23,18 +23,17 @@ def rows(header, lines):
 
 def all_solutions(results):
     """Times to all solutions."""
-    header = ["instance", "solutions", "search", "proof of all patterns", "HiGHS", "lcp_enum", "LU, compiled", "LU, NumPy"]
+    header = ["instance", "solutions", "search", "HiGHS", "lcp_enum", "LU, compiled", "LU, NumPy"]
     return rows(header, [_line(result) for result in results])
 
 
 def _line(result):
     own = result["slideway"]
-    search, exhaustive = own["search"], own["exhaustive"]
+    search = own["search"]
     partial = "" if search["complete"] else " or more"
-    every = seconds(exhaustive["prove_seconds"]) if exhaustive else "–"
     tried = [_every(result.get(code)) for code in ("lcp_enum", "lu_lapack", "lu_numpy")]
     name = f"{result['family']} {result['size']}"
-    return [name, count(search["count"]) + partial, _search(search), every, _highs(result["highs"]), *tried]
+    return [name, count(search["count"]) + partial, _search(search), _highs(result["highs"]), *tried]
 
 
 def by_cells(results):
@@ -91,15 +90,12 @@ def _every(code):
 
 def per_pattern(results):
     """Nanoseconds for each pattern of the codes that try them all."""
-    header = ["instance", "slideway, screening", "slideway, proof", "LU, compiled", "lcp_enum", "LU, NumPy"]
+    header = ["instance", "LU, compiled", "lcp_enum", "LU, NumPy"]
     lines = []
     for result in results:
-        exhaustive = result["slideway"]["exhaustive"]
-        if not exhaustive:
+        if "lu_lapack" not in result:
             continue
-        patterns = 2.0 ** result["size"]
-        own = [exhaustive[key] / patterns for key in ("screen_seconds", "prove_seconds")]
-        measured = [f"{1e9 * time:.3g}" for time in own]
+        measured = []
         for code in ("lu_lapack", "lcp_enum", "lu_numpy"):
             text = f"{1e9 * result[code]['per_pattern']:.0f}"
             measured.append(text if result[code]["all"] else f"*{text}*")

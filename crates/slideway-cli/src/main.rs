@@ -1,5 +1,7 @@
 //! The command line of slideway: arguments, files, colours; everything else is the library's.
 
+#![forbid(unsafe_code)]
+
 mod arguments;
 mod columns;
 mod commands;

@@ -34,29 +34,29 @@
 //! sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k},   y >= 0
 //! ```
 //!
-//! (Klepp (2002), eqs. (6) and (8); theory, section 3). [`ModeProblem`] holds these numbers, [`enumerate`]
-//! tries all `2^r` patterns of sides, and [`Solutions`] reports the outcome of each of them. Nothing here
+//! (Klepp (2002), eqs. (6) and (8); theory, section 3). [`ModeProblem`] holds these numbers, [`search`]
+//! finds and proves all solutions, and [`enumerate`], with which the tests compare, solves each of the `2^r` patterns of
+//! sides by itself and reports all outcomes ([`Solutions`]). Nothing here
 //! depends on mechanisms: absolute value equations and linear complementarity problems have constructors of
 //! their own.
 //!
-//! # Method
-//! Patterns are the leaves of a binary tree that decides the side of one contact per level, with one
-//! elimination step per node (theory, section 4): constant work per pattern on average. A leaf is dropped at
-//! its first negative `y_k`. Every remaining leaf is solved again by LU factorization and one step of
-//! iterative refinement.
-//!
 //! # Accuracy
+//! This concerns what is solved within tolerances: [`enumerate`], [`screen`](crate::screen), and a search without
+//! certificates. A pattern is solved by LU factorization and one step of iterative refinement; where very many problems
+//! of few contacts are solved, patterns are the leaves of a binary tree that decides the side of one contact per level,
+//! with one elimination step per node (theory, section 4): constant work per pattern on average.
+//!
 //! Rows are scaled by powers of two so that the largest coefficient is between 1/2 and 1, and loads so that
 //! the largest load is between 1/2 and 1; the outcome therefore does not depend on their units. Then
 //!
-//! - a leaf is dropped if `y_k < -1e-9 m_k`, where `m_k >= |y_k|` is the result of back-substitution with
-//!   absolute values;
-//! - a `y_k` of a remaining leaf counts as zero if it is below `1e-12 max |y|` plus the bound
+//! - a leaf of the tree is dropped if `y_k < -1e-9 m_k`, where `m_k >= |y_k|` is the result of back-substitution with
+//!   absolute values, and the whole problem is in doubt if some `y_k` is within that of zero, or a pivot below `1e-7`
+//!   times the largest entry of its column;
+//! - a `y_k` of a pattern that is solved by itself counts as zero if it is below `1e-12 max |y|` plus the bound
 //!   `8 eps (|C^-1| (|C| |y| + |N(0)| + sum |d|))_k` on the effect of rounding in the data (for a share
 //!   `lambda`: 1e-12 plus the bound);
-//! - a pivot below `1e-7` times the largest entry of its column makes all patterns below it suspect. They are
-//!   examined one by one with complete pivoting; a pattern is singular (`D = 0`) if a pivot is below `1e-12`,
-//!   with columns scaled to a largest entry of 1;
+//! - a pattern whose matrix has a condition number above `1e7` is examined with complete pivoting; it is singular
+//!   (`D = 0`) if a pivot is below `1e-12`, with columns scaled to a largest entry of 1;
 //! - the equations of a singular pattern are consistent if they hold to `1e-10`, and its `z >= 0` is tested
 //!   to `1e-9`, both in scaled units.
 //!
@@ -79,17 +79,16 @@
 //! - `findings/`: what patterns admit, collected and counted; patterns decided within tolerances.
 //! - All patterns: `search/` finds and proves all solutions of exact problems and of problems within bounds
 //!   (groups of contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank
-//!   coupling, otherwise branch and bound with interval propagation and a linear relaxation). `exhaustive/`
-//!   screens every pattern with a rigorous error bound. `enumeration.rs` is the tree within tolerances, which
-//!   maps use and tests compare with. `uniqueness/` decides whether every load has exactly one solution.
-//! - Very many points: `batch/` (one structure with varying friction), `screen.rs` (small problems one after
-//!   another).
+//!   coupling, otherwise branch and bound with interval propagation and a linear relaxation). `enumeration.rs` solves
+//!   every pattern by itself, with which tests compare. `uniqueness/` decides whether every load has exactly one solution.
+//! - Very many points: `screen.rs` (small problems one after another).
 //! - Hinges with friction: `blocks/`, problems with unknowns of two components.
 //! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without
 //!   scanning. `branches/` follows the solutions of problems with hinges.
 //! - `raw_problem/`: problems in their original form.
 
-pub mod batch;
+#![forbid(unsafe_code)]
+
 pub mod blocks;
 pub mod branches;
 pub mod certificate;
@@ -97,7 +96,6 @@ mod combinations;
 mod dense;
 mod enumeration;
 mod error_free;
-pub mod exhaustive;
 pub mod existence;
 mod findings;
 pub mod interval;

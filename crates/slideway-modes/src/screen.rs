@@ -1,18 +1,18 @@
-//! Small problems one after another in reused memory: the tree of [`crate::enumerate`] without its detailed
-//! results.
+//! Small problems one after another in reused memory.
 //!
 //! A sweep asks for the solutions of very many problems with the same few contacts. Nearly all of them are
 //! far from any boundary, where elimination alone decides every pattern. This tree allocates nothing, and
 //! gives up the whole problem as soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a
 //! problem needs the careful search.
 
-use crate::enumeration::{self, SUSPECT_PIVOT};
 use crate::problem::{ContactState, ModeProblem, OpenContacts, Side};
 
 /// Largest number of contacts.
 pub const MOST_CONTACTS: usize = 8;
 /// Unknowns within this fraction of the size of their terms are in doubt.
-pub const SLACK: f64 = enumeration::SLACK;
+pub const SLACK: f64 = 1e-9;
+/// A pivot below this fraction of its column's largest entry leaves the problem in doubt.
+const SUSPECT_PIVOT: f64 = 1e-7;
 /// The right-hand side, and three columns for each contact.
 const WIDTH: usize = 1 + 3 * MOST_CONTACTS;
 

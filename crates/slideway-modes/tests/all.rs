@@ -3,7 +3,6 @@
 //! One program, so that the library is linked once for all of them. A file of this folder is a module here, a
 //! folder with a `main.rs` is a program of its own; `architecture.rs` sees to it that none is forgotten.
 
-mod exhaustive;
 mod existence;
 mod fuzz_findings;
 mod games;
@@ -15,7 +14,6 @@ mod large_cells;
 mod mixed_continua;
 mod mixed_problems;
 mod modes;
-mod modes_batch;
 mod modes_degenerate;
 mod modes_klepp_2002;
 mod modes_uniqueness;

@@ -7,6 +7,8 @@
 //! # Features
 //! - `png` (on unless told otherwise): pictures of pixels, `raster` and [`motion::Animation::to_gif`].
 
+#![forbid(unsafe_code)]
+
 mod coordinate;
 pub mod drawing;
 pub mod map;

@@ -25,6 +25,8 @@
 //! - `parquet`: Parquet files, and shards. Its library takes long to build.
 //! - `arrow`: tables as Apache Arrow, for data frames in the same process.
 
+#![forbid(unsafe_code)]
+
 #[cfg(feature = "arrow")]
 pub mod arrow;
 mod command;

@@ -1,14 +1,13 @@
 //! Times the searches of this library on files of problems, for `reference/comparison/compare.py`.
 //!
 //! ```text
-//! compare solve [--time-limit SECONDS] [--exhaustive MOST] [--listed MOST] FILE...
+//! compare solve [--time-limit SECONDS] [--listed MOST] FILE...
 //! compare boom STAGES [PARAMETER=VALUE]...
 //! compare example
 //! ```
 //!
-//! `solve` reads problems as `slideway modes` does and prints one line of JSON for each: the time of
-//! `modes::search`, and of `exhaustive::screen` and `exhaustive::prove` if there are at most `MOST`
-//! unknowns. Reading is not timed. `boom` prints the mode problem of the gallery's telescopic boom.
+//! `solve` reads problems as `slideway modes` does and prints one line of JSON for each, with the time of
+//! `modes::search`. Reading is not timed. `boom` prints the mode problem of the gallery's telescopic boom.
 #![allow(clippy::print_stdout, reason = "a program that prints its results")]
 
 use std::error::Error;
@@ -24,8 +23,7 @@ use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
-use slideway::modes::certificate::{Decision, Propagation, propagate};
-use slideway::modes::exhaustive::{prove, screen};
+use slideway::modes::certificate::{Propagation, propagate};
 use slideway::modes::{Completeness, ModeProblem, SearchOptions, SearchResult, Side, StateKind, search};
 use slideway::raw_problem::RawProblem;
 use slideway::solve::mode_problem;
@@ -51,18 +49,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// What to do with every file.
 struct Options {
     time_limit: Duration,
-    exhaustive: usize,
     listed: usize,
 }
 
 fn solve(mut arguments: impl Iterator<Item = String>) -> Result<(), Box<dyn Error>> {
-    let mut options = Options { time_limit: Duration::from_mins(1), exhaustive: 0, listed: 10_000 };
+    let mut options = Options { time_limit: Duration::from_mins(1), listed: 10_000 };
     let mut files = Vec::new();
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().ok_or_else(|| format!("`{argument}` needs a value"));
         match argument.as_str() {
             "--time-limit" => options.time_limit = Duration::try_from_secs_f64(value()?.parse()?)?,
-            "--exhaustive" => options.exhaustive = value()?.parse()?,
             "--listed" => options.listed = value()?.parse()?,
             _ => files.push(argument),
         }
@@ -96,8 +92,6 @@ fn timed(problem: &ModeProblem, options: &Options) -> Value {
         .map(|state| signs(&state, contacts))
         .take(options.listed)
         .collect();
-    let without_jumps = (0..contacts).all(|contact| !problem.has_jump(contact));
-    let exhaustive = (contacts <= options.exhaustive && without_jumps).then(|| exhaustive(problem));
     json!({
         "unknowns": contacts,
         "search": {
@@ -113,7 +107,6 @@ fn timed(problem: &ModeProblem, options: &Options) -> Value {
             "solutions": solutions,
             "cells": cells,
         },
-        "exhaustive": exhaustive,
         "bounds": bounds(problem),
     })
 }
@@ -135,28 +128,6 @@ fn limited(problem: &ModeProblem, time_limit: Duration) -> SearchResult {
     search(problem, &options, &mut |_| {
         if start.elapsed() < time_limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })
-}
-
-/// Screening and proof of all patterns. Patterns are texts of `+` and `-`, the first contact first.
-fn exhaustive(problem: &ModeProblem) -> Value {
-    let (screening, left) = median(|| screen(problem).remaining.len());
-    let (proof, decided) = median(|| prove(problem));
-    let of_kind = |kind: fn(&Decision) -> bool| -> Vec<String> {
-        let those = decided.iter().filter(|(_, verdict)| kind(&verdict.decision));
-        those.map(|(pattern, _)| self::pattern(pattern.negative, problem.contacts())).collect()
-    };
-    json!({
-        "screen_seconds": screening,
-        "prove_seconds": proof,
-        "left_by_screening": left,
-        "solutions": of_kind(|decision| matches!(decision, Decision::Solution { .. })),
-        "boundary": of_kind(|decision| matches!(decision, Decision::Boundary { .. })),
-        "singular": of_kind(|decision| matches!(decision, Decision::Singular { .. })),
-    })
-}
-
-fn pattern(bits: u64, contacts: usize) -> String {
-    (0..contacts).map(|contact| if bits >> contact & 1 == 0 { '+' } else { '-' }).collect()
 }
 
 /// The median time of some runs in seconds, and the last result.
@@ -228,7 +199,7 @@ fn raw_modes(problem: &ModeProblem) -> Value {
 
 fn example() -> Result<(), Box<dyn Error>> {
     let problem = RawProblem::from_json(br#"{"type": "lcp", "M": [[1, 2], [2, 1]], "q": [-1, -1]}"#)?;
-    let options = Options { time_limit: Duration::from_secs(1), exhaustive: 10, listed: 10 };
+    let options = Options { time_limit: Duration::from_secs(1), listed: 10 };
     println!("{}", timed(&problem.mode_problem()?, &options));
     Ok(())
 }

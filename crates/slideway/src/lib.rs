@@ -53,6 +53,8 @@
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 
+#![forbid(unsafe_code)]
+
 pub mod attainability;
 pub mod check;
 pub mod choice;

@@ -54,7 +54,7 @@ const FLOORS_OF_MODES: &[&[&str]] = &[
     &["solutions"],
     &["findings"],
     &["enumeration"],
-    &["batch", "existence", "exhaustive", "screen", "uniqueness"],
+    &["existence", "screen", "uniqueness"],
     &["search"],
     &["blocks"],
     &["branches"],

@@ -77,6 +77,25 @@ fn classes_are_the_numbers_of_certified_solutions() {
     }
 }
 
+/// Thirty contacts: 2^30 patterns, which nobody tries one by one.
+#[test]
+fn maps_of_many_contacts_have_the_numbers_of_certified_solutions() {
+    let boom = Model::parse(&gallery::telescopic_boom(15).expect("a number of stages")).expect("sound");
+    let size = [3, 3];
+    let options = options("mu=0.05..1.5", "overlap=0.3 m..0.9 m", size, ColourBy::Solutions);
+    let report = mapped(&boom, &options.probe(1));
+    for (i, j) in (0..size[0]).flat_map(|i| (0..size[1]).map(move |j| (i, j))) {
+        let [x, y] = [middle([0.05, 1.5], i, size[0]), middle([0.3, 0.9], j, size[1])];
+        let settings = Settings::default().parameter("mu", x.to_string()).parameter("overlap", y.to_string());
+        let answer = solve(&boom.with(&settings).expect("sound")).expect("solvable");
+        let expected = match answer.solutions.len() {
+            0 => ClassMeaning::Locked,
+            solutions => ClassMeaning::Solutions { solutions, preload_gap_states: 0 },
+        };
+        assert_eq!(report.classes[report.class_at(i, j)].meaning, expected, "mu = {x}, overlap = {y}");
+    }
+}
+
 /// Klepp (2002), section 7: without preload and moving to the right there are two solutions beyond mu_1 =
 /// 0.45265396, numerically 2 cot(alpha) + 0.1, for mu_2 = mu_3 = 0.1.
 #[test]

@@ -147,8 +147,7 @@ impl CompensatedSum {
     fn add_product(&mut self, one: f64, other: f64) {
         let product = one * other;
         let sum = self.sum + product;
-        self.correction +=
-            sum_remainder(self.sum, product, sum) + product_remainder::<true>(one, other, product);
+        self.correction += sum_remainder(self.sum, product, sum) + product_remainder(one, other, product);
         self.sum = sum;
         self.size += product.abs();
     }

@@ -262,21 +262,6 @@ impl<'a> Findings<'a> {
         Ok(())
     }
 
-    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. Returns
-    /// `false` if it has not been found, or if there are loads.
-    pub(crate) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
-        let [zero] = &mut self.found[..] else { return false };
-        if self.problem.load_size().amax() != 0.0 {
-            return false;
-        }
-        self.counts.boundary += 1;
-        zero.pattern_count += 1;
-        if zero.patterns.len() < self.limits.listed {
-            zero.patterns.push(pattern.to_vec());
-        }
-        true
-    }
-
     fn add(&mut self, new: Found) {
         let free = self.free_contacts(&new.candidate);
         let key = SharedPattern { states: canonical(new.pattern(), &free), free };
@@ -299,26 +284,6 @@ impl<'a> Findings<'a> {
         let jumps = self.problem.has_jump.iter().enumerate().filter(|(_, jump)| **jump);
         jumps.for_each(|(contact, _)| free.remove(contact));
         free
-    }
-
-    /// Examines individually all patterns with the given states of the contacts before `first`.
-    pub(crate) fn examine_all_below(
-        &mut self,
-        pattern: &mut [ContactState],
-        first: usize,
-    ) -> Result<(), TooManySolutions> {
-        if self.has_examined_enough() {
-            self.leave_unexamined(pattern, first);
-            return Ok(());
-        }
-        if first < pattern.len() {
-            for &state in self.problem.states(first) {
-                pattern[first] = state;
-                self.examine_all_below(pattern, first + 1)?;
-            }
-            return Ok(());
-        }
-        self.examine_suspect(pattern, &mut || true)
     }
 
     pub(crate) fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {

@@ -306,7 +306,7 @@ fn mul_down(one: f64, other: f64) -> f64 {
         return product;
     }
     let remainder = if product.abs() >= REMAINDER_IS_EXACT {
-        product_remainder::<true>(one, other, product)
+        product_remainder(one, other, product)
     } else {
         f64::NEG_INFINITY
     };

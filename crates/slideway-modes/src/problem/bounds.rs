@@ -177,11 +177,6 @@ impl Column<'_> {
         std::iter::once(Self { radius, remainder: None, ..self }).chain(rest)
     }
 
-    /// The midpoint of an entry, and its maximum error.
-    pub(crate) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
-        (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
-    }
-
     pub(crate) fn entry(&self, row: usize) -> Interval {
         let radius = self.radius.map_or(0.0, |radius| radius[row]);
         Interval::around(self.centre[row], radius)

@@ -17,6 +17,7 @@ pub use bounded_influence::IntervalInfluence;
 pub(crate) use bounds::Column;
 pub use bounds::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use mode_problem::{InfluenceCoefficients, ModeProblem, ModeProblemError};
+pub(crate) use pattern::advance;
 pub use pattern::{ContactState, SetPart, SolutionSet};
 pub(crate) use radii::Radii;
 pub(crate) use scaling::{ScaledProblem, exponent_of, patterns_of, power_of_two_above};

@@ -43,6 +43,23 @@ impl From<Side> for ContactState {
     }
 }
 
+/// The next pattern, with the last contact changing fastest; `false` after the last one.
+pub(crate) fn advance<'s>(
+    pattern: &mut [ContactState],
+    states: impl Fn(usize) -> &'s [ContactState],
+) -> bool {
+    for contact in (0..pattern.len()).rev() {
+        match states(contact).get(pattern[contact] as usize + 1) {
+            Some(&next) => {
+                pattern[contact] = next;
+                return true;
+            }
+            None => pattern[contact] = ContactState::Positive,
+        }
+    }
+    false
+}
+
 /// What a singular pattern admits: points and directions of signed normal forces or, for an
 /// [`ExactSet`](crate::certificate::ExactSet), of exact unknowns.
 #[derive(Debug, Clone, PartialEq)]

@@ -186,7 +186,7 @@ fn exact_sum(start: f64, products: impl IntoIterator<Item = (f64, f64)>) -> Opti
             let product = one * other;
             let is_exact = product.is_finite()
                 && product.abs() >= SMALLEST_PRODUCT
-                && product_remainder::<true>(one, other, product) == 0.0;
+                && product_remainder(one, other, product) == 0.0;
             let next = sum + product;
             (is_exact && next.is_finite() && sum_remainder(sum, product, next) == 0.0).then_some(next)
         },

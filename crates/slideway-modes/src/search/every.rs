@@ -6,7 +6,7 @@ use super::monitor::Monitor;
 use super::report::PatternShares;
 use super::sieve::Sieve;
 use super::tree::TreeReport;
-use crate::problem::{ContactState, ScaledProblem};
+use crate::problem::{ContactState, ScaledProblem, advance};
 
 /// Decides all patterns in the order of enumeration. Without `certify`, each is solved within tolerances.
 pub(super) fn try_all(
@@ -46,18 +46,4 @@ fn offer_closest(scaled: &ScaledProblem, leaves: &mut Leaves<'_>) {
     while advance(&mut pattern, |_| &ContactState::PRESSED) {
         leaves.offer_closest(&pattern);
     }
-}
-
-/// The next pattern, with the last contact changing fastest; `false` after the last one.
-fn advance<'s>(pattern: &mut [ContactState], states: impl Fn(usize) -> &'s [ContactState]) -> bool {
-    for contact in (0..pattern.len()).rev() {
-        match states(contact).get(pattern[contact] as usize + 1) {
-            Some(&next) => {
-                pattern[contact] = next;
-                return true;
-            }
-            None => pattern[contact] = ContactState::Positive,
-        }
-    }
-    false
 }

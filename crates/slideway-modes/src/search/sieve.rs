@@ -9,9 +9,6 @@
 //! so that `|A^-1 b - x| <= z + G max z / (1 - max G)` row by row, with `z = |R (b - A x)|` and `G` the row
 //! sums of `|I - R A|`. `A` is regular if `max G < 1`. `z` and `G` include radii of the data and rounding
 //! errors.
-//!
-//! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but it has one bound for all
-//! entries and therefore excludes less if the data have wide bounds, as over a stretch of a parameter.
 
 use super::UNDERFLOW;
 use crate::problem::{Column, ContactState, ProblemView, Side};

@@ -2,11 +2,11 @@
 
 use super::ColourBy;
 use crate::fault::{FaultKind, Faults};
+use crate::modes::ContactState;
 use crate::modes::existence::{ExistenceOptions, counts};
-use crate::modes::{ContactState, Limits, Solutions, enumerate};
+use crate::progress::Work;
 use crate::report::SpeedChange;
-use crate::solve::{AT_ONCE, Parts, pattern};
-use nalgebra::DVector;
+use crate::solve::{AT_ONCE, Parts, StateWithinTolerances, pattern};
 use serde::Serialize;
 use std::borrow::Cow;
 
@@ -60,7 +60,7 @@ pub enum ClassMeaning {
     },
     /// Infinitely many solutions.
     Continuum,
-    /// Too many patterns to try all of them.
+    /// Too many patterns or solutions to find all of them.
     TooLarge,
     /// There is no mode problem, for this reason.
     NotSolved {
@@ -82,10 +82,10 @@ pub(super) enum Answer {
 }
 
 impl Answer {
-    /// The states; none if there are too many patterns.
-    fn states(&self) -> Option<Cow<'_, States>> {
+    /// The states; none if the search did not come to its end.
+    fn states(&self, work: Work<'_>) -> Option<Cow<'_, States>> {
         match self {
-            Self::Problem(point) => states(point).map(Cow::Owned),
+            Self::Problem(point) => states(point, work).map(Cow::Owned),
             Self::States(states) => Some(Cow::Borrowed(states)),
         }
     }
@@ -123,12 +123,13 @@ pub(super) fn class(
     colour_by: ColourBy,
     forwards: Result<&Answer, &'static str>,
     opposite: Option<Result<&Answer, &'static str>>,
+    work: Work<'_>,
 ) -> ClassMeaning {
     let answer = match forwards {
         Ok(answer) => answer,
         Err(reason) => return ClassMeaning::NotSolved { reason },
     };
-    let Some(states) = answer.states() else { return ClassMeaning::TooLarge };
+    let Some(states) = answer.states(work) else { return ClassMeaning::TooLarge };
     let undecided = ClassMeaning::NotSolved { reason: "not decided" };
     if states.undecided {
         return undecided;
@@ -137,7 +138,7 @@ pub(super) fn class(
         |states: &States| states.continuum || !(states.solutions.is_empty() && states.gaps.is_empty());
     if colour_by == ColourBy::Jam {
         let as_in_model = moves(&states);
-        return match opposite.map(|opposite| opposite.map(Answer::states)) {
+        return match opposite.map(|opposite| opposite.map(|answer| answer.states(work))) {
             None | Some(Ok(None)) => ClassMeaning::TooLarge,
             Some(Err(reason)) => ClassMeaning::NotSolved { reason },
             Some(Ok(Some(other))) if other.undecided => undecided,
@@ -199,49 +200,38 @@ fn speeds(point: &Point, states: &States) -> Vec<Vec<SpeedChange>> {
     states.sides.iter().map(of_solution).collect()
 }
 
-/// All states in which no guided slider tips; none if there are too many patterns.
-fn states(point: &Point) -> Option<States> {
+/// All states in which no guided slider tips; none if the search did not come to its end.
+fn states(point: &Point, work: Work<'_>) -> Option<States> {
     let parts = &point.parts;
-    let problem = parts.problem().ok()?;
-    let found: Solutions = enumerate(&problem, &Limits::default()).ok()?;
-    // Those of a state without tipping, by the faces at which preloads rub.
-    let standing = |sides: &[ContactState], zero: &[usize], force: &DVector<f64>, shares: &[Option<f64>]| {
-        let mut faces = parts.faces(sides, zero);
-        faces.retain(|sides| !parts.tips(sides, force, shares));
-        faces.into_iter().map(|sides| pattern(&sides))
-    };
-    let mut told: Vec<(Vec<ContactState>, DVector<f64>)> = Vec::new();
-    // The same solution of several patterns counts once.
-    let mut is_new = |sides: &[ContactState], force: &DVector<f64>| {
-        let is_known = told.iter().any(|(known, other)| parts.is_same((known, other), (sides, force)));
-        if !is_known {
-            told.push((sides.to_vec(), force.clone()));
+    let found = parts.states_within_tolerances(&mut |_| work.flow())?;
+    let mut told: Vec<&StateWithinTolerances> = Vec::new();
+    let mut states =
+        States { gaps: point.between_faces.clone(), continuum: found.continuum, ..States::default() };
+    for state in &found.states {
+        let StateWithinTolerances { sides, force, zero, shares } = state;
+        let is_solution = parts.is_solution(sides);
+        // The same solution of several patterns counts once.
+        if is_solution {
+            if told.iter().any(|known| parts.is_same((&known.sides, &known.force), (sides, force))) {
+                continue;
+            }
+            told.push(state);
         }
-        !is_known
-    };
-    let none = vec![None; problem.contacts()];
-    let mut states = States { gaps: point.between_faces.clone(), ..States::default() };
-    for solution in &found.solutions {
-        let sides: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
-        if !is_new(&sides, &solution.normal_force) {
+        // Those of a state without tipping, by the faces at which preloads rub.
+        let faces = parts.faces(sides, zero).into_iter().filter(|sides| !parts.tips(sides, force, shares));
+        let stand = faces.map(|sides| pattern(&sides));
+        if !is_solution {
+            states.gaps.extend(stand);
             continue;
         }
-        let zero = &solution.on_boundary;
-        let stand: Vec<String> = standing(&sides, zero, &solution.normal_force, &none).collect();
-        // Preloads at one face or the other change no acceleration.
-        states.sides.extend(stand.iter().map(|_| sides.clone()));
-        states.solutions.extend(stand);
-    }
-    for gap in &found.gaps {
-        if parts.is_solution(&gap.pattern) && !is_new(&gap.pattern, &gap.normal_force) {
-            continue;
+        for name in stand {
+            states.solutions.push(name);
+            if !sides.contains(&ContactState::Gap) {
+                // Preloads at one face or the other change no acceleration.
+                states.sides.push(sides.clone());
+            }
         }
-        let mut shares = none.clone();
-        gap.shares.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
-        let stand = standing(&gap.pattern, &gap.on_boundary, &gap.normal_force, &shares);
-        if parts.is_solution(&gap.pattern) { &mut states.solutions } else { &mut states.gaps }.extend(stand);
     }
-    states.continuum = found.singular.iter().any(|mode| mode.set.is_continuum());
     Some(states)
 }
 

@@ -100,6 +100,7 @@ impl<'a> Evaluator<'a> {
             self.colour_by,
             forwards.as_ref().map_err(|reason| *reason),
             opposite.as_ref().map(|other| other.as_ref().map_err(|reason| *reason)),
+            work,
         ))
     }
 }
@@ -274,11 +275,9 @@ mod tests {
                         };
                         let at = |model: &Model| anew(model).map_err(|faults| reason(&faults));
                         let (forwards, opposite) = (at(&model), at(&backwards));
-                        let expected = class(
-                            colour_by,
-                            forwards.as_ref().map_err(|reason| *reason),
-                            Some(opposite.as_ref().map_err(|reason| *reason)),
-                        );
+                        let [forwards, opposite] =
+                            [&forwards, &opposite].map(|answer| answer.as_ref().map_err(|reason| *reason));
+                        let expected = undisturbed(|work| class(colour_by, forwards, Some(opposite), work));
                         assert_eq!(found, ClassKey(expected), "{name} {colour_by:?} at {values:?}");
                     }
                 }

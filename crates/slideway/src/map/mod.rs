@@ -174,8 +174,8 @@ impl Axis {
 /// Every pixel has the class of its middle. Probes are spaced evenly; between probes that agree the plane is
 /// filled, where they differ it is divided down to single pixels, and boundaries that were met are followed
 /// from pixel to pixel. So a region is missed only if it lies between probes and touches no boundary that was
-/// found. Solutions are those of [`modes::enumerate`](crate::modes::enumerate), within its tolerances, not
-/// certified as those of `solve`.
+/// found. Solutions are those of elimination, and of a search where that leaves a pattern in doubt, within the tolerances of
+/// [`modes`](crate::modes), not certified as those of `solve`.
 ///
 /// Where the mode problem depends bilinearly on both quantities (friction, preloads, loads), which is tried
 /// at a few points, its numbers are interpolated, else the mechanism is assembled at every point, from the

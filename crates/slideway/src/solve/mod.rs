@@ -36,6 +36,7 @@ mod parts;
 mod sharing;
 mod stages;
 mod state;
+mod tolerant;
 mod trail;
 mod uncertainty;
 mod with_friction;
@@ -52,8 +53,7 @@ pub(crate) use hinges::{
 pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
-    without_rounding,
+    NO_INFLUENCE, SAME_COLUMN, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
@@ -61,6 +61,7 @@ pub(crate) use sharing::load_sharing;
 pub use stages::exact_mode_problem;
 pub(crate) use stages::{ProblemData, RougherStages, Stages, rougher};
 pub(crate) use state::{pattern, signs};
+pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
 pub(crate) use with_friction::solve_with_friction;

@@ -115,7 +115,7 @@ pub(crate) fn self_stresses(influence: &Influence) -> DMatrix<f64> {
 }
 
 /// What the mode problem is made of.
-pub(crate) fn influence_coefficients(
+fn influence_coefficients(
     mechanism: &Mechanism,
     influence: &Influence,
     velocity_signs: &DVector<f64>,

@@ -4,14 +4,15 @@ use super::distinct::agree;
 use super::faces::{FreeFace, with_either_side};
 use super::mode_problem::self_stresses;
 use super::stages::ProblemData;
+use super::tolerant::{StatesWithinTolerances, screened};
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::{PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
-use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts, Side};
+use crate::progress::Callback;
 use nalgebra::{DMatrix, DVector};
 
 /// A load that changes by less than this share of it does not change: each of its numbers has rounding errors
@@ -257,15 +258,16 @@ impl Parts {
     /// Whether elimination excludes that a normal force vanishes, or nearly, in a solution of some pattern:
     /// then no contact is between its faces but in a pattern that says so.
     pub(crate) fn is_off_boundaries(&self, accuracy: Accuracy) -> bool {
-        let contacts = self.columns.positive.ncols();
-        if contacts > MOST_CONTACTS {
-            return false;
-        }
-        let Ok(exact) = self.problem() else { return false };
-        let mut problem = SmallProblem::new(contacts);
-        problem.copy(&exact);
-        problem.load = accuracy.of_load;
-        Screen::new(contacts).with_open(self.open.clone()).states(&problem, accuracy.part).is_ok()
+        self.problem().is_ok_and(|problem| screened(&problem, &self.open, accuracy, |_| ()).is_some())
+    }
+
+    /// All states of the mode problem: by elimination, or by a search within tolerances where that leaves a pattern in
+    /// doubt. Returns `None` if the numbers are not finite, or the search did not come to its end.
+    pub(crate) fn states_within_tolerances(
+        &self,
+        callback: &mut Callback<'_>,
+    ) -> Option<StatesWithinTolerances> {
+        StatesWithinTolerances::of(&self.problem().ok()?, &self.open, callback)
     }
 
     /// The contacts of guided sliders whose couple alone tells at which face their preload rubs: only with

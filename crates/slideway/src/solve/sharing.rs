@@ -2,17 +2,18 @@
 
 use super::mode_problem::{determinate_problem, self_stresses};
 use super::stages::Stages;
+use super::tolerant::StatesWithinTolerances;
 use crate::attainability::ratios;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
-use crate::modes::{Limits, ModeProblem, OpenContacts, SharedLoad, enumerate};
+use crate::modes::{ModeProblem, OpenContacts, SharedLoad};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
 use crate::sharing;
 use nalgebra::DVector;
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 
 /// Adds what is said of redundant guides to a report; nothing for determinate mechanisms. Other stiffnesses are
 /// tried if `ratios` are asked for.
@@ -51,12 +52,12 @@ pub(super) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Resu
     Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into())
 }
 
-/// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if there are too
-/// many patterns.
+/// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if they are not all
+/// found.
 fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
     let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
-    let mut patterns = Patterns::new(&problem, &stages.mechanism.excess.open);
-    let Some(as_given) = patterns.of(shared) else { return Ok(None) };
+    let patterns = |shared: &SharedLoad| patterns(&problem, &stages.mechanism.excess.open, shared);
+    let Some(as_given) = patterns(shared) else { return Ok(None) };
     let places = stages.mechanism.places().map(ContactId::index);
     let sharing: Vec<usize> = places.filter(|&k| shared.shares(k)).collect();
     let mut others = BTreeSet::new();
@@ -65,7 +66,7 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
         let mut compliance: DVector<f64> = shared.compliance.clone();
         sharing.iter().zip(&factors).for_each(|(&k, factor)| compliance[k] /= *factor);
         shared.press_fits.iter().for_each(|&[face, other]| compliance[other] = compliance[face]);
-        let Some(found) = patterns.of(&SharedLoad { compliance, ..shared.clone() }) else {
+        let Some(found) = patterns(&SharedLoad { compliance, ..shared.clone() }) else {
             return Ok(None);
         };
         tried += 1;
@@ -75,36 +76,9 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
     Ok(Some(StiffnessRatios { tried, same, others: others.into_iter().collect() }))
 }
 
-/// The patterns of all states for one shared load after another, in rounded numbers.
-struct Patterns<'p> {
-    problem: &'p ModeProblem,
-    /// None if there are too many contacts.
-    small: Option<(Screen, SmallProblem)>,
-}
-
-impl<'p> Patterns<'p> {
-    fn new(problem: &'p ModeProblem, open: &OpenContacts) -> Self {
-        let contacts = problem.contacts();
-        let small = (contacts <= MOST_CONTACTS)
-            .then(|| (Screen::new(contacts).with_open(open.clone()), SmallProblem::new(contacts)));
-        Self { problem, small }
-    }
-
-    /// None if there are too many patterns.
-    fn of(&mut self, shared: &SharedLoad) -> Option<BTreeSet<String>> {
-        let problem = self.problem.with_shared_load(shared).ok()?;
-        if let Some((screen, small)) = &mut self.small {
-            small.copy(&problem);
-            if let Ok(states) = screen.states(small, 0.0) {
-                let patterns = states.iter().map(|state| &state.pattern[..problem.contacts()]);
-                return Some(patterns.map(super::pattern).collect());
-            }
-        }
-        let found = enumerate(&problem, &Limits::default()).ok()?;
-        let pressed = found.solutions.iter().map(|solution| {
-            super::pattern(&solution.pattern.iter().map(|side| (*side).into()).collect::<Vec<_>>())
-        });
-        let open = found.gaps.iter().map(|state| super::pattern(&state.pattern));
-        Some(pressed.chain(open).collect())
-    }
+/// The patterns of all states with one shared load, in rounded numbers. Returns `None` if the search did not come to its end.
+fn patterns(problem: &ModeProblem, open: &OpenContacts, shared: &SharedLoad) -> Option<BTreeSet<String>> {
+    let problem = problem.with_shared_load(shared).ok()?;
+    let found = StatesWithinTolerances::of(&problem, open, &mut |_| ControlFlow::Continue(()))?;
+    Some(found.states.iter().map(|state| super::pattern(&state.sides)).collect())
 }

@@ -6,7 +6,6 @@ use super::friction::{Friction, FrictionFormulas};
 use super::quantity::{Kind, TIME};
 use super::rows::{Breakpoint, PointStatus, Refusal, Rows};
 use super::stages::Stages;
-use super::together::{PointsFound, Together};
 use super::told;
 use super::writer::{Writer, head};
 use crate::attainability::ElasticGuides;
@@ -36,9 +35,8 @@ pub(super) struct Plan {
     /// If parameters change nothing but friction: how.
     pub(super) friction: Option<FrictionFormulas>,
     pub(super) attainability: bool,
-    /// The stages of all points, if they are the same, and what solves many of these together.
+    /// The stages of all points, if they are the same.
     pub(super) stages: Option<Stages>,
-    pub(super) together: Option<Together>,
 }
 
 impl Plan {
@@ -50,30 +48,21 @@ impl Plan {
 
     /// Computes what is the same at all points; whatever is refused there is left to each of them.
     pub(super) fn prepare(&mut self) {
-        let Some(formulas) = self.friction.as_ref().filter(|_| self.same_state()) else { return };
+        if !self.same_state() {
+            return;
+        }
         self.stages = Stages::along(&mut Trail::default(), &self.mechanism, &self.columns).ok();
         if let Some(stages) = &self.stages
             && stages.configuration.put_misalignments(&mut self.mechanism).is_err()
         {
             self.stages = None;
         }
-        let rubs = !self.mechanism.friction_circles.is_empty();
-        let needs_each = self.attainability || rubs || self.columns.may_be_between_faces(&self.mechanism);
-        if let Some(stages) = self.stages.as_ref().filter(|_| !needs_each) {
-            self.together = Together::new(&self.mechanism, stages, formulas, &self.varied);
-        }
     }
 
     /// How many points are computed one after another.
     pub(super) fn chunk(&self) -> u64 {
-        let [together, by_elimination, by_search] = CHUNKS;
-        if self.together.is_some() {
-            together
-        } else if self.mechanism.contacts.len() <= MOST_CONTACTS {
-            by_elimination
-        } else {
-            by_search
-        }
+        let [by_elimination, by_search] = CHUNKS;
+        if self.mechanism.contacts.len() <= MOST_CONTACTS { by_elimination } else { by_search }
     }
 
     /// What makes of the model that of a point, and the factor of its friction.
@@ -98,47 +87,6 @@ impl Plan {
             settings.push((Setting::new(kind, name, *value), Arc::from(name)));
         }
         Ok((self.model.varied_with(&settings)?, friction))
-    }
-}
-
-/// A point without its values.
-#[derive(Debug, Clone, Copy)]
-struct PointHead {
-    number: u64,
-    breakpoint: Breakpoint,
-    inserted: bool,
-}
-
-/// Points that are asked for, one after another.
-#[derive(Debug, Clone)]
-pub(super) struct Points {
-    heads: Vec<PointHead>,
-    varied: usize,
-    values: Vec<f64>,
-}
-
-impl Points {
-    /// No points yet; each will have so many varied quantities.
-    pub(super) fn new(varied: usize) -> Self {
-        Self { heads: Vec::new(), varied, values: Vec::new() }
-    }
-
-    /// Adds a point: its number, what is exact about it, whether it was inserted; `set` puts its values.
-    pub(super) fn push(&mut self, number: u64, set: impl FnOnce(&mut [f64]) -> (Breakpoint, bool)) {
-        let first = self.values.len();
-        self.values.resize(first + self.varied, 0.0);
-        let (breakpoint, inserted) = set(&mut self.values[first..]);
-        self.heads.push(PointHead { number, breakpoint, inserted });
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.heads.len()
-    }
-
-    pub(super) fn get(&self, index: usize) -> Point<'_> {
-        let PointHead { number, breakpoint, inserted } = self.heads[index];
-        let values = &self.values[index * self.varied..][..self.varied];
-        Point { number, breakpoint, inserted, values }
     }
 }
 
@@ -186,36 +134,8 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// Adds the rows of points in their order; says whether all were computed, or `goes_on` said no.
-    pub(super) fn evaluate_all(
-        &mut self,
-        points: &Points,
-        rows: &mut Rows,
-        goes_on: &(dyn Fn() -> bool + Sync),
-    ) -> bool {
-        let found = self.plan.together.as_ref().map(|together| {
-            let mut found = together.points(points.len());
-            for index in 0..points.len() {
-                if self.put_friction(points.get(index).values).is_ok() {
-                    found.take_friction(index, &self.mechanism.contacts);
-                }
-            }
-            found.solve();
-            found
-        });
-        for index in 0..points.len() {
-            let point = points.get(index);
-            let written = found.as_ref().is_some_and(|found| self.write_found(found, index, point, rows));
-            if !written && (!goes_on() || self.evaluate(point, rows, goes_on).is_break()) {
-                return false;
-            }
-            rows.points += 1;
-        }
-        true
-    }
-
     /// Adds the rows of a point; breaks, with rows that mean nothing, if `goes_on` said no within it.
-    fn evaluate(
+    pub(super) fn evaluate(
         &mut self,
         point: Point<'_>,
         rows: &mut Rows,
@@ -242,24 +162,6 @@ impl<'p> Evaluator<'p> {
             rows.refusals.push(Refusal { point: point.number, status, reason: faults.to_string() });
         }
         flow
-    }
-
-    /// Adds the rows of a point that was solved together with others; nothing, and `false`, if it was left in
-    /// doubt.
-    fn write_found(
-        &mut self,
-        found: &PointsFound<'_>,
-        index: usize,
-        point: Point<'_>,
-        rows: &mut Rows,
-    ) -> bool {
-        let (Some(stages), Some(states)) = (&self.stages, found.states(index)) else { return false };
-        if point.breakpoint == Breakpoint::NotSolved {
-            return false;
-        }
-        found.put_friction(index, &mut self.mechanism.contacts);
-        Writer { plan: self.plan, mechanism: &self.mechanism, stages, guides: None, hinges: &[] }
-            .write(states, point, rows)
     }
 
     /// Puts the values of a point into the mechanism, and brings its stages up to date.

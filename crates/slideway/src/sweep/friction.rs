@@ -92,16 +92,6 @@ impl FrictionFormulas {
         Ok(Some(Self { given, following, contacts, circles, parameters }))
     }
 
-    /// The contacts whose coefficient varies; none if some coefficient differs between the faces, or a
-    /// preload varies.
-    pub(super) fn contacts_with_one_coefficient(&self) -> Option<Vec<usize>> {
-        let one = |formulas: &ContactFormulas| {
-            let is_one = formulas.mu[0] == formulas.mu[1] && formulas.preload == [None; 2];
-            is_one.then_some(formulas.contact)
-        };
-        self.contacts.iter().map(one).collect()
-    }
-
     /// Puts the radii of a point into the friction circles; `parameters` are its own.
     ///
     /// # Errors

@@ -24,10 +24,6 @@
 //! search, with bounds of rounding that are assumed, not proven). Contacts of one block that both have a
 //! preload at the pressed face have dependent gap states, so that each of their points is one of these.
 //!
-//! Where the points differ in coefficients of friction alone, one for each contact, and no preload acts at a
-//! pressed face, their solutions are found together ([`crate::modes::batch`]); points near a boundary are
-//! left to elimination.
-//!
 //! With friction in hinges, what the norms of the blocks show to be the only solution is sought from that of the point
 //! before ([`crate::modes::blocks::only_solution`]), within bounds; where they show nothing, all solutions are searched
 //! for. Near a boundary, and where attainability is asked for, the point is left to [`mod@crate::solve`].
@@ -39,8 +35,7 @@
 //! # Files
 //! `sweep` evaluates points one after another: `options.rs` is what is asked for, `axis.rs`, `quantity.rs`
 //! and `distribution.rs` what is varied, `friction.rs` the formulas that only change friction, `stages.rs`
-//! all else about a point, `evaluator.rs` solves it, `together.rs` many points that differ in friction alone
-//! (`modes::batch`), `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`,
+//! all else about a point, `evaluator.rs` solves it, `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`,
 //! `branches.rs` numbers what continues what, `breakpoints.rs` asks `limits`, `line.rs` is what plots need to
 //! know of an axis, `shard.rs` divides the points. `modes::screen` is its enumeration, `configuration::Follower` and `kinetics::influences`
 //! are the stages for neighbouring states. Files are made by the crate `slideway-tables`.
@@ -61,7 +56,6 @@ mod shard;
 mod stages;
 mod summary;
 mod text;
-mod together;
 mod told;
 mod writer;
 
@@ -82,7 +76,7 @@ use crate::progress::Callback;
 use crate::units::Units;
 use axis::{Axis, Values};
 use columns::Columns;
-use evaluator::{Evaluator, Plan, Points};
+use evaluator::{Evaluator, Plan, Point};
 use friction::FrictionFormulas;
 use options::fault;
 use rayon::prelude::*;
@@ -91,8 +85,8 @@ use std::ops::{ControlFlow, Range};
 
 /// Points that are computed one after another: the unit of parallel work, and of what is lost where a sweep
 /// is ended. So that this is little, there are fewer where a point takes longer: points that are solved
-/// together, by elimination, by a search.
-const CHUNKS: [u64; 3] = [1024, 128, 1];
+/// by elimination, by a search.
+const CHUNKS: [u64; 2] = [128, 1];
 /// Chunks of which each thread may hold the rows at a time.
 const CHUNKS_PER_THREAD: usize = 4;
 /// Less of a distribution than this is not worth telling.
@@ -177,16 +171,8 @@ impl Sweep {
         let friction = FrictionFormulas::new(model, &varied)?;
         let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
         let attainability = options.attainability;
-        let mut plan = Plan {
-            model: model.clone(),
-            mechanism,
-            varied,
-            columns,
-            friction,
-            attainability,
-            stages: None,
-            together: None,
-        };
+        let mut plan =
+            Plan { model: model.clone(), mechanism, varied, columns, friction, attainability, stages: None };
         plan.prepare();
         let samples = match &options.points {
             SweepPoints::Grid(_) => None,
@@ -364,12 +350,18 @@ impl Sweep {
         let columns = &self.plan.columns;
         let mut rows = Rows::new(columns.contacts, columns.varied, columns.width());
         let numbers = start..(start + self.plan.chunk()).min(self.range.end);
-        let mut points = Points::new(self.axes.len());
+        let mut values = vec![0.0; self.axes.len()];
+        rows.reserve(numbers.clone().count());
+        let mut evaluator = Evaluator::new(&self.plan);
         for number in numbers {
-            points.push(number, |values| self.values(number, values));
+            let (breakpoint, inserted) = self.values(number, &mut values);
+            let point = Point { number, breakpoint, inserted, values: &values };
+            if !goes_on() || evaluator.evaluate(point, &mut rows, goes_on).is_break() {
+                return None;
+            }
+            rows.points += 1;
         }
-        rows.reserve(points.len());
-        Evaluator::new(&self.plan).evaluate_all(&points, &mut rows, goes_on).then_some(rows)
+        Some(rows)
     }
 
     /// The values of a point, and what is exact about it.

@@ -6,9 +6,7 @@ mod closed_forms;
 mod continuations;
 mod end_stops;
 mod energy_of_impacts;
-mod fast_loads;
 mod friction_laws;
-mod gaps;
 mod impacts;
 mod impacts_with_hinges;
 mod layers;
@@ -19,7 +17,6 @@ mod pads;
 mod rest;
 mod simple;
 mod stops;
-mod zero_force;
 
 use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
 use crate::configuration::Configuration;

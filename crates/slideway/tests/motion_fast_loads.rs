@@ -1,7 +1,8 @@
 //! Loads that are much faster than the steps: nothing passes unseen.
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
-use crate::model::Model;
-use crate::motion::{Cause, End, History, SimulateOptions, simulate};
+use slideway::model::Model;
+use slideway::motion::{Cause, End, History, SimulateOptions, simulate};
 use std::f64::consts::TAU;
 
 const G: f64 = 9.81;
@@ -75,8 +76,7 @@ fn all_near(found: &[f64], expected: &[f64], tolerance: f64) {
 /// simulation of 10 s at default options.
 #[test]
 fn every_slip_under_a_fast_load_is_found() {
-    let options =
-        |duration: f64| SimulateOptions { longest_step: Some(0.01), ..SimulateOptions::new(duration) };
+    let options = |duration: f64| SimulateOptions::new(duration).longest_step(0.01);
     for (mass, mu, frequency, shift, duration) in
         [(2.0, 0.1, 300.0, 0.0, 1.0), (0.7, 0.25, 300.0, 0.002, 0.1), (3.1, 0.05, 1000.0, 1.0, 0.05)]
     {

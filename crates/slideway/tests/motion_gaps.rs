@@ -1,7 +1,8 @@
 //! Guided sliders with packings, between the faces of their guides.
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
-use crate::model::Model;
-use crate::motion::{Cause, ContactPhase, End, History, SimulateOptions, simulate};
+use slideway::model::Model;
+use slideway::motion::{Cause, ContactPhase, End, History, SimulateOptions, simulate};
 
 /// A block of 1 kg, 0.2 m high, pulled by 10 N against packings of 6 N, without anything across the guide but
 /// what is added.

@@ -1,9 +1,13 @@
-//! Time of an enumeration, beside an LU factorization for every pattern. Divan's items are patterns.
+//! Time of all states of few contacts by elimination, beside the search and an LU factorization for every pattern. Divan's
+//! items are patterns.
 
-use divan::Bencher;
+use std::ops::ControlFlow;
+
 use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
 use nalgebra::{DMatrix, DVector};
-use slideway_modes::{Limits, ModeProblem, Side, enumerate};
+use slideway_modes::screen::{Screen, SmallProblem};
+use slideway_modes::{ModeProblem, SearchOptions, Side, search};
 
 fn main() {
     divan::main();
@@ -31,15 +35,27 @@ fn random_problem(contacts: usize) -> ModeProblem {
     ModeProblem::new(positive, negative, none.clone(), none, load).expect("finite numbers")
 }
 
-#[divan::bench(args = [8, 12, 16, 20], sample_count = 10, sample_size = 1)]
-fn elimination_tree(bencher: Bencher<'_, '_>, contacts: usize) {
-    let problem = random_problem(contacts);
+#[divan::bench(args = [3, 6, 8])]
+fn elimination(bencher: Bencher<'_, '_>, contacts: usize) {
+    let mut problem = SmallProblem::new(contacts);
+    problem.copy(&random_problem(contacts));
+    let mut screen = Screen::new(contacts);
     bencher
         .counter(ItemsCount::new(1_usize << contacts))
-        .bench_local(|| enumerate(&problem, &Limits::default()).expect("within the limits"));
+        .bench_local(|| screen.states(black_box(&problem), 0.0).map(<[_]>::len));
 }
 
-#[divan::bench(args = [8, 12], sample_count = 10, sample_size = 1)]
+/// As the search without certificates solves the same problem.
+#[divan::bench(args = [3, 6, 8])]
+fn search_within_tolerances(bencher: Bencher<'_, '_>, contacts: usize) {
+    let problem = random_problem(contacts);
+    let options = SearchOptions { certify: false, ..SearchOptions::default() };
+    bencher
+        .counter(ItemsCount::new(1_usize << contacts))
+        .bench_local(|| search(black_box(&problem), &options, &mut |_| ControlFlow::Continue(())));
+}
+
+#[divan::bench(args = [3, 6, 8])]
 fn factorization_per_pattern(bencher: Bencher<'_, '_>, contacts: usize) {
     let problem = random_problem(contacts);
     bencher.counter(ItemsCount::new(1_usize << contacts)).bench_local(|| {
