@@ -9,6 +9,7 @@ use crate::solve::{AT_ONCE, Parts, pattern};
 use nalgebra::DVector;
 use serde::Serialize;
 use std::borrow::Cow;
+use std::cell::Cell;
 
 /// Bounds of the classes of margins.
 pub(super) const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
@@ -19,8 +20,10 @@ const PATTERNS: u64 = 1 << 12;
 #[derive(Debug, Clone, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum ClassMeaning {
-    /// There is neither a solution nor a state in a preload gap.
+    /// There is neither a solution nor a state in a preload gap: friction locks it.
     Locked,
+    /// There is neither a solution nor a state in a preload gap, because a guided slider tips.
+    Tips,
     /// So many solutions, and states with the preload between the faces.
     Solutions {
         /// Number of solutions.
@@ -47,6 +50,12 @@ pub enum ClassMeaning {
         as_in_model: bool,
         /// The other way.
         opposite: bool,
+        /// Whether a guided slider tips where there is none as in the model.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        tips_as_in_model: bool,
+        /// The other way.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        tips_opposite: bool,
     },
     /// What becomes of the speeds in each solution.
     Motion {
@@ -110,6 +119,8 @@ pub(super) struct States {
     pub(super) sides: Vec<Vec<ContactState>>,
     pub(super) gaps: Vec<String>,
     pub(super) continuum: bool,
+    /// Whether a guided slider tips in a solution of the equations.
+    pub(super) tips: bool,
     /// Whether it is open how many there are.
     pub(super) undecided: bool,
     /// With friction in hinges and for `Motion`: what becomes of the speeds in each solution.
@@ -141,14 +152,22 @@ pub(super) fn class(
             None | Some(Ok(None)) => ClassMeaning::TooLarge,
             Some(Err(reason)) => ClassMeaning::NotSolved { reason },
             Some(Ok(Some(other))) if other.undecided => undecided,
-            Some(Ok(Some(other))) => ClassMeaning::Moves { as_in_model, opposite: moves(&other) },
+            Some(Ok(Some(other))) => {
+                let opposite = moves(&other);
+                ClassMeaning::Moves {
+                    as_in_model,
+                    opposite,
+                    tips_as_in_model: !as_in_model && states.tips,
+                    tips_opposite: !opposite && other.tips,
+                }
+            }
         };
     }
     if states.continuum {
         return ClassMeaning::Continuum;
     }
     if !moves(&states) {
-        return ClassMeaning::Locked;
+        return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };
     }
     let number =
         ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
@@ -204,10 +223,15 @@ fn states(point: &Point) -> Option<States> {
     let parts = &point.parts;
     let problem = parts.problem().ok()?;
     let found: Solutions = enumerate(&problem, &Limits::default()).ok()?;
+    let some_tip = Cell::new(false);
     // Those of a state without tipping, by the faces at which preloads rub.
     let standing = |sides: &[ContactState], zero: &[usize], force: &DVector<f64>, shares: &[Option<f64>]| {
         let mut faces = parts.faces(sides, zero);
-        faces.retain(|sides| !parts.tips(sides, force, shares));
+        faces.retain(|sides| {
+            let tips = parts.tips(sides, force, shares);
+            some_tip.set(some_tip.get() || tips);
+            !tips
+        });
         faces.into_iter().map(|sides| pattern(&sides))
     };
     let mut told: Vec<(Vec<ContactState>, DVector<f64>)> = Vec::new();
@@ -241,6 +265,7 @@ fn states(point: &Point) -> Option<States> {
         let stand = standing(&gap.pattern, &gap.on_boundary, &gap.normal_force, &shares);
         if parts.is_solution(&gap.pattern) { &mut states.solutions } else { &mut states.gaps }.extend(stand);
     }
+    states.tips = some_tip.get();
     states.continuum = found.singular.iter().any(|mode| mode.set.is_continuum());
     Some(states)
 }

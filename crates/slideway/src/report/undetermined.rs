@@ -54,6 +54,9 @@ impl OpenRange {
 pub struct Undetermined {
     /// The joints whose share of a load is open.
     pub sharing: Vec<String>,
+    /// The friction of contacts and hinges that stand still while the rest moves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub friction: Vec<OpenRange>,
     /// The efforts of the drives.
     pub efforts: Vec<OpenRange>,
     /// The accelerations of the coordinates.
@@ -66,8 +69,21 @@ impl Undetermined {
     /// What is undetermined, in a few words: "how left, right share the load is undetermined".
     pub(crate) fn cause(&self) -> String {
         match self.sharing.as_slice() {
+            [] if !self.friction.is_empty() => self.standing_in_words(),
             [] => "a mode with vanishing determinant leaves forces undetermined".to_owned(),
             joints => format!("how {} share the load is undetermined", joints.join(", ")),
+        }
+    }
+
+    /// "top does not slide, and its friction can have any value within its limits"
+    fn standing_in_words(&self) -> String {
+        let names: Vec<&str> = self.friction.iter().map(|range| range.name.as_str()).collect();
+        match self.friction.as_slice() {
+            [only] if only.unit == "N m" => {
+                format!("the hinge {} does not turn, and its friction couple can have any value within its limits", only.name)
+            }
+            [only] => format!("{} does not slide, and its friction can have any value within its limits", only.name),
+            _ => format!("{} do not slide, and their friction can have any value within its limits", names.join(", ")),
         }
     }
 
@@ -84,6 +100,7 @@ impl Undetermined {
             (!open.is_empty()).then(|| format!("{what}: {}.", open.join(", ")))
         };
         let kinds = [
+            ("Friction", &self.friction),
             ("Efforts", &self.efforts),
             ("Accelerations", &self.accelerations),
             ("Normal forces", &self.normal_forces),

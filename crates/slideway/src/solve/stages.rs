@@ -1,13 +1,13 @@
 //! The stages of a model up to the numbers of its mode problem.
 
 use super::hinges::HingedData;
-use super::mode_problem::{assembled_problem, mode_problem, self_stresses, velocity_signs};
+use super::mode_problem::{Sliding, assembled_problem, mode_problem, none_stands, self_stresses};
 use super::parts::Parts;
 use super::sharing::check_assembly;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
-use crate::ids::DriveId;
+use crate::ids::{ContactId, DriveId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coordinate_rows};
 use crate::mechanism::Mechanism;
@@ -36,6 +36,8 @@ pub(crate) struct Stages {
     pub(crate) configuration: Configuration,
     pub(crate) influence: Influence,
     pub(crate) velocity_signs: DVector<f64>,
+    /// The contacts with friction that stand still while the rest moves; none but in [`Stages::with_standing`].
+    pub(crate) standing: Vec<ContactId>,
     pub(crate) accuracy: Accuracy,
 }
 
@@ -66,11 +68,30 @@ impl Stages {
         Ok(Self::with_equations(mechanism, configuration)?.0)
     }
 
+    /// Those of a model, in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn of_any_model(model: &Model) -> Result<Self, Faults> {
+        let mechanism = Mechanism::new(model)?;
+        mechanism.check_size()?;
+        let configuration = Configuration::new(&mechanism)?;
+        Ok(Self::with_standing(mechanism, configuration)?.0)
+    }
+
     /// The same with the equations, too, from the states of the last ones if these are near.
     ///
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
+        Self::along_with_standing(trail, mechanism)?.moving()
+    }
+
+    /// [`Stages::along`], in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn along_with_standing(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         Self::of(mechanism, configuration, influences)
@@ -79,8 +100,20 @@ impl Stages {
     /// Those of a mechanism in a configuration, and its kinetic equations.
     ///
     /// # Errors
-    /// Whatever `solve` refuses of equations and friction.
+    /// Whatever `solve` refuses of equations and friction; contacts that stand still while the rest moves.
     pub(crate) fn with_equations(
+        mechanism: Mechanism,
+        configuration: Configuration,
+    ) -> Result<(Self, KineticEquations), Faults> {
+        let (stages, equations) = Self::with_standing(mechanism, configuration)?;
+        Ok((stages.moving()?, equations))
+    }
+
+    /// [`Stages::with_equations`], in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses of equations and friction.
+    pub(crate) fn with_standing(
         mechanism: Mechanism,
         configuration: Configuration,
     ) -> Result<(Self, KineticEquations), Faults> {
@@ -99,12 +132,21 @@ impl Stages {
         configuration.put_friction(&mut mechanism)?;
         let accuracy = influences.accuracy();
         let influence = Influence::of(influences);
-        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        let stages = Self { mechanism, configuration, influence, velocity_signs, accuracy };
+        let Sliding { signs: velocity_signs, standing } = Sliding::of(&mechanism, &configuration)?;
+        let stages = Self { mechanism, configuration, influence, velocity_signs, standing, accuracy };
         if let Some(shared) = stages.shared_load()? {
             check_assembly(&stages.mechanism, &shared)?;
         }
         Ok(stages)
+    }
+
+    /// These, if every contact with friction slides.
+    ///
+    /// # Errors
+    /// Contacts that stand still while the rest moves.
+    fn moving(self) -> Result<Self, Faults> {
+        none_stands(&self.mechanism, &self.standing)?;
+        Ok(self)
     }
 
     /// How redundant guides share their load; none if nothing is in excess.
@@ -240,6 +282,7 @@ pub(crate) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> M
     let mut mechanism = mechanism.clone();
     for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
         contact.mu = contact.mu.map(|mu| mu * factor(k));
+        contact.mu_static = contact.mu_static.map(|mu| mu * factor(k));
     }
     mechanism
 }
