@@ -672,7 +672,7 @@ pub struct Continuum {
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.
     pub directions: Vec<Vec<f64>>,
-    /// Efforts and accelerations at each vertex; none where a preload may rub at either face, and if a couple is free.
+    /// Efforts and accelerations at each vertex; none where a preload may rub at either face.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<DrivenMotion>,
     /// What a unit of each direction adds to them.
@@ -696,7 +696,7 @@ pub struct HeldFriction {
     pub name: String,
     /// "N", or "N m" of a hinge.
     pub unit: &'static str,
-    /// The force on the block along the guide's tangent, or the couple on the hinge's first body, at each vertex.
+    /// At each vertex: the friction force, positive against positive sliding, or the couple on the hinge's first body.
     pub at: Vec<f64>,
     /// What a unit of each direction adds to it.
     pub along: Vec<f64>,
