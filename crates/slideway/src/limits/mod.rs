@@ -45,6 +45,7 @@ mod report;
 mod rest;
 mod scan;
 mod speeds;
+mod standing;
 mod text;
 mod varied;
 mod vary;

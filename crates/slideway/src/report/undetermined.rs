@@ -75,16 +75,18 @@ impl Undetermined {
         }
     }
 
-    /// "top does not slide, and its friction can have any value within its limits"
+    /// "friction at top, which does not slide, can have any value within its limits"
     fn standing_in_words(&self) -> String {
         let names: Vec<&str> = self.friction.iter().map(|range| range.name.as_str()).collect();
-        match self.friction.as_slice() {
+        let names = names.join(", ");
+        let what = match self.friction.as_slice() {
             [only] if only.unit == "N m" => {
-                format!("the hinge {} does not turn, and its friction couple can have any value within its limits", only.name)
+                format!("the friction couple of the hinge {names}, which does not turn,")
             }
-            [only] => format!("{} does not slide, and its friction can have any value within its limits", only.name),
-            _ => format!("{} do not slide, and their friction can have any value within its limits", names.join(", ")),
-        }
+            [_] => format!("friction at {names}, which does not slide,"),
+            _ => format!("friction at {names}, which do not slide,"),
+        };
+        format!("{what} can have any value within its limits")
     }
 
     /// What to do for one value; none if it is not known.

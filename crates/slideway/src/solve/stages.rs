@@ -63,9 +63,22 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
+        let stages = Self::following_with_standing(follower, mechanism)?;
+        stages.check_moving()?;
+        Ok(stages)
+    }
+
+    /// [`Stages::following`], in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn following_with_standing(
+        follower: &mut Follower,
+        mechanism: Mechanism,
+    ) -> Result<Self, Faults> {
         mechanism.check_size()?;
         let configuration = follower.configuration(&mechanism)?;
-        Ok(Self::with_equations(mechanism, configuration)?.0)
+        Ok(Self::with_standing(mechanism, configuration)?.0)
     }
 
     /// Those of a model, in which contacts may stand still while the rest moves.
@@ -73,10 +86,7 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn of_any_model(model: &Model) -> Result<Self, Faults> {
-        let mechanism = Mechanism::new(model)?;
-        mechanism.check_size()?;
-        let configuration = Configuration::new(&mechanism)?;
-        Ok(Self::with_standing(mechanism, configuration)?.0)
+        Self::following_with_standing(&mut Follower::default(), Mechanism::new(model)?)
     }
 
     /// The same with the equations, too, from the states of the last ones if these are near.
@@ -84,7 +94,9 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
-        Self::along_with_standing(trail, mechanism)?.moving()
+        let stages = Self::along_with_standing(trail, mechanism)?;
+        stages.check_moving()?;
+        Ok(stages)
     }
 
     /// [`Stages::along`], in which contacts may stand still while the rest moves.
@@ -106,7 +118,8 @@ impl Stages {
         configuration: Configuration,
     ) -> Result<(Self, KineticEquations), Faults> {
         let (stages, equations) = Self::with_standing(mechanism, configuration)?;
-        Ok((stages.moving()?, equations))
+        stages.check_moving()?;
+        Ok((stages, equations))
     }
 
     /// [`Stages::with_equations`], in which contacts may stand still while the rest moves.
@@ -140,13 +153,12 @@ impl Stages {
         Ok(stages)
     }
 
-    /// These, if every contact with friction slides.
+    /// Refuses contacts that stand still while the rest moves.
     ///
     /// # Errors
-    /// Contacts that stand still while the rest moves.
-    fn moving(self) -> Result<Self, Faults> {
-        none_stands(&self.mechanism, &self.standing)?;
-        Ok(self)
+    /// A fault for them.
+    pub(crate) fn check_moving(&self) -> Result<(), Faults> {
+        none_stands(&self.mechanism, &self.standing)
     }
 
     /// How redundant guides share their load; none if nothing is in excess.

@@ -58,7 +58,7 @@ impl Sweep {
         let jams = state.tally.with_status(PointStatus::None) > 0;
         text.status(if jams { Status::None } else { Status::One }, &self.answer(state));
         text.points(self);
-        text.solutions(self);
+        text.solutions();
         text.remarks(self);
         text.text()
     }
@@ -93,7 +93,7 @@ impl Page<'_, SweepState> {
         self.line(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
     }
 
-    fn solutions(&mut self, sweep: &Sweep) {
+    fn solutions(&mut self) {
         let tally = &self.report.tally;
         let share = |count: u64| {
             let all = (tally.points - tally.breakpoints).max(1);

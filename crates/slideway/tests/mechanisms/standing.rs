@@ -149,7 +149,7 @@ fn a_platform_on_two_straight_lines_has_a_range_of_efforts() {
         range.undetermined.efforts.iter().for_each(|effort| assert_range(effort, [from, to]));
     }
     let words = driven.conclusion.join(" ");
-    assert!(words.contains("top does not slide, and its friction can have any value"), "{words}");
+    assert!(words.contains("friction at top, which does not slide, can have any value within its limits"), "{words}");
 }
 
 /// The ends of a range are the solutions in which the slot slides a little, either way.

@@ -138,7 +138,7 @@ impl Standing<'_> {
             count: solutions.len().to_string(),
             strategy: "every mode, affine in the friction of what stands still".to_owned(),
             nodes: 1 << contacts,
-            margins_missing: Some(MarginsMissing::Undetermined),
+            margins_missing: (!continua.is_empty()).then_some(MarginsMissing::Undetermined),
             undetermined: self.answer.undetermined(&continua),
             solutions,
             continua,
