@@ -36,7 +36,7 @@ impl NoSliding {
                 "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
             ),
             Self::Never | Self::Stands => format!(
-                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `slideway solve`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}"
+                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `slideway solve`, `drive`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}"
             ),
         }
     }
@@ -55,7 +55,7 @@ impl NoSliding {
                 "no motion of the mechanism makes it slide, so friction there only holds: {HOLD}; to leave that friction out write `mu = 0` there"
             ),
             Self::Stands => format!(
-                "it stands still while the rest moves, so that its friction may be anything within its limits: the answer is a range, which `slideway solve`, `drive`, `sweep` and `map` compute for up to {MOST_STANDING} such contacts among at most {MOST_CONTACTS}, without friction in hinges and guides that share a load; to leave that friction out write `mu = 0` there"
+                "it stands still while the rest moves, so that its friction may be anything within its limits: the answer is a range, which `slideway solve`, `drive`, `limits`, `sweep` and `map` tell for up to {MOST_STANDING} such contacts among at most {MOST_CONTACTS}, without friction in hinges and guides that share a load; to leave that friction out write `mu = 0` there"
             ),
         }
     }

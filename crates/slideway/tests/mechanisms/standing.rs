@@ -3,6 +3,7 @@
 use crate::answers::assert_close as close;
 use slideway::drive::{DriveOptions, drive};
 use slideway::fault::{FaultKind, NoSliding};
+use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::{OpenRange, SolveReport, Status};
 use slideway::solve::solve;
@@ -148,8 +149,25 @@ fn a_platform_on_two_straight_lines_has_a_range_of_efforts() {
         let range = direction.range.as_ref().unwrap();
         range.undetermined.efforts.iter().for_each(|effort| assert_range(effort, [from, to]));
     }
+    let vary = DriveOptions::default().vary(Vary::between("mu", 0.0, 0.4)).rows(3);
+    let course = drive(&model(SCOTT_RUSSELL), &vary).unwrap().course.unwrap();
+    for row in &course.directions[0].rows {
+        let range = row.range.as_ref().unwrap();
+        assert_range(&range.undetermined.efforts[1], [load, load + row.at / 0.2 * most]);
+    }
     let words = driven.conclusion.join(" ");
     assert!(words.contains("friction at top, which does not slide, can have any value within its limits"), "{words}");
+}
+
+/// Whatever the friction of the slot, if it has any.
+#[test]
+fn limits_have_infinitely_many_solutions_there() {
+    for vary in [Vary::between("mt", 0.0, 1.0), Vary::between("friction", 0.0, 2.0)] {
+        let report = limits(&model(SCOTT_RUSSELL), &LimitsOptions::new(vary)).unwrap();
+        let [count] = report.counts.as_slice() else { panic!("{:?}", report.counts) };
+        assert!(count.continuum && count.solutions == 0 && count.from.abs() < 1e-9, "{count:?}");
+        assert!(report.conclusion[0].contains("infinitely many solutions"), "{:?}", report.conclusion);
+    }
 }
 
 /// The ends of a range are the solutions in which the slot slides a little, either way.
