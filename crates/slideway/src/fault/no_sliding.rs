@@ -50,7 +50,7 @@ impl NoSliding {
                 super::listed(coordinates),
                 rates(coordinates)
             ),
-            Self::Here => "sliding just stops, begins or reverses in this position, and the forces decide which: move the mechanism a little with --at, or change its rates".to_owned(),
+            Self::Here => "sliding just begins, stops or reverses in this position: move the mechanism a little with --at, or change its rates".to_owned(),
             Self::Never => format!(
                 "no motion of the mechanism makes it slide, so friction there only holds: {HOLD}; to leave that friction out write `mu = 0` there"
             ),

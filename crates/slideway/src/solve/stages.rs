@@ -50,14 +50,6 @@ impl Stages {
         Self::following(&mut Follower::default(), mechanism)
     }
 
-    /// Those of a model whose hinges may have friction.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn of_model(model: &Model) -> Result<Self, Faults> {
-        Self::following(&mut Follower::default(), Mechanism::new(model)?)
-    }
-
     /// Those of a mechanism, its positions from those of the last ones if these are near.
     ///
     /// # Errors
@@ -81,7 +73,7 @@ impl Stages {
         Ok(Self::with_standing(mechanism, configuration)?.0)
     }
 
-    /// Those of a model, in which contacts may stand still while the rest moves.
+    /// Those of a model whose hinges may have friction, and in which contacts may stand still while the rest moves.
     ///
     /// # Errors
     /// Whatever `solve` refuses.
