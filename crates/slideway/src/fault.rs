@@ -9,6 +9,7 @@ mod no_sliding;
 pub use axis::AxisProblem;
 pub use doubt::Doubt;
 pub use no_sliding::NoSliding;
+pub(crate) use no_sliding::{MOST_CONTACTS, MOST_STANDING};
 pub use slideway_modes::names::nearest;
 
 use crate::expression::{Dimension, ExpressionFaultKind, ends_of_range};

@@ -350,6 +350,15 @@ fn sweep_answers() {
             swept(&model("drawer", &[("v", "-0.1 m/s")]), &grid("mu=0..1:11")),
             "It jams at none of 11 points. 4 of them have several solutions.",
         ),
+        // The bed tips from mu = 1.25 on, and jams beyond cot(20 deg) = 2.747.
+        (
+            swept(&model(TIPPING_PRESS, &[]), &grid("mu=0.1..2.5:25")),
+            "A guided slider tips at 13 of 25 points. Model it as a block slider to see whether it still moves.",
+        ),
+        (
+            swept(&model(TIPPING_PRESS, &[]), &grid("mu=0.1..3:30")),
+            "It jams, or a guided slider tips, at 18 of 30 points. Model it as a block slider to see whether it still moves.",
+        ),
     ];
     assert_answers(&told);
 }

@@ -38,7 +38,8 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
     let plain = |fill: &'static str| Paint { fill, hatching: None };
     let numbers = if *theme == DARK { NUMBERS_ON_DARK } else { NUMBERS };
     match &class.meaning {
-        ClassMeaning::Locked | ClassMeaning::Moves { as_in_model: false, opposite: false } => {
+        ClassMeaning::Tips => Paint { fill: LOCKED, hatching: Some(Hatching::Falling) },
+        ClassMeaning::Locked | ClassMeaning::Moves { as_in_model: false, opposite: false, .. } => {
             Paint { fill: LOCKED, hatching: Some(Hatching::Rising) }
         }
         ClassMeaning::Solutions { .. } if is_of_margins(classes) => plain(SEVERAL),
@@ -64,7 +65,7 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             let step = all.iter().rposition(|bound| bound <= from).unwrap_or(0);
             plain(MARGINS[step])
         }
-        ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(BOTH),
+        ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => plain(BOTH),
         ClassMeaning::Moves { as_in_model: true, .. } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
         ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),

@@ -94,6 +94,7 @@ __all__ = [
     "FromRest",
     "GapShare",
     "Hatching",
+    "HeldFriction",
     "Hinge",
     "HingeFriction",
     "HingeRange",
@@ -992,14 +993,16 @@ class Continuum(Record):
     directions: tuple[NDArray[np.float64], ...]
     """Directions in which the normal forces may grow without bound."""
     motion: tuple[DrivenMotion, ...] = ()
-    """Efforts and accelerations at each vertex; none where a preload may rub at either face, and if a couple is
-    free."""
+    """Efforts and accelerations at each vertex; none where a preload may rub at either face."""
     motion_along: tuple[DrivenMotion, ...] = ()
     """What a unit of each direction adds to them."""
     tipping: tuple[str, ...]
     """The guided sliders that would tip in a part of it."""
     couple: CoupleRange | None = None
     """The friction couple of a hinge that never turns, if it is what is free; absent otherwise."""
+    held: tuple[HeldFriction, ...] = ()
+    """The friction of contacts and hinges that stand still while the rest moves, if it is what is free; empty
+    otherwise."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1662,6 +1665,21 @@ class GapShare(Record):
     """The index of the unknown, from 0."""
     lambda_: float
     """The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if it is beyond the range."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HeldFriction(Record):
+    """The friction of a contact or hinge that stands still while the rest moves, over a range."""
+
+    name: str
+    """The contact, or the hinge."""
+    unit: str
+    """"N", or "N m" of a hinge."""
+    at: NDArray[np.float64]
+    """At each vertex: the friction force, positive against positive sliding, or the couple on the hinge's first
+    body."""
+    along: NDArray[np.float64]
+    """What a unit of each direction adds to it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2597,7 +2615,7 @@ class SimulateReport(Report):
 class SizeReport(_mixins.SizeReport, Report):
     """For which values a wanted margin is met."""
 
-    _absent = {"load": None}
+    _absent = {"load": None, "tipping": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2620,6 +2638,8 @@ class SizeReport(_mixins.SizeReport, Report):
     """Whether the smaller margin of both directions of motion counts."""
     present: Sample
     """The margin in the model."""
+    tipping: Tipping | None
+    """What tips in the model, if there is no solution for that reason; absent otherwise."""
     met: tuple[MetInterval, ...]
     """The intervals in which the wanted margin is met, in ascending order."""
     without_position: tuple[RangeWithoutPosition, ...]
@@ -2844,6 +2864,8 @@ class Tally(Record):
     """Points by what became of them; inserted ones are left out."""
     solutions: Mapping[int, int]
     """Points by their number of solutions; inserted ones are left out."""
+    tipping: int
+    """Points without a solution because a guided slider tips; inserted ones are left out."""
     boundary_rows: int
     """Rows on the boundary between modes."""
     refusals: Mapping[PointStatus, tuple[int, str]]
@@ -2889,7 +2911,7 @@ class Threshold(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tipping(Record):
-    """What tips in an interval without a solution."""
+    """What tips where there is no solution: a guided slider has no state in which it is tipped."""
 
     joints: tuple[str, ...]
     """The guided sliders that would tip in a solution of the equations: as block sliders they show whether it
@@ -2975,6 +2997,8 @@ class Undetermined(Record):
 
     sharing: tuple[str, ...]
     """The joints whose share of a load is open."""
+    friction: tuple[OpenRange, ...] = ()
+    """The friction of contacts and hinges that stand still while the rest moves."""
     efforts: tuple[OpenRange, ...]
     """The efforts of the drives."""
     accelerations: tuple[OpenRange, ...]
@@ -3100,6 +3124,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "DriveSolution": {"efforts": "array"},
     "DrivenMotion": {"efforts": "array", "accelerations": "array"},
     "Frictionless": {"efforts": "array"},
+    "HeldFriction": {"at": "array", "along": "array"},
     "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array", "eta_positive": "arrays", "eta_negative": "arrays"},
     "LimitsReport": {"between_faces_at": "array"},
     "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},

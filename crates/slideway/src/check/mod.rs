@@ -27,7 +27,7 @@ use crate::kinetics::{Assembled, KineticEquations};
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::report::{LoadSharing, finite};
-use crate::solve::{check_hinges, load_sharing, mode_problem, velocity_signs};
+use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem};
 use crate::units::Units;
 use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;
@@ -311,16 +311,17 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let (mut condition, mut sharing) = (None, None);
     if assembled {
         keep(configuration.put_friction(&mut mechanism));
-        let signs = velocity_signs(&mechanism, &configuration);
+        let sliding = Sliding::of(&mechanism, &configuration);
         match KineticEquations::new(&mechanism, &configuration) {
             Ok(equations) => {
                 condition = Some(equations.condition());
                 let influence = Influence::new(&equations);
                 keep(check_hinges(&mechanism, &configuration, &influence));
-                match (load_sharing(&mechanism, &influence), &signs) {
+                match (load_sharing(&mechanism, &influence), &sliding) {
                     (Err(found), _) => keep(Err(found)),
-                    (Ok(found), Ok(signs)) => {
+                    (Ok(found), Ok(Sliding { signs, standing })) => {
                         sharing = found;
+                        keep(check_standing(&mechanism, standing));
                         keep(mode_problem(&mechanism, &influence, signs).map(|_| ()));
                     }
                     (Ok(found), Err(_)) => sharing = found,
@@ -328,7 +329,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
             }
             Err(found) => keep(Err(found)),
         }
-        keep(signs.map(|_| ()));
+        keep(sliding.map(|_| ()));
     }
     let inertia = inertia(&mechanism, &configuration);
     finite(CheckReport {

@@ -8,7 +8,7 @@
 //! `joint_equations.rs` has the equations and `curvature.rs` how they bend, `anchor.rs` proves how far the
 //! branch of a state can be followed in one step, `following.rs` goes from place to place, `follower.rs`
 //! finds one state after another and remembers what the last step has shown, `assembly.rs` closes the drawing
-//! and says why a state cannot be had, `mobility.rs` counts freedoms.
+//! and says why a state cannot be had, `mobility.rs` counts freedoms, `standing.rs` finds what the drives keep at rest.
 
 mod anchor;
 mod assembly;
@@ -18,6 +18,7 @@ mod follower;
 mod following;
 mod joint_equations;
 mod mobility;
+mod standing;
 
 pub(crate) use assembly::widest_gap_of_drawing;
 pub use follower::Follower;
@@ -26,6 +27,7 @@ pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{
     PROBE, advance, free_motions, motion_in_words, motions_without_inertia, moved_by, null_space,
 };
+pub(crate) use standing::{NO_ACCELERATION, staying};
 
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};

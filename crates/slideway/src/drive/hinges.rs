@@ -1,4 +1,4 @@
-//! The efforts over a parameter or a coordinate with friction in hinges: each row is solved by itself, and where the
+//! The efforts over a parameter or a coordinate with friction in hinges, or where contacts stand still while the rest moves: each row is solved by itself, and where the
 //! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
 
 use super::course::{Guarantee, evenly, modes, nothing, rows_of, with_blow_ups};
@@ -12,8 +12,7 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{SolveReport, Status};
 use crate::solve::{
-    LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, never_turning,
-    solve_with_friction,
+    LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, solve_with_friction,
 };
 
 /// Steps between which changes of the number of solutions are sought.
@@ -80,8 +79,7 @@ impl Sampled<'_> {
     /// Whatever `solve` refuses there.
     fn at(&self, value: f64) -> Result<AllEfforts, Faults> {
         let (model, factor) = self.varied.model_at(value)?;
-        let stages = Stages::of_model(&model)?;
-        never_turning(&stages.mechanism, &stages.configuration)?;
+        let stages = Stages::of_any_model(&model)?;
         let report = self.solved(&model, stages.rougher(factor))?;
         Ok(state::efforts(&report, frictionless(&stages), &velocities(&stages)))
     }
@@ -100,8 +98,8 @@ impl Sampled<'_> {
     /// How many solutions there are at a value; none where there is no answer.
     fn number(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<usize> {
         let (model, factor) = self.varied.model_at(value).ok()?;
-        let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
-        if !model.has_guided_sliders() {
+        let stages = Stages::along_with_standing(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
+        if stages.standing.is_empty() && !model.has_guided_sliders() {
             let mut goes_on = |_: &Progress| self.work.flow();
             let rougher = stages.with_friction(factor);
             let found = hinged_states(rougher.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;

@@ -52,6 +52,7 @@ use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
+use crate::solve::Stages;
 
 /// The most rows of a table that are computed.
 pub const GREATEST_ROWS: usize = 10_001;
@@ -147,9 +148,11 @@ fn course(
     rows: usize,
     work: Work<'_>,
 ) -> Result<Course, Faults> {
-    let rough = model.hinge_friction().next().is_some();
-    let varied_in = |model: &Model| if rough { vary.at_rest(model) } else { vary.of(model) };
-    let direction = if rough { hinges::direction } else { course::direction };
+    // What stands still has no mode problem, either.
+    let stands = Stages::of_any_model(model).is_ok_and(|stages| !stages.standing.is_empty());
+    let one_by_one = stands || model.hinge_friction().next().is_some();
+    let varied_in = |model: &Model| if one_by_one { vary.at_rest(model) } else { vary.of(model) };
+    let direction = if one_by_one { hinges::direction } else { course::direction };
     let varied = varied_in(model)?;
     let range = vary.ends(&varied, || range_around(model, &varied))?;
     let opposite = varied_in(reversed)?;

@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::progress::{Progress, Work};
 use crate::report::{CoordinateState, Solution, SolveReport, Status};
-use crate::solve::{SolveOptions, Stages, common_coefficient, never_turning, pattern, solve_with};
+use crate::solve::{SolveOptions, Stages, common_coefficient, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
 pub(super) const PATTERNS: u64 = 1 << 12;
@@ -31,20 +31,13 @@ pub(super) fn direction(
     let mechanism = Mechanism::new(model)?;
     let mut goes_on = |progress: &Progress| work.part(0, 2).tell(progress);
     let configuration = Configuration::with_progress(&mechanism, &mut goes_on)?;
-    never_turning(&mechanism, &configuration)?;
     let options = SolveOptions::default();
     let report = solve_with(model, &options, &mut goes_on)?;
-    let (stages, _) = Stages::with_equations(mechanism, configuration)?;
+    let (stages, _) = Stages::with_standing(mechanism, configuration)?;
     let AllEfforts { solutions, range, frictionless, .. } =
         efforts(&report, frictionless(&stages), &velocities(&stages));
-    // What tips now, or just beyond the factor.
-    let tips = match &report.margins {
-        _ if !report.rejected.is_empty() => report.tipping_joints(),
-        Some(margins) => margins.tips.clone(),
-        None => Vec::new(),
-    };
     let found = DriveDirection {
-        tips,
+        tips: report.tipping_in_the_end(),
         direction,
         status: report.status,
         complete: report.complete,
@@ -102,10 +95,10 @@ pub(super) fn efforts(report: &SolveReport, frictionless: Vec<f64>, velocities: 
     }
 }
 
-/// The factors of friction at which efforts grow without bound; none if there are too many modes, or friction in
-/// hinges.
+/// The factors of friction at which efforts grow without bound; none if there are too many modes, friction in hinges, or
+/// contacts that stand still.
 fn blow_ups(stages: &Stages, work: Work<'_>) -> Result<Option<Vec<BlowUp>>, Faults> {
-    if stages.mechanism.rough_hinges().next().is_some() {
+    if stages.mechanism.rough_hinges().next().is_some() || !stages.standing.is_empty() {
         return Ok(None);
     }
     let line = stages.parts(0.0)?.line_to(&stages.parts(1.0)?);

@@ -1,5 +1,10 @@
 //! Why a joint does not slide, so that friction in motion has no direction there.
 
+/// The most contacts that stand still while the rest moves, and the most contacts beside them, for which `solve` gives the
+/// range of the forces.
+pub(crate) const MOST_STANDING: usize = 3;
+pub(crate) const MOST_CONTACTS: usize = 12;
+
 /// What to ask of a joint at rest.
 const HOLD: &str = "`slideway hold` says whether it can stay at rest";
 
@@ -15,6 +20,8 @@ pub enum NoSliding {
     Here,
     /// No coordinate moves it, here or nearby.
     Never,
+    /// The drives keep it at rest while the rest moves.
+    Stands,
 }
 
 impl NoSliding {
@@ -28,8 +35,8 @@ impl NoSliding {
             Self::Here => format!(
                 "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
             ),
-            Self::Never => format!(
-                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `slideway solve`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}"
+            Self::Never | Self::Stands => format!(
+                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `slideway solve`, `drive`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}"
             ),
         }
     }
@@ -43,12 +50,12 @@ impl NoSliding {
                 super::listed(coordinates),
                 rates(coordinates)
             ),
-            Self::Here => {
-                "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates"
-                    .to_owned()
-            }
+            Self::Here => "sliding just begins, stops or reverses in this position: move the mechanism a little with --at, or change its rates".to_owned(),
             Self::Never => format!(
                 "no motion of the mechanism makes it slide, so friction there only holds: {HOLD}; to leave that friction out write `mu = 0` there"
+            ),
+            Self::Stands => format!(
+                "it stands still while the rest moves, so that its friction may be anything within its limits: the answer is a range, which `slideway solve`, `drive`, `limits`, `sweep` and `map` tell for up to {MOST_STANDING} such contacts among at most {MOST_CONTACTS}, without friction in hinges and guides that share a load; to leave that friction out write `mu = 0` there"
             ),
         }
     }

@@ -4,7 +4,7 @@ use super::answer::{self, Along, Naming};
 use super::find::find;
 use super::found::ModesFound;
 use super::options::LimitsOptions;
-use super::report::{LimitsReport, Tipping};
+use super::report::LimitsReport;
 use super::speeds::speeds;
 use super::varied::Varied;
 use crate::fault::Faults;
@@ -12,6 +12,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::existence::CountInterval;
 use crate::progress::Work;
+use crate::report::Tipping;
 use crate::solve::Stages;
 
 /// Without a range the factor of all coefficients of friction is varied from 0 to this.
@@ -79,7 +80,8 @@ impl Analysis {
 /// Of each range without a solution what tips at three values within it.
 fn tipping(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Option<Tipping>> {
     let at = |value: f64| -> Vec<String> {
-        varied.solved(value, work).map_or_else(|_| Vec::new(), |report| report.tipping_joints())
+        let report = varied.solved(value, work);
+        report.ok().and_then(|report| report.tipping()).map_or_else(Vec::new, |tipping| tipping.joints)
     };
     let within = |count: &CountInterval| {
         let is_asked = count.is_empty() && varied.model().has_guided_sliders();

@@ -5,7 +5,7 @@ use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::guarantee::{guarantee, not_examined};
 use super::report::{
     CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    RangeWithoutProblem, SCHEMA, SpeedLimits, Tipping, VariedQuantity,
+    RangeWithoutProblem, SCHEMA, SpeedLimits, VariedQuantity,
 };
 use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{CoordinateState, JointMode, ModeEndCause, NO_DRIVE};
+use crate::report::{CoordinateState, JointMode, ModeEndCause, NO_DRIVE, Tipping};
 use crate::solve::{joint_mode_in_words, pattern, signs};
 
 impl VariedQuantity {

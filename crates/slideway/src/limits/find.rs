@@ -7,6 +7,7 @@ use super::degenerate;
 use super::examine::Examiner;
 use super::found::{Method, ModesFound, PATTERNS};
 use super::scan::Scanner;
+use super::standing;
 use super::varied::Varied;
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -41,6 +42,11 @@ fn found(
     effort: u64,
     work: Work<'_>,
 ) -> Result<ModesFound, TooManyModes> {
+    if options.greatest_normal_force.is_none()
+        && let Some(found) = standing::found(varied, options.range, work)
+    {
+        return Ok(found);
+    }
     let circles = varied.rough_circles(options.range);
     let scanner = Scanner { varied, options: *options, work: work.part(0, 2) };
     let scan = |places: &[f64]| {

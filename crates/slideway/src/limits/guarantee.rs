@@ -26,7 +26,7 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
         ),
     }];
     sentences.extend(knowledge(found, shown_in));
-    if found.counts.iter().any(|count| count.continuum) {
+    if found.counts.iter().any(|count| count.continuum) && !found.existence.modes.is_empty() {
         sentences.push(
             "The certified search finds infinitely many solutions at one value between ends of modes."
                 .to_owned(),

@@ -45,6 +45,7 @@ mod report;
 mod rest;
 mod scan;
 mod speeds;
+mod standing;
 mod text;
 mod varied;
 mod vary;
@@ -58,8 +59,7 @@ pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{
     CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    REST_SCHEMA, RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, Tipping,
-    VariedQuantity,
+    REST_SCHEMA, RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, VariedQuantity,
 };
 pub use rest::{rest_limits, rest_limits_with};
 pub(crate) use scan::bisect;
@@ -68,6 +68,8 @@ pub use varied::{FRICTION, Variable, variables};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
 pub(crate) use vary::range_around;
+
+pub use crate::report::Tipping;
 
 use crate::fault::Faults;
 use crate::model::Model;

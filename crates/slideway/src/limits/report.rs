@@ -1,7 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::found::left_out;
-use crate::report::{CoordinateState, JointMode, ModeEndCause, SpeedChange, tips};
+use crate::report::{CoordinateState, JointMode, ModeEndCause, SpeedChange, Tipping, without_solution};
 use crate::standstill::CoordinateValue;
 use crate::units::{Unit, Units};
 use serde::Serialize;
@@ -220,30 +220,6 @@ pub struct CountLimits {
     pub spacing: Option<f64>,
 }
 
-/// What tips in an interval without a solution.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[non_exhaustive]
-pub struct Tipping {
-    /// The guided sliders that would tip in a solution of the equations: as block sliders they show whether it moves.
-    pub joints: Vec<String>,
-    /// Whether there is such a solution wherever that was asked: then friction does not lock it.
-    pub throughout: bool,
-}
-
-impl Tipping {
-    /// From what tips at some values; none if nothing does.
-    pub(super) fn of(values: impl Iterator<Item = Vec<String>>) -> Option<Self> {
-        let mut tipping = Self { joints: Vec::new(), throughout: true };
-        for joints in values {
-            tipping.throughout &= !joints.is_empty();
-            tipping.joints.extend(joints);
-        }
-        tipping.joints.sort();
-        tipping.joints.dedup();
-        (!tipping.joints.is_empty()).then_some(tipping)
-    }
-}
-
 /// How the numbers of solutions in an interval are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -262,13 +238,7 @@ pub enum Known {
 impl CountLimits {
     /// What it means that there is no solution.
     pub(super) fn without_solution(&self) -> String {
-        let told =
-            self.tipping.as_ref().and_then(|tipping| Some((tips(&tipping.joints)?, tipping.throughout)));
-        match told {
-            None => "it jams".to_owned(),
-            Some((tips, true)) => tips,
-            Some((tips, false)) => format!("it jams, or {tips}"),
-        }
+        without_solution(self.tipping.as_ref())
     }
 
     /// Whether there is neither a solution nor a preload-gap state.

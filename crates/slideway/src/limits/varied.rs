@@ -92,7 +92,7 @@ impl Varied {
     pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
         let mut varied = Self::at_rest(model, name)?;
         if varied.is_friction_factor() {
-            varied.stages = Some(Stages::of_model(model)?);
+            varied.stages = Some(Stages::of_any_model(model)?);
         }
         Ok(varied)
     }
@@ -279,6 +279,7 @@ impl Varied {
         let bounds = Interval::new(from, to)?;
         let uncertain = UncertainParameters::default();
         if let Some(stages) = &self.stages {
+            stages.check_moving().ok()?;
             return question(&self.model, &uncertain.with_friction(bounds), stages);
         }
         let model = self.model_at(bounds.middle()).ok()?.0;
@@ -398,7 +399,7 @@ impl Varied {
     pub(crate) fn solved(&self, value: f64, work: Work<'_>) -> Result<SolveReport, Faults> {
         let (model, _) = self.model_at(value)?;
         let options = SolveOptions::default();
-        self.at(value, |stages, factor| {
+        self.at_any(value, |stages, factor| {
             let mut goes_on = |_: &Progress| work.flow();
             solve_with_friction(&model, stages.rougher(factor), &options, &mut goes_on)
         })
@@ -470,8 +471,31 @@ impl Varied {
     /// What is asked of the stages at a value, and of the factor of friction.
     ///
     /// # Errors
-    /// Whatever `solve` refuses there, and those of the question.
+    /// Whatever `solve` refuses there, contacts that stand still while the rest moves, and those of the question.
     pub(crate) fn at<R>(
+        &self,
+        value: f64,
+        question: impl Fn(&Stages, f64) -> Result<R, Faults>,
+    ) -> Result<R, Faults> {
+        self.at_any(value, |stages, factor| {
+            stages.check_moving()?;
+            question(stages, factor)
+        })
+    }
+
+    /// Whether contacts stand still there while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn stands(&self, value: f64) -> Result<bool, Faults> {
+        self.at_any(value, |stages, _| Ok(!stages.standing.is_empty()))
+    }
+
+    /// [`Varied::at`], where contacts may stand still.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there, and those of the question.
+    fn at_any<R>(
         &self,
         value: f64,
         question: impl Fn(&Stages, f64) -> Result<R, Faults>,
@@ -480,7 +504,7 @@ impl Varied {
             return question(stages, value);
         }
         let (model, factor) = self.model_at(value)?;
-        let stages = Stages::following(&mut self.follower(), Mechanism::new(&model)?)?;
+        let stages = Stages::following_with_standing(&mut self.follower(), Mechanism::new(&model)?)?;
         question(&stages, factor)
     }
 

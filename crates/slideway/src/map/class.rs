@@ -19,8 +19,10 @@ const PATTERNS: u64 = 1 << 12;
 #[derive(Debug, Clone, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum ClassMeaning {
-    /// There is neither a solution nor a state in a preload gap.
+    /// There is neither a solution nor a state in a preload gap: friction locks it.
     Locked,
+    /// There is neither a solution nor a state in a preload gap, because a guided slider tips.
+    Tips,
     /// So many solutions, and states with the preload between the faces.
     Solutions {
         /// Number of solutions.
@@ -47,6 +49,12 @@ pub enum ClassMeaning {
         as_in_model: bool,
         /// The other way.
         opposite: bool,
+        /// Whether a guided slider tips where there is none as in the model.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        tips_as_in_model: bool,
+        /// The other way.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        tips_opposite: bool,
     },
     /// What becomes of the speeds in each solution.
     Motion {
@@ -110,6 +118,8 @@ pub(super) struct States {
     pub(super) sides: Vec<Vec<ContactState>>,
     pub(super) gaps: Vec<String>,
     pub(super) continuum: bool,
+    /// Whether a guided slider tips in a solution of the equations.
+    pub(super) tips: bool,
     /// Whether it is open how many there are.
     pub(super) undecided: bool,
     /// With friction in hinges and for `Motion`: what becomes of the speeds in each solution.
@@ -142,14 +152,22 @@ pub(super) fn class(
             None | Some(Ok(None)) => ClassMeaning::TooLarge,
             Some(Err(reason)) => ClassMeaning::NotSolved { reason },
             Some(Ok(Some(other))) if other.undecided => undecided,
-            Some(Ok(Some(other))) => ClassMeaning::Moves { as_in_model, opposite: moves(&other) },
+            Some(Ok(Some(other))) => {
+                let opposite = moves(&other);
+                ClassMeaning::Moves {
+                    as_in_model,
+                    opposite,
+                    tips_as_in_model: !as_in_model && states.tips,
+                    tips_opposite: !opposite && other.tips,
+                }
+            }
         };
     }
     if states.continuum {
         return ClassMeaning::Continuum;
     }
     if !moves(&states) {
-        return ClassMeaning::Locked;
+        return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };
     }
     let number =
         ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
@@ -218,8 +236,10 @@ fn states(point: &Point, work: Work<'_>) -> Option<States> {
             told.push(state);
         }
         // Those of a state without tipping, by the faces at which preloads rub.
-        let faces = parts.faces(sides, zero).into_iter().filter(|sides| !parts.tips(sides, force, shares));
-        let stand = faces.map(|sides| pattern(&sides));
+        let faces = parts.faces(sides, zero).into_iter();
+        let (tipping, standing): (Vec<_>, Vec<_>) = faces.partition(|sides| parts.tips(sides, force, shares));
+        states.tips |= !tipping.is_empty();
+        let stand = standing.into_iter().map(|sides| pattern(&sides));
         if !is_solution {
             states.gaps.extend(stand);
             continue;

@@ -144,7 +144,15 @@ impl Source {
         } else {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
             let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
-            let stages = Stages::along(&mut before.trail, mechanism)?;
+            let stages = Stages::along_with_standing(&mut before.trail, mechanism)?;
+            if !stages.standing.is_empty() {
+                let model = || Ok(model_at(&self.model, axes, values)?.0);
+                // Margins of what stands still are not computed.
+                let is_margin = self.colour_by == ColourBy::Margin;
+                let asked = (if is_margin { ColourBy::Modes } else { self.colour_by }, true);
+                let found = hinges::states(stages.rougher(friction), &model, asked, &mut before.last, work)?;
+                return Ok(Answer::States(found));
+            }
             if stages.mechanism.rough_hinges().next().is_some() && friction > 0.0 {
                 let model = || Ok(model_at(&self.model, axes, values)?.0);
                 let careful = self.colour_by == ColourBy::Motion || self.model.has_guided_sliders();

@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::progress::Work;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Answered, NO_DRIVE, Report, SpeedChange, Style, indented, locked, precise, spaced};
+use crate::report::{Answered, NO_DRIVE, Report, SpeedChange, Style, indented, precise, spaced};
 use crate::units::Unit;
 use crate::units::number::brief;
 use serde::Serialize;
@@ -187,7 +187,7 @@ pub(super) fn report(
         .iter()
         .zip(&counts)
         .map(|(&old, &pixels)| MapClass {
-            words: words(meaning(old), locked(model.has_guided_sliders())),
+            words: words(meaning(old)),
             modes: modes(meaning(old), names.as_ref()),
             meaning: meaning(old).clone(),
             pixels,
@@ -246,9 +246,11 @@ fn runs(row: &[u32]) -> Vec<[usize; 2]> {
     runs.map(|run| [run[0] as usize, run.len()]).collect()
 }
 
-fn words(meaning: &ClassMeaning, locked: &str) -> String {
+fn words(meaning: &ClassMeaning) -> String {
+    let without = |tips: bool| if tips { "a guided slider tips" } else { "friction locks it" };
     match meaning {
-        ClassMeaning::Locked => format!("no solution: {locked}"),
+        ClassMeaning::Locked => format!("no solution: {}", without(false)),
+        ClassMeaning::Tips => format!("no solution: {} (model it as a block slider)", without(true)),
         ClassMeaning::Solutions { solutions, preload_gap_states } => {
             let gaps = match preload_gap_states {
                 0 => String::new(),
@@ -273,15 +275,24 @@ fn words(meaning: &ClassMeaning, locked: &str) -> String {
         ClassMeaning::Margin { from, to: None } => {
             format!("one solution; friction may grow more than {} times", precise(*from))
         }
-        ClassMeaning::Moves { as_in_model: true, opposite: true } => "can move in both directions".to_owned(),
-        ClassMeaning::Moves { as_in_model: true, opposite: false } => {
-            format!("can only move as in the model; in the opposite direction {locked}")
+        ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => {
+            "can move in both directions".to_owned()
         }
-        ClassMeaning::Moves { as_in_model: false, opposite: true } => {
+        ClassMeaning::Moves { as_in_model: true, opposite: false, tips_opposite, .. } => {
+            format!("can only move as in the model; in the opposite direction {}", without(*tips_opposite))
+        }
+        ClassMeaning::Moves { opposite: true, tips_as_in_model: false, .. } => {
             "can only move against the direction of the model".to_owned()
         }
-        ClassMeaning::Moves { as_in_model: false, opposite: false } => {
-            format!("{locked} in both directions")
+        ClassMeaning::Moves { opposite: true, .. } => {
+            format!("can only move against the direction of the model; as in the model {}", without(true))
+        }
+        ClassMeaning::Moves { tips_as_in_model, tips_opposite, .. } if tips_as_in_model == tips_opposite => {
+            format!("{} in both directions", without(*tips_opposite))
+        }
+        ClassMeaning::Moves { tips_as_in_model, tips_opposite, .. } => {
+            let [there, back] = [tips_as_in_model, tips_opposite].map(|tips| without(*tips));
+            format!("{there} as in the model, {back} in the opposite direction")
         }
         ClassMeaning::Motion { solutions } => {
             let of_solution = |changes: &Vec<SpeedChange>| {

@@ -219,6 +219,11 @@ impl<T: Real> Contact<T> {
         !self.depends_on_speed() && self.mu == [T::zero(); 2] && self.preload == [T::zero(); 2]
     }
 
+    /// Whether friction or preload may hold it at rest.
+    pub(crate) fn may_hold(&self) -> bool {
+        !self.is_frictionless() || self.mu_static != [T::zero(); 2]
+    }
+
     /// Whether its kinetic friction depends on its sliding speed.
     pub fn depends_on_speed(&self) -> bool {
         self.law != [None; 2]

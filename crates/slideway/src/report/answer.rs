@@ -1,6 +1,5 @@
 //! The plain answer of `solve`: what one would say of a state to a colleague.
 
-use super::text::tips;
 use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
@@ -13,10 +12,10 @@ impl SolveReport {
             return format!("Found so far: {found}. The search is not finished.");
         }
         match self.status {
-            Status::None if !self.rejected.is_empty() => {
-                tips(&self.tipping_joints()).map_or_else(String::new, |tips| format!("No answer: {tips}."))
-            }
-            Status::None => format!("It jams: {}.", self.nothing_moves_it()),
+            Status::None => match self.tipping() {
+                Some(tipping) => format!("No answer: {}.", tipping.in_words()),
+                None => format!("It jams: {}.", self.nothing_moves_it()),
+            },
             Status::One => self.moves_in_words(),
             Status::Several => self.ways_in_words(),
             Status::Continuum => self.open_in_words(),
@@ -84,7 +83,7 @@ impl SolveReport {
 
     /// What happens below the friction that is told: "moves".
     fn what_ends(&self) -> &'static str {
-        if self.rejected.is_empty() { "moves" } else { "does not tip" }
+        if self.tipping().is_none() { "moves" } else { "does not tip" }
     }
 
     /// "It moves: push needs 36.36 N (20 N without friction)."
@@ -165,28 +164,12 @@ impl SolveReport {
 
     /// "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value."
     fn open_in_words(&self) -> String {
-        if let Some(couple) = self.continua.iter().find_map(|continuum| continuum.couple.as_ref()) {
-            let unit = self.model.units.of("N m");
-            let ends =
-                couple.couples.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
-                    [least.min(*value), most.max(*value)]
-                });
-            let range = match ends {
-                [least, most] if least < most => {
-                    format!(", from {} to {}", unit.brief_number(least), unit.brief(most))
-                }
-                _ => String::new(),
-            };
-            return format!(
-                "Undetermined: the hinge {} does not turn, and its friction couple can have any value within its limits{range}.",
-                couple.hinge
-            );
-        }
         let Some(open) = &self.undetermined else {
             return "Infinitely many solutions: the forces are undetermined.".to_owned();
         };
         let units = &self.model.units;
-        let ranges = open.efforts.iter().chain(&open.accelerations).filter(|range| !range.is_one_value());
+        let all = open.friction.iter().chain(&open.efforts).chain(&open.accelerations);
+        let ranges = all.filter(|range| !range.is_one_value());
         let ranges: Vec<String> =
             ranges.take(3).map(|range| format!("{} {}", range.name, range.in_brief(units))).collect();
         let ranges = if ranges.is_empty() { String::new() } else { format!(": {}", ranges.join(", ")) };

@@ -15,6 +15,7 @@ mod speed;
 mod style;
 mod table;
 mod text;
+mod tipping;
 mod undetermined;
 
 pub(crate) use crate::units::number;
@@ -28,7 +29,9 @@ pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
 pub use text::followed;
-pub(crate) use text::{count, locked, spaced, tips};
+pub(crate) use text::{count, spaced};
+pub use tipping::Tipping;
+pub(crate) use tipping::without_solution;
 pub use undetermined::{OpenRange, Undetermined};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
@@ -669,7 +672,7 @@ pub struct Continuum {
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.
     pub directions: Vec<Vec<f64>>,
-    /// Efforts and accelerations at each vertex; none where a preload may rub at either face, and if a couple is free.
+    /// Efforts and accelerations at each vertex; none where a preload may rub at either face.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<DrivenMotion>,
     /// What a unit of each direction adds to them.
@@ -680,6 +683,23 @@ pub struct Continuum {
     /// The friction couple of a hinge that never turns, if it is what is free; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub couple: Option<CoupleRange>,
+    /// The friction of contacts and hinges that stand still while the rest moves, if it is what is free; empty otherwise.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<HeldFriction>,
+}
+
+/// The friction of a contact or hinge that stands still while the rest moves, over a range.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct HeldFriction {
+    /// The contact, or the hinge.
+    pub name: String,
+    /// "N", or "N m" of a hinge.
+    pub unit: &'static str,
+    /// At each vertex: the friction force, positive against positive sliding, or the couple on the hinge's first body.
+    pub at: Vec<f64>,
+    /// What a unit of each direction adds to it.
+    pub along: Vec<f64>,
 }
 
 /// The efforts of the drives, and the accelerations of the coordinates.

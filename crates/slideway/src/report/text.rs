@@ -40,14 +40,6 @@ impl Report for SolveReport {
 }
 
 impl SolveReport {
-    /// The guided sliders that tip in what is no solution for that reason, each once.
-    pub(crate) fn tipping_joints(&self) -> Vec<String> {
-        let mut joints: Vec<String> = self.rejected.iter().map(|rejection| rejection.joint.clone()).collect();
-        joints.sort_unstable();
-        joints.dedup();
-        joints
-    }
-
     /// What holds for all values of parameters that are known within bounds, in sentences: "1 solution for every value,
     /// proven with 3 parts."; none without such parameters.
     pub fn for_all_values(&self) -> Vec<String> {
@@ -626,25 +618,6 @@ fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
 pub fn followed(steps: usize) -> String {
     let steps = count(steps, "step", "steps");
     format!("followed from the drawing in {steps}, proven to stay on its assembly branch")
-}
-
-/// What it means that there is no solution of the equations.
-const LOCKED: &str = "friction locks it";
-
-/// What it means that there is no solution: of a mechanism with guided sliders these have no state in which
-/// they are tipped.
-pub(crate) fn locked(has_guided_sliders: bool) -> &'static str {
-    if has_guided_sliders { "friction locks it or a guided slider tips" } else { LOCKED }
-}
-
-/// That guided sliders tip, and what to model instead; none if none does.
-pub(crate) fn tips(joints: &[String]) -> Option<String> {
-    let names = joints.join(" and ");
-    match joints.len() {
-        0 => None,
-        1 => Some(format!("{names} tips, which a guided slider cannot show (model it as a block slider)")),
-        _ => Some(format!("{names} tip, which guided sliders cannot show (model them as block sliders)")),
-    }
 }
 
 pub(crate) fn count(number: usize, one: &str, several: &str) -> String {

@@ -54,6 +54,9 @@ impl OpenRange {
 pub struct Undetermined {
     /// The joints whose share of a load is open.
     pub sharing: Vec<String>,
+    /// The friction of contacts and hinges that stand still while the rest moves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub friction: Vec<OpenRange>,
     /// The efforts of the drives.
     pub efforts: Vec<OpenRange>,
     /// The accelerations of the coordinates.
@@ -66,9 +69,24 @@ impl Undetermined {
     /// What is undetermined, in a few words: "how left, right share the load is undetermined".
     pub(crate) fn cause(&self) -> String {
         match self.sharing.as_slice() {
+            [] if !self.friction.is_empty() => self.standing_in_words(),
             [] => "a mode with vanishing determinant leaves forces undetermined".to_owned(),
             joints => format!("how {} share the load is undetermined", joints.join(", ")),
         }
+    }
+
+    /// "friction at top, which does not slide, can have any value within its limits"
+    fn standing_in_words(&self) -> String {
+        let names: Vec<&str> = self.friction.iter().map(|range| range.name.as_str()).collect();
+        let names = names.join(", ");
+        let what = match self.friction.as_slice() {
+            [only] if only.unit == "N m" => {
+                format!("the friction couple of the hinge {names}, which does not turn,")
+            }
+            [_] => format!("friction at {names}, which does not slide,"),
+            _ => format!("friction at {names}, which do not slide,"),
+        };
+        format!("{what} can have any value within its limits")
     }
 
     /// What to do for one value; none if it is not known.
@@ -84,6 +102,7 @@ impl Undetermined {
             (!open.is_empty()).then(|| format!("{what}: {}.", open.join(", ")))
         };
         let kinds = [
+            ("Friction", &self.friction),
             ("Efforts", &self.efforts),
             ("Accelerations", &self.accelerations),
             ("Normal forces", &self.normal_forces),

@@ -7,6 +7,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::progress::Work;
+use crate::report::{Status, Tipping};
 use crate::solve::{FALLING, GROWING, Stages, locking_factor};
 use crate::standstill::self_locking_factor;
 
@@ -98,6 +99,17 @@ impl MarginQuestion<'_> {
                 Some(factor) => Margin::Finite(factor.recip()),
             }),
         }
+    }
+
+    /// What tips at a value, if there is no solution for that reason.
+    pub(super) fn tipping(&self, value: f64, work: Work<'_>) -> Option<Tipping> {
+        let is_asked = self.varied.model().has_guided_sliders()
+            && !matches!(self.against, Against::SelfLocking { .. } | Against::Hold { .. });
+        let directions = std::iter::once(self.varied).chain(self.reversed).filter(|_| is_asked);
+        let without = directions
+            .filter_map(|varied| varied.solved(value, work).ok())
+            .filter(|report| report.status == Status::None);
+        Tipping::of(without.map(|report| report.tipping().map_or_else(Vec::new, |tipping| tipping.joints)))
     }
 
     /// The smaller margin of both directions, if both count.

@@ -254,13 +254,14 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
     let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
+    let tipping = question.tipping(value, work);
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
     if found.places.iter().all(|place| place.margin.is_none()) {
         // Nowhere an answer: the faults in the middle say why.
         question.margin(f64::midpoint(range[0], range[1]), work)?;
     }
     let state = held_state(&Mechanism::new(model)?, &varied);
-    let sought = report::Sought { question, range, steps, value, present, found };
+    let sought = report::Sought { question, range, steps, value, present, tipping, found };
     finite(report::report(model, state, options, &sought))
 }
 

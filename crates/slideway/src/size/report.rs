@@ -6,7 +6,7 @@ use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::{SameEnds, VariedQuantity};
 use crate::model::{Effort, Model};
-use crate::report::CoordinateState;
+use crate::report::{CoordinateState, Tipping};
 use crate::units::{Unit, Units};
 use serde::Serialize;
 
@@ -101,6 +101,9 @@ pub struct SizeReport {
     pub both_directions: bool,
     /// The margin in the model.
     pub present: Sample,
+    /// What tips in the model, if there is no solution for that reason; absent otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tipping: Option<Tipping>,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
     /// Ranges in which the mechanism cannot be assembled or solved, the model does not allow the values, or a
@@ -204,6 +207,8 @@ pub(super) struct Sought<'q> {
     pub(super) value: f64,
     /// The margin in the model.
     pub(super) present: Option<Margin>,
+    /// What tips in the model, if there is no solution for that reason.
+    pub(super) tipping: Option<Tipping>,
     pub(super) found: SizesFound,
 }
 
@@ -213,7 +218,7 @@ pub(super) fn report(
     options: &SizeOptions,
     sought: &Sought<'_>,
 ) -> SizeReport {
-    let Sought { question, range, steps, value, present, found } = sought;
+    let Sought { question, range, steps, value, present, tipping, found } = sought;
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
@@ -244,6 +249,7 @@ pub(super) fn report(
         },
         both_directions: options.both_directions,
         present: sample(&Tried { at: *value, margin: *present }, told),
+        tipping: tipping.clone(),
         met: found.met.iter().map(|ends| interval(ends, same_ends, told)).collect(),
         without_position: found.gaps.iter().map(|one| gap(one, same_ends)).collect(),
         samples: samples(found, (*steps, options.margin), told),
@@ -252,8 +258,8 @@ pub(super) fn report(
         narrowest: 2.0 * (range[1] - range[0]) / *steps as f64,
         conclusion: Vec::new(),
     };
-    let (driven, guided) = (!model.drives.is_empty(), model.has_guided_sliders());
-    report.conclusion = Words { report: &report, places: &found.places, driven, guided }.conclusion();
+    let driven = !model.drives.is_empty();
+    report.conclusion = Words { report: &report, places: &found.places, driven }.conclusion();
     report
 }
 

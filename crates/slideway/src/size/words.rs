@@ -3,8 +3,8 @@
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
 use crate::limits::no_answer;
-use crate::report::NO_DRIVE;
 use crate::report::number::precise;
+use crate::report::{NO_DRIVE, Tipping, without_solution};
 use crate::units::{Unit, brief};
 
 /// Margins closer than this, relative to the greater one, are the same.
@@ -16,8 +16,6 @@ pub(super) struct Words<'r> {
     pub(super) places: &'r [Tried],
     /// Whether a drive prescribes the motion.
     pub(super) driven: bool,
-    /// Whether there are guided sliders: that one tips ends the margin, too, without locking.
-    pub(super) guided: bool,
 }
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
@@ -119,7 +117,11 @@ impl Words<'_> {
         let load = report.load.as_deref().unwrap_or_default();
         let what = subject(report);
         let told = match (is, margin) {
-            (SampleKind::NoSolution, _) => format!("{}, so the limit is not kept", report.against.nothing()),
+            (SampleKind::NoSolution, _) => {
+                let why = report.tipping.as_ref().map(Tipping::in_words);
+                let why = why.unwrap_or_else(|| report.against.nothing().to_owned());
+                format!("{why}, so the limit is not kept")
+            }
             (SampleKind::WithoutBound, _) => {
                 format!("infinitely many solutions leave the {what} without bound; the limit is not kept")
             }
@@ -152,7 +154,7 @@ impl Words<'_> {
         match (report.against, margin >= 1.0) {
             (MarginKind::Locking, true) => format!("its safety factor is {factor}, {enough}"),
             (MarginKind::Locking, false) => {
-                let now = if self.guided { "it jams or a guided slider tips" } else { "it jams" };
+                let now = without_solution(report.tipping.as_ref());
                 format!("{now}; friction would have to fall to {factor} of its value")
             }
             (MarginKind::SelfLocking, true) => {

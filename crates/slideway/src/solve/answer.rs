@@ -6,6 +6,7 @@ use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
 use super::found::SearchFound;
 use super::friction::friction;
+use super::stages::Stages;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
@@ -64,6 +65,22 @@ pub(super) struct Answer<'a> {
 }
 
 impl<'a> Answer<'a> {
+    /// That of a mechanism whose guides share no load, without bounds of the exact numbers.
+    pub(super) fn determinate(stages: &'a Stages, equations: &'a KineticEquations) -> Self {
+        let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
+        Self {
+            mechanism,
+            configuration,
+            equations,
+            influence,
+            velocity_signs,
+            jumps: vec![false; mechanism.contacts.len()],
+            elasticity: None,
+            shared: None,
+            enclosed: None,
+        }
+    }
+
     /// The report on all solutions.
     pub(super) fn report(&self, found: &SearchFound<'_>) -> Result<SolveReport, Faults> {
         let lists = found.lists();
@@ -288,7 +305,13 @@ impl<'a> Answer<'a> {
     /// Friction forces of a state, split by the face at which they act: eq. (2) with
     /// F_k = (mu_k |N_k| + F_k0) s_k.
     pub(super) fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
-        friction(self.mechanism, self.velocity_signs, state.pattern, state.normal_force, &state.shares)
+        let mut all =
+            friction(self.mechanism, self.velocity_signs, state.pattern, state.normal_force, &state.shares);
+        for held in state.held {
+            all[held.contact].positive_face += held.friction.positive_face;
+            all[held.contact].negative_face += held.friction.negative_face;
+        }
+        all
     }
 
     /// A guided slider whose couple is more than its pressure can give: |C| <= |N| L / 2 (theory, section 1).

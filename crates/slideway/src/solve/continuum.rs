@@ -33,9 +33,7 @@ impl Answer<'_> {
         let along = |start: &DVector<f64>, direction: &DVector<f64>| {
             let size = start.amax().max(1.0);
             let end = start + direction * size;
-            let change = (self.unknowns_at(mode, &end) - self.unknowns_at(mode, start)) / size;
-            let rounding = SAME_STATE * change.amax();
-            self.driven_motion(&change.map(|part| if part.abs() <= rounding { 0.0 } else { part }))
+            self.growth(&self.unknowns_at(mode, start), &self.unknowns_at(mode, &end), size)
         };
         mode.set.is_continuum().then(|| Continuum {
             pattern: pattern(&mode.pattern),
@@ -47,7 +45,15 @@ impl Answer<'_> {
             directions: list(directions),
             tipping: self.tipping_in(mode),
             couple: None,
+            held: Vec::new(),
         })
+    }
+
+    /// What so much of a direction adds to the motion, by the unknowns at its beginning and its end.
+    pub(super) fn growth(&self, start: &DVector<f64>, end: &DVector<f64>, size: f64) -> DrivenMotion {
+        let change = (end - start) / size;
+        let rounding = SAME_STATE * change.amax();
+        self.driven_motion(&change.map(|part| if part.abs() <= rounding { 0.0 } else { part }))
     }
 
     /// All unknowns at a point of a continuum.
@@ -55,7 +61,8 @@ impl Answer<'_> {
         self.influence.unknowns(&self.friction(&vertex(mode, normal_force)), normal_force)
     }
 
-    fn driven_motion(&self, unknowns: &DVector<f64>) -> DrivenMotion {
+    /// The efforts and accelerations among all unknowns.
+    pub(super) fn driven_motion(&self, unknowns: &DVector<f64>) -> DrivenMotion {
         DrivenMotion {
             efforts: self.drives(unknowns).into_iter().map(|drive| drive.effort + 0.0).collect(),
             accelerations: self.equations.coordinate_accelerations(unknowns),
@@ -100,8 +107,14 @@ impl Answer<'_> {
             let unit = if coordinate.kind.is_angle() { "rad/s^2" } else { "m/s^2" };
             (coordinate.name.to_string(), unit)
         };
+        let held: Vec<(String, &'static str)> = continua.first().map_or_else(Vec::new, |one| {
+            one.held.iter().map(|held| (held.name.clone(), held.unit)).collect()
+        });
         Some(Undetermined {
             sharing,
+            friction: ranges(held, &|one, index| one.held[index].at.clone(), &|one, index| {
+                one.held[index].along.clone()
+            }),
             efforts: ranges(
                 self.mechanism
                     .drives
@@ -242,5 +255,6 @@ fn vertex<'s>(mode: &'s SingularMode, normal_force: &'s DVector<f64>) -> State<'
         determinant: 0.0,
         certificate: &mode.certificate,
         hinges: &[],
+        held: &[],
     }
 }

@@ -35,6 +35,7 @@ mod no_sliding;
 mod parts;
 mod sharing;
 mod stages;
+mod standing;
 mod state;
 mod tolerant;
 mod trail;
@@ -53,13 +54,14 @@ pub(crate) use hinges::{
 pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, preload_columns, sides, sliding_signs, without_rounding,
+    NO_INFLUENCE, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::load_sharing;
 pub use stages::exact_mode_problem;
 pub(crate) use stages::{ProblemData, RougherStages, Stages, rougher};
+pub(crate) use standing::check_standing;
 pub(crate) use state::{pattern, signs};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
@@ -150,11 +152,19 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
-    let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
+    let (stages, equations) = Stages::with_standing(mechanism, configuration)?;
     let ranges = model.ranges()?;
-    if stages.mechanism.rough_hinges().next().is_some() {
-        let mut report =
-            hinges::solve(model, (&middle(&ranges), &ranges), (&stages, &equations), options, progress)?;
+    let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
+    if has_rough_hinges || !stages.standing.is_empty() {
+        let mut report = if has_rough_hinges {
+            hinges::solve(model, (&middle(&ranges), &ranges), (&stages, &equations), options, progress)?
+        } else {
+            standing::of_contacts(&stages, &equations)?
+        };
+        if !ranges.is_empty() && report.uncertainty.is_none() {
+            let taken = "parameters known within bounds are taken at the middle of their ranges";
+            report.open.push(taken.to_owned());
+        }
         report.rates_not_given = rates_not_given(model);
         if options.margins {
             from_rest::add(&mut report, model, progress);

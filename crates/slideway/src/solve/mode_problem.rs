@@ -2,9 +2,9 @@
 
 use super::no_sliding::why;
 use super::sharing::check_assembly;
-use crate::configuration::Configuration;
-use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::configuration::{Configuration, staying};
+use crate::fault::{Fault, FaultKind, Faults, NoSliding};
+use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::{PreloadLine, SliderKind};
@@ -22,21 +22,59 @@ pub(crate) const NO_INFLUENCE: f64 = 1e-13;
 /// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
 ///
 /// # Errors
-/// A fault for each contact with friction that does not slide: eq. (2) does not say its friction.
+/// A fault for the contacts with friction that do not slide: eq. (2) does not say their friction.
 pub fn velocity_signs(mechanism: &Mechanism, configuration: &Configuration) -> Result<DVector<f64>, Faults> {
-    let signs = sliding_signs(mechanism, configuration);
-    let undefined: Vec<usize> =
-        (0..signs.len()).filter(|&k| signs[k] == 0.0 && !mechanism.contacts[k].is_frictionless()).collect();
-    if let Some(&first) = undefined.first() {
-        let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
-        let joint = mechanism.contacts[first].joint;
-        let place = mechanism.joints[joint.index()].place.clone();
-        let why =
-            why(mechanism, configuration, &|mechanism, state| sliding_signs(mechanism, state)[first] != 0.0);
-        let kind = FaultKind::ZeroSlidingVelocity { contacts, why };
-        return Err(Fault::new(kind, place).into());
-    }
+    let Sliding { signs, standing } = Sliding::of(mechanism, configuration)?;
+    none_stands(mechanism, &standing)?;
     Ok(signs)
+}
+
+/// Which contacts slide in which sense, and which stand still while the rest moves.
+pub(crate) struct Sliding {
+    /// The signs of the sliding velocities; 0 where a contact stands, or has no friction.
+    pub(crate) signs: DVector<f64>,
+    /// The contacts with friction that do not slide, now and from now on, because the drives keep them so.
+    pub(crate) standing: Vec<ContactId>,
+}
+
+impl Sliding {
+    /// # Errors
+    /// A fault for the contacts with friction that do not slide now but may begin to: the forces decide that.
+    pub(crate) fn of(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
+        let signs = sliding_signs(mechanism, configuration);
+        let still = (0..signs.len()).filter(|&k| signs[k] == 0.0 && mechanism.contacts[k].may_hold());
+        let still: Vec<ContactId> = still.map(ContactId).collect();
+        if still.is_empty() {
+            return Ok(Self { signs, standing: still });
+        }
+        let joints: Vec<JointId> = still.iter().map(|id| mechanism.contacts[id.index()].joint).collect();
+        let is_at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
+        let staying = if is_at_rest { Vec::new() } else { staying(mechanism, configuration, &joints)? };
+        let stays = |id: &ContactId| staying.contains(&mechanism.contacts[id.index()].joint);
+        let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.iter().partition(|id| stays(id));
+        let Some(first) = undefined.first() else { return Ok(Self { signs, standing }) };
+        let why = why(mechanism, configuration, &|mechanism, state| {
+            sliding_signs(mechanism, state)[first.index()] != 0.0
+        });
+        Err(does_not_slide(mechanism, &undefined, why))
+    }
+}
+
+/// Refuses contacts that stand still while the rest moves.
+///
+/// # Errors
+/// A fault for them.
+pub(super) fn none_stands(mechanism: &Mechanism, standing: &[ContactId]) -> Result<(), Faults> {
+    if standing.is_empty() { Ok(()) } else { Err(does_not_slide(mechanism, standing, NoSliding::Stands)) }
+}
+
+/// The fault of contacts that do not slide, at the joint of the first.
+fn does_not_slide(mechanism: &Mechanism, contacts: &[ContactId], why: NoSliding) -> Faults {
+    let of = |id: &ContactId| &mechanism.contacts[id.index()];
+    let names = contacts.iter().map(|id| of(id).name.to_string()).collect();
+    let place = contacts.first().map(|id| mechanism.joints[of(id).joint.index()].place.clone());
+    let kind = FaultKind::ZeroSlidingVelocity { contacts: names, why };
+    place.map_or_else(|| Fault::general(kind.clone()), |place| Fault::new(kind.clone(), place)).into()
 }
 
 /// The signs of the sliding velocities, 0 where they vanish within rounding.

@@ -1,13 +1,13 @@
 //! The stages of a model up to the numbers of its mode problem.
 
 use super::hinges::HingedData;
-use super::mode_problem::{assembled_problem, mode_problem, self_stresses, velocity_signs};
+use super::mode_problem::{Sliding, assembled_problem, mode_problem, none_stands, self_stresses};
 use super::parts::Parts;
 use super::sharing::check_assembly;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
-use crate::ids::DriveId;
+use crate::ids::{ContactId, DriveId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coordinate_rows};
 use crate::mechanism::Mechanism;
@@ -36,6 +36,8 @@ pub(crate) struct Stages {
     pub(crate) configuration: Configuration,
     pub(crate) influence: Influence,
     pub(crate) velocity_signs: DVector<f64>,
+    /// The contacts with friction that stand still while the rest moves; none but in [`Stages::with_standing`].
+    pub(crate) standing: Vec<ContactId>,
     pub(crate) accuracy: Accuracy,
 }
 
@@ -48,22 +50,35 @@ impl Stages {
         Self::following(&mut Follower::default(), mechanism)
     }
 
-    /// Those of a model whose hinges may have friction.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn of_model(model: &Model) -> Result<Self, Faults> {
-        Self::following(&mut Follower::default(), Mechanism::new(model)?)
-    }
-
     /// Those of a mechanism, its positions from those of the last ones if these are near.
     ///
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
+        let stages = Self::following_with_standing(follower, mechanism)?;
+        stages.check_moving()?;
+        Ok(stages)
+    }
+
+    /// [`Stages::following`], in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn following_with_standing(
+        follower: &mut Follower,
+        mechanism: Mechanism,
+    ) -> Result<Self, Faults> {
         mechanism.check_size()?;
         let configuration = follower.configuration(&mechanism)?;
-        Ok(Self::with_equations(mechanism, configuration)?.0)
+        Ok(Self::with_standing(mechanism, configuration)?.0)
+    }
+
+    /// Those of a model whose hinges may have friction, and in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn of_any_model(model: &Model) -> Result<Self, Faults> {
+        Self::following_with_standing(&mut Follower::default(), Mechanism::new(model)?)
     }
 
     /// The same with the equations, too, from the states of the last ones if these are near.
@@ -71,6 +86,16 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
+        let stages = Self::along_with_standing(trail, mechanism)?;
+        stages.check_moving()?;
+        Ok(stages)
+    }
+
+    /// [`Stages::along`], in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn along_with_standing(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         Self::of(mechanism, configuration, influences)
@@ -79,8 +104,21 @@ impl Stages {
     /// Those of a mechanism in a configuration, and its kinetic equations.
     ///
     /// # Errors
-    /// Whatever `solve` refuses of equations and friction.
+    /// Whatever `solve` refuses of equations and friction; contacts that stand still while the rest moves.
     pub(crate) fn with_equations(
+        mechanism: Mechanism,
+        configuration: Configuration,
+    ) -> Result<(Self, KineticEquations), Faults> {
+        let (stages, equations) = Self::with_standing(mechanism, configuration)?;
+        stages.check_moving()?;
+        Ok((stages, equations))
+    }
+
+    /// [`Stages::with_equations`], in which contacts may stand still while the rest moves.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses of equations and friction.
+    pub(crate) fn with_standing(
         mechanism: Mechanism,
         configuration: Configuration,
     ) -> Result<(Self, KineticEquations), Faults> {
@@ -99,12 +137,20 @@ impl Stages {
         configuration.put_friction(&mut mechanism)?;
         let accuracy = influences.accuracy();
         let influence = Influence::of(influences);
-        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        let stages = Self { mechanism, configuration, influence, velocity_signs, accuracy };
+        let Sliding { signs: velocity_signs, standing } = Sliding::of(&mechanism, &configuration)?;
+        let stages = Self { mechanism, configuration, influence, velocity_signs, standing, accuracy };
         if let Some(shared) = stages.shared_load()? {
             check_assembly(&stages.mechanism, &shared)?;
         }
         Ok(stages)
+    }
+
+    /// Refuses contacts that stand still while the rest moves.
+    ///
+    /// # Errors
+    /// A fault for them.
+    pub(crate) fn check_moving(&self) -> Result<(), Faults> {
+        none_stands(&self.mechanism, &self.standing)
     }
 
     /// How redundant guides share their load; none if nothing is in excess.
@@ -240,6 +286,7 @@ pub(crate) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> M
     let mut mechanism = mechanism.clone();
     for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
         contact.mu = contact.mu.map(|mu| mu * factor(k));
+        contact.mu_static = contact.mu_static.map(|mu| mu * factor(k));
     }
     mechanism
 }

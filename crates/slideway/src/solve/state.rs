@@ -1,6 +1,6 @@
 //! A solution of the mode problem as the answer sees it: what every contact does, and the normal forces.
 
-use crate::influence::HingeState;
+use crate::influence::{ContactFriction, HingeState};
 use crate::modes::{Certificate, ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet};
 use nalgebra::DVector;
 
@@ -17,6 +17,15 @@ pub(super) struct State<'s> {
     pub(super) certificate: &'s Certificate,
     /// The hinges with friction.
     pub(super) hinges: &'s [HingeState],
+    /// The friction of contacts that stand still while the rest moves.
+    pub(super) held: &'s [Held],
+}
+
+/// Friction of a contact that stands still.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Held {
+    pub(super) contact: usize,
+    pub(super) friction: ContactFriction,
 }
 
 pub(super) fn pressed(pattern: &[Side]) -> Vec<ContactState> {
@@ -34,6 +43,7 @@ pub(super) fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState
         determinant: solution.determinant,
         certificate: &solution.certificate,
         hinges: &[],
+        held: &[],
     }
 }
 
@@ -52,6 +62,7 @@ pub(super) fn in_gap(gap: &GapState) -> State<'_> {
         determinant: gap.determinant,
         certificate: &gap.certificate,
         hinges: &[],
+        held: &[],
     }
 }
 
@@ -80,6 +91,7 @@ pub(super) fn point(mode: &SingularMode) -> Option<State<'_>> {
         determinant: 0.0,
         certificate: &mode.certificate,
         hinges: &[],
+        held: &[],
     })
 }
 

@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::found::SearchFound;
 use super::hinges;
 use super::stages::{ProblemData, RougherStages, Stages, rougher};
-use super::{SolveOptions, searched};
+use super::{SolveOptions, searched, standing};
 use crate::enclosure::{UncertainParameters, enclosed_while, enclosure_within};
 use crate::fault::Faults;
 use crate::interval::Interval;
@@ -32,6 +32,11 @@ pub(crate) fn solve_with_friction(
         let options = options.margins(false);
         let report = hinges::solve(model, (&uncertain, &[]), (&stages, &equations), &options, progress)?;
         return finite(report);
+    }
+    if !stages.standing.is_empty() {
+        let stages = stages.with_friction(factor);
+        let equations = KineticEquations::new(&stages.mechanism, configuration)?;
+        return finite(standing::of_contacts(&stages, &equations)?);
     }
     let mechanism = rougher(&stages.mechanism, &|_| factor);
     let equations = KineticEquations::new(&mechanism, configuration)?;

@@ -6,7 +6,9 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, ConstraintRow, Reaction};
-use crate::mechanism::{Attachment, CoordinateKind, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
+use crate::mechanism::{
+    Attachment, Contact, CoordinateKind, Effort, FrictionCircle, JointKind, Mechanism, Quantity,
+};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
@@ -265,7 +267,7 @@ impl Setup {
     /// Whether friction can act at a sliding joint, by its number among these.
     pub(crate) fn rubs(&self, slider: usize) -> bool {
         let contacts = self.sliders[slider].contacts.iter().map(|&k| &self.mechanism.contacts[k]);
-        contacts.into_iter().any(|contact| !contact.is_frictionless() || contact.mu_static != [0.0; 2])
+        contacts.into_iter().any(Contact::may_hold)
     }
 
     /// Number of equations of motion: three for each body.

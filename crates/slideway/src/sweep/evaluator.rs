@@ -18,8 +18,8 @@ use crate::modes::ContactState;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::progress::{Callback, Progress};
 use crate::solve::{
-    self, HingedData, HingedState, LastSolution, SolveOptions, Trail, hinged_states, mode_problem,
-    solve_with, solve_with_friction, velocity_signs,
+    self, HingedData, HingedState, LastSolution, Sliding, SolveOptions, Trail, hinged_states, mode_problem,
+    solve_with, solve_with_friction,
 };
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -223,10 +223,13 @@ impl<'p> Evaluator<'p> {
     fn solve(&mut self, point: Point<'_>, rows: &mut Rows, look: &mut Callback<'_>) -> Result<(), Faults> {
         let Some(stages) = &self.stages else { return Ok(()) };
         let mut contacts = self.mechanism.contacts.iter().zip(&stages.signs);
-        if contacts.any(|(contact, sign)| *sign == 0.0 && !contact.is_frictionless()) {
-            velocity_signs(&self.mechanism, &stages.configuration)?;
-        }
-        if self.mechanism.rough_hinges().next().is_some() {
+        let does_not_slide = contacts.any(|(contact, sign)| *sign == 0.0 && contact.may_hold());
+        // The friction of what stands still is a range.
+        let stands =
+            does_not_slide && !Sliding::of(&self.mechanism, &stages.configuration)?.standing.is_empty();
+        if stands {
+            self.last = LastSolution::default();
+        } else if self.mechanism.rough_hinges().next().is_some() {
             if write_with_hinges(self.plan, &self.mechanism, stages, (&mut self.last, point), rows, look)? {
                 return Ok(());
             }
@@ -246,7 +249,7 @@ impl<'p> Evaluator<'p> {
         let (model, friction) = self.plan.model_at(point.values)?;
         let options = SolveOptions { margins: false, ..SolveOptions::default() };
         let report = if self.plan.varied.contains(&Kind::Friction) {
-            let stages = solve::Stages::of_model(&model)?;
+            let stages = solve::Stages::of_any_model(&model)?;
             solve_with_friction(&model, stages.rougher(friction), &options, look)?
         } else {
             solve_with(&model, &options, look)?

@@ -20,6 +20,9 @@ pub struct Tally {
     pub statuses: BTreeMap<PointStatus, u64>,
     /// Points by their number of solutions; inserted ones are left out.
     pub solutions: BTreeMap<u32, u64>,
+    /// Points without a solution because a guided slider tips; inserted ones are left out.
+    #[serde(default)]
+    pub tipping: u64,
     /// Rows on the boundary between modes.
     pub boundary_rows: u64,
     /// The first point of each kind that was not solved, and why.
@@ -54,6 +57,7 @@ impl Tally {
                 self.breakpoints += 1;
                 continue;
             }
+            self.tipping += u64::from(head.status == PointStatus::None && head.rejected > 0);
             let outcome = Some((head.status, head.solutions));
             if outcome != alike {
                 self.count(alike, count);

@@ -3,8 +3,11 @@
 use super::{PointStatus, Probability, Sweep, SweepState};
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Status, Style, locked};
+use crate::report::{Status, Style};
 use crate::units::number::brief;
+
+/// What to do about guided sliders that tip.
+const AS_BLOCK: &str = "Model it as a block slider to see whether it still moves.";
 
 impl Sweep {
     /// How many of the points jam, or with samples the probability of it: "It jams at 34 of 101 points."
@@ -14,22 +17,29 @@ impl Sweep {
         if tally.solved() == 0 {
             return format!("None of {} could be solved.", counted(all, "point"));
         }
-        let jams = if self.plan.model.has_guided_sliders() { "jams or tips" } else { "jams" };
+        let without = tally.with_status(PointStatus::None);
+        // A guided slider that tips shows no solution, which does not mean that friction locks it.
+        let (what, advice) = match tally.tipping {
+            0 => ("It jams", None),
+            tipping if tipping == without => ("A guided slider tips", Some(AS_BLOCK)),
+            _ => ("It jams, or a guided slider tips,", Some(AS_BLOCK)),
+        };
         let probability = if self.has_branches() { None } else { tally.probability_of_jamming() };
         let mut sentences = vec![match probability {
             Some(Probability { share, interval }) => {
                 let [from, to] = interval.map(|end| brief(100.0 * end));
                 format!(
-                    "It {jams} with a probability of {} % ({from} to {to} % with 95 % confidence).",
+                    "{what} with a probability of {} % ({from} to {to} % with 95 % confidence).",
                     brief(100.0 * share)
                 )
             }
-            None => match tally.with_status(PointStatus::None) {
-                0 => format!("It {jams} at none of {}.", counted(all, "point")),
-                count if count == all => format!("It {jams} at all {}.", counted(all, "point")),
-                count => format!("It {jams} at {count} of {}.", counted(all, "point")),
+            None => match without {
+                0 => format!("{what} at none of {}.", counted(all, "point")),
+                count if count == all => format!("{what} at all {}.", counted(all, "point")),
+                count => format!("{what} at {count} of {}.", counted(all, "point")),
             },
         }];
+        sentences.extend(advice.map(str::to_owned));
         let several: u64 =
             tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
         let unsolved = all - tally.solved();
@@ -48,7 +58,7 @@ impl Sweep {
         let jams = state.tally.with_status(PointStatus::None) > 0;
         text.status(if jams { Status::None } else { Status::One }, &self.answer(state));
         text.points(self);
-        text.solutions(self);
+        text.solutions();
         text.remarks(self);
         text.text()
     }
@@ -83,7 +93,7 @@ impl Page<'_, SweepState> {
         self.line(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
     }
 
-    fn solutions(&mut self, sweep: &Sweep) {
+    fn solutions(&mut self) {
         let tally = &self.report.tally;
         let share = |count: u64| {
             let all = (tally.points - tally.breakpoints).max(1);
@@ -98,10 +108,14 @@ impl Page<'_, SweepState> {
             };
             lines.push((what, count));
         }
-        let without = format!("no solution: {}", locked(sweep.plan.model.has_guided_sliders()));
+        let jams = tally.with_status(PointStatus::None).saturating_sub(tally.tipping);
+        for (what, count) in [("friction locks it", jams), ("a guided slider tips", tally.tipping)] {
+            if count > 0 {
+                lines.push((format!("no solution: {what}"), count));
+            }
+        }
         for (status, what) in [
             (PointStatus::PreloadGap, "no solution, but a state in a preload gap"),
-            (PointStatus::None, &without),
             (PointStatus::Unknown, "undecided"),
             (PointStatus::NoPosition, "no position"),
             (PointStatus::Refused, "refused"),

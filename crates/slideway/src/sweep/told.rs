@@ -101,7 +101,17 @@ impl Telling<'_> {
             self.corner(RowKind::Continuum, &continuum.pattern, &[], None);
         }
         for (index, corner) in continuum.vertices.iter().enumerate() {
+            let first = self.rows.numbers.len();
             self.corner(RowKind::Continuum, &continuum.pattern, corner, continuum.motion.get(index));
+            let columns = &self.plan.columns;
+            for held in &continuum.held {
+                let contacts = self.plan.mechanism.contacts.iter();
+                if let Some(contact) =
+                    contacts.map(|contact| &*contact.name).position(|name| name == held.name)
+                {
+                    self.rows.numbers[first + columns.varied + columns.contacts + contact] = held.at[index];
+                }
+            }
         }
     }
 

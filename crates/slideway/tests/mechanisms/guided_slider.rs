@@ -2,7 +2,9 @@
 
 use crate::answers::{acceleration, assert_close, only, report_on};
 use proptest::prelude::*;
+use slideway::map::{ColourBy, MapOptions, map};
 use slideway::report::{SolveReport, Status, Style};
+use slideway::size::{Against, SizeOptions, size};
 use slideway::{DriveOptions, LimitsOptions, Model, Report, Settings, Vary, drive, limits, solve};
 
 /// One body on one slider, with a force and a torque.
@@ -281,6 +283,25 @@ fn a_slider_that_tips_is_not_told_as_locked() {
     let tipping = tips.tipping.as_ref().expect("it tips");
     assert_eq!((tipping.joints.as_slice(), tipping.throughout), (["bed".to_owned()].as_slice(), true));
     is_no_lock(&limits.conclusion.join(" "));
+    // Where friction would have to fall to, and that no effort is known.
+    let tips = "bed tips, which a guided slider cannot show (model it as a block slider)";
+    for (against, margin, told) in [
+        (Against::Locking, 1.0, format!("{tips}; friction would have to fall to 0.9615 of its value.")),
+        (Against::Effort { drive: None }, 1e5, format!("{tips}, so the limit is not kept.")),
+    ] {
+        let options = SizeOptions::new(Vary::between("mu", 0.1, 2.0), margin).against(against);
+        let sized = size(&model, &options).expect("an answer");
+        assert_eq!(sized.conclusion[1], format!("The model has mu = 1.3: {told}"));
+    }
+    let plane = MapOptions::new(Vary::between("mu", 1.3, 2.0), Vary::between("Q", 1.0, 2.0)).size(4, 4);
+    let mapped = map(&model, &plane).expect("an answer");
+    let words: Vec<&str> = mapped.classes.iter().map(|class| class.words.as_str()).collect();
+    assert_eq!(words, ["no solution: a guided slider tips (model it as a block slider)"]);
+    let plane = plane.colour_by(ColourBy::Jam);
+    assert_eq!(
+        map(&model, &plane).expect("an answer").classes[0].words,
+        "a guided slider tips in both directions"
+    );
     assert_eq!(
         solve(&with_mu(&PRESS.replace("guided", "block"), 1.3)).expect("an answer").status,
         Status::One

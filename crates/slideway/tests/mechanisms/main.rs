@@ -38,6 +38,7 @@ mod redundant_closed_forms;
 mod redundant_rest;
 mod rest;
 mod speeds;
+mod standing;
 mod standstill;
 mod symmetries;
 mod tables_and_events;

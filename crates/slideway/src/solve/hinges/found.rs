@@ -94,6 +94,7 @@ impl HingedAnswer<'_> {
                 determinant: oriented * solution.states.iter().map(|state| state.sign()).product::<f64>(),
                 certificate: &certificate(solution),
                 hinges: &hinge_states(self.answer.mechanism, self.hinges, &solution.reactions),
+                held: &[],
             };
             let Some(mut kept) = self.answer.kept(&state, &mut tipping) else { continue };
             kept.margin = self.growth.as_ref().and_then(|growth| growth.margin(solution));

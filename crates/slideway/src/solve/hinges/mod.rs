@@ -5,7 +5,6 @@ mod branches;
 mod found;
 mod margins;
 mod spin;
-mod standing;
 mod states;
 mod uncertainty;
 
@@ -16,13 +15,14 @@ pub(crate) use branches::{block_instance, turning_hinges, unknowns_of};
 
 use super::SolveOptions;
 use super::answer::Answer;
-use super::mode_problem::{overflow, preload_columns, without_rounding};
+use super::mode_problem::{none_stands, overflow, preload_columns, without_rounding};
 use super::stages::Stages;
+use super::standing;
 use crate::configuration::Configuration;
 use crate::enclosure::{
     BlockCoefficients, TurningHinge, UncertainParameters, enclosed_block_problem, enclosed_while,
 };
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::{Fault, FaultKind, Faults, MOST_CONTACTS};
 use crate::ids::JointId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
@@ -53,34 +53,18 @@ pub(super) fn solve(
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
-    let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
-    let contacts = mechanism.contacts.len();
-    let mut answer = Answer {
-        mechanism,
-        configuration,
-        equations,
-        influence,
-        velocity_signs,
-        jumps: vec![false; contacts],
-        elasticity: None,
-        shared: None,
-        enclosed: None,
-    };
+    let Stages { mechanism, configuration, influence, .. } = stages;
     let Spins { turning, standing } = accepted_spins(mechanism, configuration, influence)?;
     if let [hinge] = &standing[..] {
-        let mut report = standing::ranges(&answer, stages, *hinge)?;
-        if !ranges.is_empty() {
-            report
-                .open
-                .push("parameters known within bounds are taken at the middle of their ranges".to_owned());
-        }
-        return Ok(report);
+        return standing::of_hinge(stages, equations, *hinge);
     }
+    none_stands(mechanism, &stages.standing)?;
     let problem = block_problem(stages.hinged(), &turning)?;
     let enclosed = enclosed_while(progress, |work| {
         enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning, work)
     });
-    answer.enclosed = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
+    let enclosed_outputs = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
+    let answer = Answer { enclosed: enclosed_outputs, ..Answer::determinate(stages, equations) };
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);
     let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
@@ -141,7 +125,7 @@ fn accepted_spins(
 ) -> Result<Spins, Faults> {
     check_determinate(mechanism)?;
     let spins = spins(mechanism, configuration, influence)?;
-    let has_few_contacts = mechanism.contacts.len() <= standing::MOST_CONTACTS;
+    let has_few_contacts = mechanism.contacts.len() <= MOST_CONTACTS;
     if !(spins.standing.len() == 1 && spins.turning.is_empty() && has_few_contacts) {
         never_turn(mechanism, &spins.standing)?;
     }
@@ -163,7 +147,7 @@ fn block_problem(data: HingedData<'_>, hinges: &[TurningHinge]) -> Result<BlockP
 }
 
 /// What the block mode problem is made of, in floating point.
-fn block_coefficients(data: HingedData<'_>, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
+pub(super) fn block_coefficients(data: HingedData<'_>, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
     let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
     let rows = data.influence.block_rows(&joints);
     let eta = without_rounding(data.mechanism, answers(data, &rows));
@@ -171,13 +155,13 @@ fn block_coefficients(data: HingedData<'_>, hinges: &[TurningHinge]) -> BlockCoe
 }
 
 /// What a unit friction force of each contact adds to these unknowns, at either face.
-fn answers(data: HingedData<'_>, rows: &[usize]) -> [DMatrix<f64>; 2] {
+pub(super) fn answers(data: HingedData<'_>, rows: &[usize]) -> [DMatrix<f64>; 2] {
     let columns = &data.influence.columns;
     [0, 1].map(|side| DMatrix::from_fn(rows.len(), columns.len(), |row, k| columns[k][side][rows[row]]))
 }
 
 /// What these unknowns are made of, with those answers to the friction of the contacts.
-fn coefficients_of(
+pub(super) fn coefficients_of(
     data: HingedData<'_>,
     hinges: &[TurningHinge],
     rows: &[usize],

@@ -2,16 +2,13 @@
 
 use super::super::mode_problem::AT_REST;
 use super::super::no_sliding::why;
-use crate::configuration::{Configuration, free_motions};
+use crate::configuration::{Configuration, NO_ACCELERATION, free_motions};
 use crate::enclosure::{TurningHinge, spin};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
 use nalgebra::DVector;
-
-/// Of a hinge that no free motion turns, what rounding leaves of its angular acceleration, as a part of the greatest.
-const NO_ACCELERATION: f64 = 1e-9;
 
 /// A mechanism in its state, as far as the block mode problem needs it.
 #[derive(Clone, Copy)]

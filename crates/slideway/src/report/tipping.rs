@@ -1,0 +1,60 @@
+//! Which guided sliders tip where there is no solution for that reason.
+
+use super::{SolveReport, Status};
+use serde::Serialize;
+
+/// What tips where there is no solution: a guided slider has no state in which it is tipped.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct Tipping {
+    /// The guided sliders that would tip in a solution of the equations: as block sliders they show whether it moves.
+    pub joints: Vec<String>,
+    /// Whether there is such a solution wherever that was asked: then friction does not lock it.
+    pub throughout: bool,
+}
+
+impl Tipping {
+    /// From what tips in each of some states without a solution; none if nothing does.
+    pub(crate) fn of(states: impl Iterator<Item = Vec<String>>) -> Option<Self> {
+        let mut tipping = Self { joints: Vec::new(), throughout: true };
+        for joints in states {
+            tipping.throughout &= !joints.is_empty();
+            tipping.joints.extend(joints);
+        }
+        tipping.joints.sort_unstable();
+        tipping.joints.dedup();
+        (!tipping.joints.is_empty()).then_some(tipping)
+    }
+
+    /// "bed tips, which a guided slider cannot show (model it as a block slider)", where some states lock after "it jams, or".
+    pub(crate) fn in_words(&self) -> String {
+        let names = self.joints.join(" and ");
+        let tips = match self.joints.len() {
+            1 => format!("{names} tips, which a guided slider cannot show (model it as a block slider)"),
+            _ => format!("{names} tip, which guided sliders cannot show (model them as block sliders)"),
+        };
+        if self.throughout { tips } else { format!("it jams, or {tips}") }
+    }
+}
+
+/// What it means that there is no solution: "it jams", or what tips.
+pub(crate) fn without_solution(tipping: Option<&Tipping>) -> String {
+    tipping.map_or_else(|| "it jams".to_owned(), Tipping::in_words)
+}
+
+impl SolveReport {
+    /// What tips, if there is no solution for that reason.
+    pub fn tipping(&self) -> Option<Tipping> {
+        let joints = self.rejected.iter().map(|rejection| rejection.joint.clone()).collect();
+        if self.status == Status::None { Tipping::of(std::iter::once(joints)) } else { None }
+    }
+
+    /// The guided sliders that tip, or would just beyond the friction up to which there is a solution.
+    pub(crate) fn tipping_in_the_end(&self) -> Vec<String> {
+        match (self.tipping(), &self.margins) {
+            (Some(tipping), _) => tipping.joints,
+            (None, Some(margins)) if self.status != Status::None => margins.tips.clone(),
+            _ => Vec::new(),
+        }
+    }
+}
