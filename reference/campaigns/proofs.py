@@ -8,6 +8,7 @@ problem of the same family. Whether what an accepted one lists is true is decide
 every pattern and knows no proof. Standard library only.
 """
 import json
+import math
 import random
 import sys
 from collections import Counter
@@ -71,7 +72,8 @@ def sibling(problem, rng):
     if isinstance(row[0], list):
         row = rng.choice(row)
     at = rng.randrange(len(row))
-    row[at] = rng.choice([-row[at] or 1, row[at] + 1, row[at] * 2 or -1, 0 if row[at] else 1])
+    doubled = row[at] * 2 if math.isfinite(row[at] * 2) else row[at] / 2
+    row[at] = rng.choice([-row[at] or 1, row[at] + 1, doubled or -1, 0 if row[at] else 1])
     return other
 
 

@@ -88,11 +88,26 @@ def value_fault(value, true, radius, text):
     if value is None:
         if LEAST <= abs(true) <= GREATEST or true == 0:
             return "no number is shown, but there is one"
-        given = Fraction(text) if text else None
-        return None if given and abs(given - true) <= abs(true) / 10 ** 14 else f"beyond the range: {text}"
+        return None if text and text_holds(text, true) else f"beyond the range: {text}"
     if abs(Fraction(value) - true) > radius:
         return f"{value!r}, farther than {float(radius):.3g}"
     return None
+
+
+def nearest(text):
+    """The value in a text such as "1.5e310", "more than 1.7e308" or "between 0 and 2.2e-308": of a bound, the bound."""
+    return Fraction(text.split()[-1])
+
+
+def text_holds(text, true):
+    bound = nearest(text)
+    if text.startswith("more than"):
+        return true > bound
+    if text.startswith("less than"):
+        return true < bound
+    if text.startswith("between 0 and"):
+        return 0 < true / bound < 1
+    return abs(bound - true) <= abs(true) / 10 ** 14
 
 
 def solution_fault(problem, point, solution, total):
@@ -120,9 +135,9 @@ def distance(problem, point, solution):
     """How far a solution is from a point, number by number relative to their size."""
     far, texts = Fraction(0), beyond(problem, solution)
     for item, value, x in zip(names(problem)[0], flat(problem, solution), reported(problem, point)):
-        value = value if value is not None else texts.get(item)
+        value = Fraction(value) if value is not None else nearest(texts[item]) if item in texts else None
         if value is not None and (value or x):
-            far = max(far, abs(Fraction(value) - x) / max(abs(x), abs(Fraction(value))))
+            far = max(far, abs(value - x) / max(abs(x), abs(value)))
     return far
 
 
