@@ -80,7 +80,9 @@ def flat(problem, solution):
 
 
 def beyond(problem, solution):
-    return {(x["name"], x.get("index")): x["value"] for x in solution.get("beyond_range", [])}
+    # A payoff has the index 0 there.
+    return {(x["name"], None if x["name"].startswith("payoff") else x.get("index")): x["value"]
+            for x in solution.get("beyond_range", [])}
 
 
 def value_fault(value, true, radius, text):
