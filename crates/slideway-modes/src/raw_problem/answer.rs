@@ -239,12 +239,18 @@ impl<'a> Teller<'a> {
             && (!exactly || size <= EXACT_UNKNOWNS);
         // Where sums lose digits, so do bounds on what they are computed with.
         let is_exact = singular || !values.sums.is_empty();
-        let radius = |exact_unknowns: &mut ExactUnknowns<'_>| {
-            let exact = is_exact.then(|| self.exact_radius(exact_unknowns, &values)).flatten();
-            exact.or_else(|| (!singular).then(|| self.radius(&pattern, &values)).flatten())
+        let mut radius = |values: &mut Values| {
+            let exact = is_exact.then(|| self.exact_radius(&mut exact_unknowns, values)).flatten();
+            let within = exact.or_else(|| (!singular).then(|| self.radius(&pattern, values)).flatten());
+            let is_doubtful = size <= EXACT_UNKNOWNS && within.is_none_or(|radius| values.lose_half(radius));
+            if singular || !is_doubtful {
+                return within;
+            }
+            values.round_exactly(&mut exact_unknowns);
+            self.exact_radius(&mut exact_unknowns, values)
         };
         let enclosure_radius = (affordable && values.gaps.is_empty())
-            .then(|| radius(&mut exact_unknowns))
+            .then(|| radius(&mut values))
             .flatten()
             .map(|radius| match self.correspondence.rounding(&values.signed, &values.sums) {
                 0.0 => radius,

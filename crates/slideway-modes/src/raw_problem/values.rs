@@ -12,6 +12,9 @@ use crate::interval::Interval;
 use crate::problem::ContactState;
 use crate::search::CombinedState;
 
+/// The relative error with half of the bits of a floating-point number.
+const HALF_OF_THE_DIGITS: f64 = f64::from_bits((1023 - 26) << 52);
+
 /// Signed values `N` and shares of a state. A value beyond the range of floating-point numbers is infinite or
 /// subnormal, with its sign.
 pub(super) struct Values {
@@ -40,9 +43,18 @@ impl Values {
         exact_unknowns: &mut ExactUnknowns<'_>,
     ) -> Vec<BeyondRange> {
         let mut told_of = Vec::new();
-        for at in 0..self.signed.len() {
+        let is_sum: Vec<bool> = self
+            .signed
+            .iter()
+            .enumerate()
+            .map(|(at, &value)| correspondence.loses_digits(at, value))
+            .collect();
+        if is_sum.contains(&true) {
+            // What is coupled to such a sum has lost the same digits.
+            self.round_exactly(exact_unknowns);
+        }
+        for (at, is_sum) in is_sum.into_iter().enumerate() {
             let value = self.signed[at];
-            let is_sum = correspondence.loses_digits(at, value);
             if in_range(value) && !is_sum {
                 continue;
             }
@@ -73,6 +85,22 @@ impl Values {
             gap.lambda = f64::NAN;
         }
         told_of
+    }
+
+    /// Replaces all values by the numbers nearest to the exact ones, as far as these take little work.
+    pub(super) fn round_exactly(&mut self, exact_unknowns: &mut ExactUnknowns<'_>) {
+        for (at, value) in self.signed.iter_mut().enumerate().filter(|(_, value)| **value != 0.0) {
+            let nearest = exact_unknowns.of(at).as_ref().map(nearest);
+            if let Some(nearest) = nearest.filter(|nearest| nearest.is_normal()) {
+                *value = nearest.copysign(*value);
+            }
+        }
+    }
+
+    /// Whether errors of this size leave less than half of the digits of the largest value.
+    pub(super) fn lose_half(&self, error: f64) -> bool {
+        let in_range = self.signed.iter().filter(|value| in_range(**value));
+        error > HALF_OF_THE_DIGITS * in_range.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
 
     /// The residual of these values in the equations; `None` if one of them is not known.

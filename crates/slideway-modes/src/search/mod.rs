@@ -82,6 +82,7 @@ mod proof_digest;
 mod proof_log;
 mod proof_low_rank;
 mod propagation;
+mod reduced;
 mod relaxation;
 mod report;
 mod result;
