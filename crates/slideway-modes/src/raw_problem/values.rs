@@ -12,9 +12,6 @@ use crate::interval::Interval;
 use crate::problem::ContactState;
 use crate::search::CombinedState;
 
-/// The relative error with half of the bits of a floating-point number.
-const HALF_OF_THE_DIGITS: f64 = f64::from_bits((1023 - 26) << 52);
-
 /// Signed values `N` and shares of a state. A value beyond the range of floating-point numbers is infinite or
 /// subnormal, with its sign.
 pub(super) struct Values {
@@ -95,12 +92,6 @@ impl Values {
                 *value = nearest.copysign(*value);
             }
         }
-    }
-
-    /// Whether errors of this size leave less than half of the digits of the largest value.
-    pub(super) fn lose_half(&self, error: f64) -> bool {
-        let in_range = self.signed.iter().filter(|value| in_range(**value));
-        error > HALF_OF_THE_DIGITS * in_range.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
 
     /// The residual of these values in the equations; `None` if one of them is not known.

@@ -75,3 +75,69 @@ impl ReducedRelaxation {
         self.is_free.iter().filter_map(of_contact).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::DMatrix;
+
+    use super::super::relaxation::Relaxed;
+    use super::super::states::all_states;
+    use super::super::test_problems::{Numbers, admitted, holds};
+    use super::super::without_free::WithoutFree;
+    use super::*;
+    use crate::certificate::LiftedSystem;
+    use crate::problem::{ModeProblem, Side};
+
+    /// A random problem in which some of the contacts are free.
+    fn with_free(numbers: &mut Numbers, is_free: &[bool]) -> ModeProblem {
+        let problem = numbers.problem(is_free.len(), 1.5, false);
+        let [positive, mut negative] = Side::BOTH.map(|side| problem.columns(side).clone());
+        for contact in (0..is_free.len()).filter(|&contact| is_free[contact]) {
+            negative.set_column(contact, &-positive.column(contact));
+        }
+        let none = DMatrix::zeros(is_free.len(), is_free.len());
+        ModeProblem::new(positive, negative, none.clone(), none, problem.right_hand_side().clone())
+            .expect("shapes fit")
+    }
+
+    /// Every node of the others with all free contacts open: what is excluded admits nothing, and a node is excluded or has
+    /// a relaxed solution.
+    #[test]
+    fn nodes_are_decided_without_free_contacts() {
+        let (mut excluded, mut feasible) = (0, 0);
+        for seed in 0..100 {
+            let mut numbers = Numbers::new(seed);
+            let is_free: Vec<bool> =
+                (0..5).map(|contact| contact == seed as usize % 5 || contact == 3).collect();
+            let problem = with_free(&mut numbers, &is_free);
+            let admitted = admitted(&problem);
+            let system = Arc::new(LiftedSystem::new((&problem).into()));
+            let others =
+                WithoutFree::new(&system, &is_free).others(&mut || true).expect("independent columns");
+            let reduced = ReducedRelaxation::new(&others, &is_free);
+            for pattern in 0..1 << is_free.len() {
+                let mut states = all_states(&ScaledProblem::new(&problem));
+                for contact in (0..is_free.len()).filter(|&contact| !is_free[contact]) {
+                    states[contact] =
+                        StateSet::only(crate::problem::ContactState::PRESSED[pattern >> contact & 1]);
+                }
+                let first = reduced.of_others().first_basis();
+                let has_any = admitted.iter().any(|(pattern, _)| holds(&states, pattern));
+                match reduced.solve(&states, first, &mut 0, &mut || true).0 {
+                    Relaxed::Excluded(_) => {
+                        excluded += 1;
+                        assert!(!has_any, "{problem:?} {states:?}");
+                    }
+                    Relaxed::Feasible(contacts) => {
+                        feasible += 1;
+                        assert!(has_any && contacts.len() == is_free.len(), "{problem:?} {states:?}");
+                    }
+                    Relaxed::Undecided => {}
+                }
+            }
+        }
+        assert!(excluded > 1000 && feasible > 50, "{excluded} {feasible}");
+    }
+}
