@@ -255,8 +255,12 @@ class Shape:
         return vector
 
     def fault(self, ends, rays, pattern):
-        if any(x is None or x == "missing" for v in ends + rays for x in v):
-            return None if all(x != "missing" for v in ends for x in v) else "a number is missing"
+        if any(x == "missing" for v in ends for x in v):
+            return "a number is missing"
+        if any(x is None for v in ends + rays for x in v):
+            # Of lines and directions, numbers beyond the range are not compared.
+            fault = None if self.lines or len(ends) != len(self.ends) else same(self.ends, ends, self.scale)
+            return f"ends {fault}" if fault else None
         fault = same([self.reduce(v) for v in self.ends], [self.reduce(v) for v in ends], self.scale)
         if fault:
             return f"ends {fault}"
@@ -293,11 +297,16 @@ def normal(vector):
 
 
 def same(true, comes, scale):
+    def close(exact, x):
+        if x is None:
+            return abs(exact) > GREATEST or 0 < abs(exact) < LEAST
+        return abs(exact - Fraction(x)) <= RELATIVE * abs(exact) + scale / 10 ** 12
+
     rest = list(true)
     for v in comes:
-        near = next((t for t in rest if all(abs(a - b) <= RELATIVE * abs(a) + scale / 10 ** 12 for a, b in zip(t, v))), None)
+        near = next((t for t in rest if all(map(close, t, v))), None)
         if near is None:
-            return f"{[float_or_text(x) for x in v]} is none of the {len(true)}"
+            return f"{[x and float_or_text(x) for x in v]} is none of the {len(true)}"
         rest.remove(near)
     return f"without {[[float_or_text(x) for x in v] for v in rest]}" if rest else None
 

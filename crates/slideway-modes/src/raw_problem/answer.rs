@@ -23,8 +23,8 @@ const ENCLOSURE_WORK: f64 = 3e7;
 const ENCLOSED_UNKNOWNS: usize = 500;
 /// Solutions on a boundary are decided in rational numbers only for up to this many unknowns.
 const EXACT_UNKNOWNS: usize = 24;
-/// The relative error that leaves half of the bits of a floating-point number.
-const HALF_OF_THE_DIGITS: f64 = f64::from_bits((1023 - 26) << 52);
+/// Values of so few unknowns are exact ones, rounded, if error bounds are wider than this part of the largest value.
+const WIDE: f64 = 1e-9;
 
 /// All solutions of a raw problem.
 ///
@@ -245,7 +245,7 @@ impl<'a> Teller<'a> {
             let exact = is_exact.then(|| self.exact_radius(&mut exact_unknowns, values)).flatten();
             let within = exact.or_else(|| (!singular).then(|| self.radius(&pattern, values)).flatten());
             let is_doubtful =
-                size <= EXACT_UNKNOWNS && within.is_none_or(|radius| self.loses_half(values, radius));
+                size <= EXACT_UNKNOWNS && within.is_none_or(|radius| self.is_wide(values, radius));
             if singular || !is_doubtful {
                 return within;
             }
@@ -298,10 +298,10 @@ impl<'a> Teller<'a> {
         self.told_values(values).try_fold(0.0, |most: f64, at| Some(most.max(distance(at)?)))
     }
 
-    /// Whether errors of this size leave less than half of the digits of the largest value.
-    fn loses_half(&self, values: &Values, error: f64) -> bool {
+    /// Whether errors of this size are wide, relative to the largest value.
+    fn is_wide(&self, values: &Values, error: f64) -> bool {
         let sizes = self.told_values(values).map(|at| values.signed[at].abs());
-        error > HALF_OF_THE_DIGITS * sizes.fold(0.0, f64::max)
+        error > WIDE * sizes.fold(0.0, f64::max)
     }
 
     /// The unknowns of the mode problem whose values are told as they are.
