@@ -79,6 +79,7 @@ def main():
     conclude(partial(work, options), batches(options, 200), options.jobs,
              lambda t: f"{t['failures']} of {t['comparisons']} comparisons of {t['problems']} raw problems fail "
                        f"({t['skipped']} problems beyond the oracle, {t['no radius']} solutions without a radius, "
+                       f"{t['wide blocks']} of blocks with wide bounds, "
                        f"{t['left open']} answers left open near a boundary; fractions as texts are read {options.fractions}).")
 
 
