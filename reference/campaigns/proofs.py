@@ -12,11 +12,10 @@ import math
 import random
 import sys
 from collections import Counter
-from functools import partial
 from pathlib import Path
 
 import raw_generate
-from common import ROOT, Failures, arguments, batches, conclude, run, scratch
+from common import ROOT, Failures, arguments, conclude, run, scratch
 from exact import Solutions, TooLarge
 from raw_problems import FORMS, has_jumps
 
@@ -156,7 +155,7 @@ def work(options, batch):
 def main():
     options = arguments(__doc__.splitlines()[0], 2000).parse_args()
     options.count = -(-options.count * 8 // 7)      # every eighth problem has no proof
-    conclude(partial(work, options), batches(options, 25), options.jobs,
+    conclude(work, options, 25,
              lambda t: f"{t['failures']} failures: {t['proofs']} proofs checked, {t['without a proof']} problems without one, "
                        f"{t['mutants']} changed proofs tried, {t['accepted and true']} of them accepted because they are true as well.")
 
