@@ -32,7 +32,7 @@ fuzz_target!(|input: (u8, bool, &str)| {
             let [from, to] = [report.vary.from, report.vary.to];
             assert!(from < to && (to - from).is_finite(), "{vary}: {from} to {to}");
             let text = report.text(Style::default());
-            assert!(!text.contains("NaN") && !text.contains(" inf"), "{text}");
+            assert!(!slideway_fuzz::has_no_number(&text), "{text}");
             assert!(!report.json().is_empty());
         }
         Ok(None) => {}

@@ -75,6 +75,7 @@ pub fn problem(bytes: &[u8]) -> Option<(ModeProblem, SearchOptions)> {
         uniqueness: switches & 4 == 0,
         low_rank: switches & 8 == 0,
         every_pattern: switches & 16 == 0,
+        faces: switches & 32 == 0,
     };
     let options = SearchOptions { nodes: 2000, arguments, ..SearchOptions::default() };
     Some((problem.ok()?, options))

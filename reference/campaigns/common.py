@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -72,21 +73,17 @@ def streamed(problem, options):
     return answer
 
 
-def batches(options, size):
-    """(first, count) of the batches of a campaign."""
-    return [(first, min(size, options.first + options.count - first))
-            for first in range(options.first, options.first + options.count, size)]
-
-
-def conclude(work, tasks, jobs, sentence):
-    """Run `work` on all tasks in `jobs` processes, add up their counters, print `sentence(total)`, exit 1 on failures."""
-    total = Counter()
-    if jobs == 1:
-        for task in tasks:
-            total.update(work(task))
+def conclude(work, options, size, sentence):
+    """Run `work(options, (first, count))` on batches of this size in `options.jobs` processes, add up their counters, print
+    `sentence(total)`, exit 1 on failures."""
+    end, total = options.first + options.count, Counter()
+    batches = [(first, min(size, end - first)) for first in range(options.first, end, size)]
+    if options.jobs == 1:
+        for batch in batches:
+            total.update(work(options, batch))
     else:
-        with multiprocessing.Pool(jobs) as pool:
-            for counter in pool.imap_unordered(work, tasks):
+        with multiprocessing.Pool(options.jobs) as pool:
+            for counter in pool.imap_unordered(partial(work, options), batches):
                 total.update(counter)
     print(sentence(total))
     for name, number in sorted(total.items()):

@@ -17,7 +17,7 @@ import mechanism_make
 import newton_euler
 import questions
 import rest_oracle
-from common import Failures, arguments, batches, conclude, scratch
+from common import Failures, arguments, conclude, scratch
 
 POINTS = 4
 
@@ -97,7 +97,7 @@ def same(m, solution, listed):
 def main():
     options = arguments(__doc__.splitlines()[0], 10000).parse_args()
     options.count = -(-options.count // POINTS)         # mechanisms
-    conclude(partial(work, options), batches(options, 10), options.jobs,
+    conclude(work, options, 10,
              lambda t: f"{t['failures']} of {t['comparisons']} comparisons between questions fail, at {t['points']} points of "
                        f"{t['mechanisms']} mechanisms ({t['refused']} points refused); {t['determinate']} points compared with the equations "
                        f"of every body ({t['doubtful']} too near to a boundary), {t['rest']} states of rest with linear programs.")

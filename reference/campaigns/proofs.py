@@ -8,14 +8,14 @@ problem of the same family. Whether what an accepted one lists is true is decide
 every pattern and knows no proof. Standard library only.
 """
 import json
+import math
 import random
 import sys
 from collections import Counter
-from functools import partial
 from pathlib import Path
 
 import raw_generate
-from common import ROOT, Failures, arguments, batches, conclude, run, scratch
+from common import ROOT, Failures, arguments, conclude, run, scratch
 from exact import Solutions, TooLarge
 from raw_problems import FORMS, has_jumps
 
@@ -71,7 +71,8 @@ def sibling(problem, rng):
     if isinstance(row[0], list):
         row = rng.choice(row)
     at = rng.randrange(len(row))
-    row[at] = rng.choice([-row[at] or 1, row[at] + 1, row[at] * 2 or -1, 0 if row[at] else 1])
+    doubled = row[at] * 2 if math.isfinite(row[at] * 2) else row[at] / 2
+    row[at] = rng.choice([-row[at] or 1, row[at] + 1, doubled or -1, 0 if row[at] else 1])
     return other
 
 
@@ -154,7 +155,7 @@ def work(options, batch):
 def main():
     options = arguments(__doc__.splitlines()[0], 2000).parse_args()
     options.count = -(-options.count * 8 // 7)      # every eighth problem has no proof
-    conclude(partial(work, options), batches(options, 25), options.jobs,
+    conclude(work, options, 25,
              lambda t: f"{t['failures']} failures: {t['proofs']} proofs checked, {t['without a proof']} problems without one, "
                        f"{t['mutants']} changed proofs tried, {t['accepted and true']} of them accepted because they are true as well.")
 

@@ -12,7 +12,7 @@ from functools import partial
 import block_oracle
 import raw_generate
 import raw_problems
-from common import Failures, answers, arguments, batches, conclude, streamed
+from common import Failures, answers, arguments, conclude, streamed
 from exact import Solutions, TooLarge
 from raw_compare import compare
 from raw_problems import FORMS, orientation
@@ -76,9 +76,10 @@ def judge(options, total, failures, case, exact, name, flags, answer):
 def main():
     options = arguments(__doc__.splitlines()[0], 17000).parse_args()
     options.fractions = fractions_read()
-    conclude(partial(work, options), batches(options, 200), options.jobs,
+    conclude(work, options, 200,
              lambda t: f"{t['failures']} of {t['comparisons']} comparisons of {t['problems']} raw problems fail "
                        f"({t['skipped']} problems beyond the oracle, {t['no radius']} solutions without a radius, "
+                       f"{t['wide blocks']} of blocks with wide bounds, "
                        f"{t['left open']} answers left open near a boundary; fractions as texts are read {options.fractions}).")
 
 

@@ -396,3 +396,43 @@ fn free_unknowns_are_not_branched_on() {
     }
     assert!(nodes[0] <= 2 * nodes[1], "{nodes:?}");
 }
+
+fn solved_json(json: &str) -> RawReport {
+    solved(&RawProblem::from_json(json.as_bytes()).expect("a problem"))
+}
+
+/// A bound of -1e9 is subtracted and added again, and numbers of very different size make a pattern nearly singular.
+/// Elimination in fractions (Python's) gives these values for these very numbers.
+#[test]
+fn values_beside_sums_that_lose_digits_are_as_accurate_as_others() {
+    let report = solved_json(
+        r#"{"type": "mcp", "M": [[-1.0000000000000002, -5e-324, -5e-324, 1], [-1.0000000000000002, 2, -5e-324, 1.000000001],
+            [-5e-324, 1, 0.9999999999999999, 0], [-1, 0, 0.9999999999999999, -1.0000000000000002]],
+            "q": [5e-324, 1, 0.9999999999999999, 1], "l": [-1, 0, -1, -1e9], "u": [1, 2, 2, 0]}"#,
+    );
+    let between =
+        report.solutions.iter().find(|solution| solution.signs == [1, 0, -1, 0]).expect("a solution");
+    let Unknowns::Complementary { z, w } = &between.unknowns else { panic!("z and w") };
+    assert_eq!((z[1], z[3], w[0]), (0.500_000_000_499_999_9, -0.999_999_999_999_999_7, -2.0));
+    assert!(between.enclosure_radius.is_some_and(|radius| radius <= f64::EPSILON), "{between:?}");
+    let report = solved_json(
+        r#"{"type": "mlcp", "A": [[0, -1e16], [0, -1000]], "C": [[2, -0.003, 0], [1, 1e16, -3.0000000000000004e-8]],
+            "D": [[1, 1], [2e8, 2e16], [0, -3000]], "B": [[0, -3000, -3000], [-1000, 1e-16, -1], [1, -3e8, 2e-16]],
+            "a": [2e16, -99998000], "b": [4.99803, -4.00000000004e16, 6003]}"#,
+    );
+    let zero =
+        report.solutions.iter().find(|solution| solution.signs[2..] == [-1, 1, 1]).expect("a solution");
+    let Unknowns::Mixed { u, z, w } = &zero.unknowns else { panic!("u, z and w") };
+    let told = [u[0], z[2], w[0]];
+    assert_eq!(told, [0.002_000_000_000_000_064_7, 1.285_714_298_571_428_3e-8, 6.999_961_428_571_042_5]);
+    assert!(zero.enclosure_radius.is_some_and(|radius| radius < 1e-15), "{zero:?}");
+}
+
+/// z = l, whatever its size.
+#[test]
+fn a_bound_has_its_number() {
+    let report = solved_json(r#"{"type": "mcp", "M": [[1]], "q": [1e-9], "l": [5e-324], "u": [1]}"#);
+    let [solution] = report.solutions.as_slice() else { panic!("one solution") };
+    let Unknowns::Complementary { z, .. } = &solution.unknowns else { panic!("z and w") };
+    assert_eq!((z.as_slice(), solution.beyond_range.len()), (&[5e-324][..], 0));
+}

@@ -23,6 +23,8 @@ const ENCLOSURE_WORK: f64 = 3e7;
 const ENCLOSED_UNKNOWNS: usize = 500;
 /// Solutions on a boundary are decided in rational numbers only for up to this many unknowns.
 const EXACT_UNKNOWNS: usize = 24;
+/// Values of so few unknowns are exact ones, rounded, if error bounds are wider than this part of the largest value.
+const WIDE: f64 = 1e-9;
 
 /// All solutions of a raw problem.
 ///
@@ -239,12 +241,19 @@ impl<'a> Teller<'a> {
             && (!exactly || size <= EXACT_UNKNOWNS);
         // Where sums lose digits, so do bounds on what they are computed with.
         let is_exact = singular || !values.sums.is_empty();
-        let radius = |exact_unknowns: &mut ExactUnknowns<'_>| {
-            let exact = is_exact.then(|| self.exact_radius(exact_unknowns, &values)).flatten();
-            exact.or_else(|| (!singular).then(|| self.radius(&pattern, &values)).flatten())
+        let mut radius = |values: &mut Values| {
+            let exact = is_exact.then(|| self.exact_radius(&mut exact_unknowns, values)).flatten();
+            let within = exact.or_else(|| (!singular).then(|| self.radius(&pattern, values)).flatten());
+            let is_doubtful =
+                size <= EXACT_UNKNOWNS && within.is_none_or(|radius| self.is_wide(values, radius));
+            if singular || !is_doubtful {
+                return within;
+            }
+            values.round_exactly(&mut exact_unknowns);
+            self.exact_radius(&mut exact_unknowns, values)
         };
         let enclosure_radius = (affordable && values.gaps.is_empty())
-            .then(|| radius(&mut exact_unknowns))
+            .then(|| radius(&mut values))
             .flatten()
             .map(|radius| match self.correspondence.rounding(&values.signed, &values.sums) {
                 0.0 => radius,
@@ -287,6 +296,12 @@ impl<'a> Teller<'a> {
             Some(Interval::around_ratio(&error).magnitude())
         };
         self.told_values(values).try_fold(0.0, |most: f64, at| Some(most.max(distance(at)?)))
+    }
+
+    /// Whether errors of this size are wide, relative to the largest value.
+    fn is_wide(&self, values: &Values, error: f64) -> bool {
+        let sizes = self.told_values(values).map(|at| values.signed[at].abs());
+        error > WIDE * sizes.fold(0.0, f64::max)
     }
 
     /// The unknowns of the mode problem whose values are told as they are.

@@ -130,12 +130,19 @@ impl Correspondence {
         (self.kind == RawKind::Game).then_some(strategies)
     }
 
+    /// A value without a floating-point number near becomes NaN.
     fn told(&self, signed: impl Iterator<Item = (usize, f64)>, sums: &Sums, direction: bool) -> Told {
         let mut told = Told::default();
         let from = |bound: f64| if direction { 0.0 } else { bound };
+        let number = |value: f64| if in_range(value) { value } else { f64::NAN };
         for (contact, value) in signed {
-            let (above, below) = (value.max(0.0), (-value).max(0.0));
-            let sum = |bound: f64, value: f64| sums.value(contact).unwrap_or_else(|| from(bound) + value);
+            let (above, below) = (value.max(0.0), number((-value).max(0.0)));
+            // A bound is exact, however small.
+            let sum = |bound: f64, value: f64| match sums.value(contact) {
+                Some(sum) => number(sum),
+                None if value == 0.0 => from(bound),
+                None => number(from(bound) + value),
+            };
             let mut set = |index: usize, z: Option<f64>, w: f64| {
                 let entry = told.values.entry(index).or_insert((0.0, 0.0));
                 entry.0 = z.unwrap_or(entry.0);
@@ -143,13 +150,13 @@ impl Correspondence {
                 entry.1 = if w == 0.0 { entry.1 } else { w };
             };
             match self.roles[contact] {
-                Role::Switched(index) | Role::Free(index) => set(index, Some(value), 0.0),
+                Role::Switched(index) | Role::Free(index) => set(index, Some(number(value)), 0.0),
                 Role::Above(index, bound) => set(index, Some(sum(bound, above)), below),
                 Role::Below(index, bound) => set(index, Some(sum(bound, -above)), -below),
                 Role::Ceiling(index, bound) => {
                     set(index, (value <= 0.0 && !direction).then_some(bound), -below);
                 }
-                Role::Fixed(index, bound) => set(index, Some(from(bound)), value),
+                Role::Fixed(index, bound) => set(index, Some(from(bound)), number(value)),
                 Role::Constant(_) => {}
                 Role::Payoff(player, least) => told.payoffs[player] = Some(sum(least, above)),
             }
@@ -159,7 +166,7 @@ impl Correspondence {
 
     fn named(&self, told: &Told) -> Unknowns {
         // Removes the sign of a zero.
-        let number = |value: f64| if in_range(value) { value + 0.0 } else { f64::NAN };
+        let number = |value: f64| value + 0.0;
         let all = |of: fn(&(f64, f64)) -> f64| told.values.values().map(|pair| number(of(pair))).collect();
         let some = |first: bool, of: fn(&(f64, f64)) -> f64| {
             let here = told.values.iter().filter(|(index, _)| (**index < self.first) == first);

@@ -83,12 +83,13 @@ pub(super) fn nearest(value: &RBig) -> f64 {
     value.to_f64().value()
 }
 
-/// A value as text, given its sign, its rounded size (infinity, or below the least normal number) and, if
-/// known, its exact value.
+/// A value as text, given its sign (zero if that is not known), its rounded size (infinity, or below the least normal
+/// number) and, if known, its exact value.
 pub(super) fn told(sign: f64, rounded: f64, exact: Option<&RBig>) -> String {
     let minus = if sign < 0.0 { "-" } else { "" };
     match exact {
         Some(size) => format!("{minus}{}", decimal(size)),
+        None if rounded.is_finite() && sign == 0.0 => format!("between -{0:e} and {0:e}", f64::MIN_POSITIVE),
         None if rounded.is_finite() => format!("between 0 and {minus}{:e}", f64::MIN_POSITIVE),
         None if sign < 0.0 => format!("less than {:e}", f64::MIN),
         None => format!("more than {:e}", f64::MAX),

@@ -40,9 +40,18 @@ impl Values {
         exact_unknowns: &mut ExactUnknowns<'_>,
     ) -> Vec<BeyondRange> {
         let mut told_of = Vec::new();
-        for at in 0..self.signed.len() {
+        let is_sum: Vec<bool> = self
+            .signed
+            .iter()
+            .enumerate()
+            .map(|(at, &value)| correspondence.loses_digits(at, value))
+            .collect();
+        if is_sum.contains(&true) {
+            // What is coupled to such a sum has lost the same digits.
+            self.round_exactly(exact_unknowns);
+        }
+        for (at, is_sum) in is_sum.into_iter().enumerate() {
             let value = self.signed[at];
-            let is_sum = correspondence.loses_digits(at, value);
             if in_range(value) && !is_sum {
                 continue;
             }
@@ -73,6 +82,16 @@ impl Values {
             gap.lambda = f64::NAN;
         }
         told_of
+    }
+
+    /// Replaces all values by the numbers nearest to the exact ones, as far as these take little work.
+    pub(super) fn round_exactly(&mut self, exact_unknowns: &mut ExactUnknowns<'_>) {
+        for (at, value) in self.signed.iter_mut().enumerate().filter(|(_, value)| **value != 0.0) {
+            let nearest = exact_unknowns.of(at).as_ref().map(nearest);
+            if let Some(nearest) = nearest.filter(|nearest| nearest.is_normal()) {
+                *value = nearest.copysign(*value);
+            }
+        }
     }
 
     /// The residual of these values in the equations; `None` if one of them is not known.

@@ -5,13 +5,14 @@
 //! one pattern. That all other unknowns vanish is proven by vectors in integers ([`WithoutFree::separate`]), so the node is
 //! settled with this pattern, however many others the node has.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use dashu_int::IBig;
 use nalgebra::DVector;
 
 use super::leaf::Leaves;
 use super::monitor::Monitor;
+use super::reduced::ReducedRelaxation;
 use super::separation::Separated;
 use super::signs::RowSigns;
 use super::states::StateSet;
@@ -29,6 +30,8 @@ pub(super) struct Faces {
     /// Contacts whose columns are opposite, without jumps: `y^+ - y^-` may have any sign.
     free: Arc<Vec<bool>>,
     without_free: Arc<WithoutFree>,
+    /// The relaxation without free contacts, computed when it is first needed; nothing if there is none.
+    reduced: Arc<OnceLock<Option<Arc<ReducedRelaxation>>>>,
     /// The patterns that are examined, with the columns that a node may have to be settled by them.
     known: Vec<(ContactSet, Vec<ContactState>)>,
     /// Whether nodes are settled with the columns of the positive unknowns, not with all of a pattern, if
@@ -81,7 +84,16 @@ impl Faces {
         let signs = Arc::new(RowSigns::new(&system));
         let system = Arc::new(system);
         let without_free = Arc::new(WithoutFree::new(&system, &free));
-        Self { system, signs, free: Arc::new(free), without_free, known: Vec::new(), to_support: false }
+        let reduced = Arc::new(OnceLock::new());
+        Self {
+            system,
+            signs,
+            free: Arc::new(free),
+            without_free,
+            reduced,
+            known: Vec::new(),
+            to_support: false,
+        }
     }
 
     /// The same, with nodes settled by as few columns as possible, for the cells of a proof.
@@ -104,6 +116,23 @@ impl Faces {
     pub(super) fn open_free(&self, states: &[StateSet]) -> Vec<usize> {
         let is_open = |&contact: &usize| self.free[contact] && states[contact].decided().is_none();
         if self.to_support { Vec::new() } else { (0..states.len()).filter(is_open).collect() }
+    }
+
+    /// The relaxation of nodes in which all free contacts are open.
+    pub(super) fn reduced(
+        &self,
+        states: &[StateSet],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Arc<ReducedRelaxation>> {
+        let open = self.open_free(states).len();
+        if open == 0 || open < self.free.iter().filter(|is_free| **is_free).count() {
+            return None;
+        }
+        let computed = || {
+            let others = self.without_free.others(proceed)?;
+            Some(Arc::new(ReducedRelaxation::new(&others, &self.free)))
+        };
+        self.reduced.get_or_init(computed).clone()
     }
 
     /// A vector in integers that proves that a node has no solution, if one is found; for a proof, whatever the length of

@@ -14,8 +14,9 @@
 //! 5. Otherwise, branch and bound over the states of the contacts. A node is excluded by interval propagation
 //!    or by an infeasible linear relaxation (section 4 (a), (b)); a node with all contacts decided is a
 //!    pattern to decide. If the numbers are exact, the signs of single equations leave some contacts only one side, and
-//!    a contact whose columns are opposite, a free unknown, is not branched on where the others determine it: vectors that
-//!    exclude nodes are sought in the equations without free unknowns, their Schur complement in integers. A node is then also
+//!    a contact whose columns are opposite, a free unknown, is not branched on where the others determine it: the
+//!    relaxation, and the vectors that exclude nodes, are those of the equations without free unknowns, their Schur complement
+//!    in integers. A node is then also
 //!    settled if all its solutions are those of one pattern, a face of the relaxation (section 4, "Faces"): degenerate
 //!    solutions and continua are met once.
 //!    The next contact to branch on is the one for which forbidding either side costs
@@ -82,6 +83,7 @@ mod proof_digest;
 mod proof_log;
 mod proof_low_rank;
 mod propagation;
+mod reduced;
 mod relaxation;
 mod report;
 mod result;

@@ -206,13 +206,13 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// About the binary logarithm of a size; very small for zero.
-fn log2(value: &IBig) -> i32 {
+pub(super) fn log2(value: &IBig) -> i32 {
     use dashu_int::ops::BitTest;
     if value.is_zero() { i32::MIN / 4 } else { i32::try_from(value.bit_len()).unwrap_or(i32::MAX / 4) }
 }
 
-/// `value 2^exponent`, rounded.
-fn scaled(value: &IBig, exponent: i32) -> f64 {
+/// `value 2^exponent`, rounded: off by less than one part in `2^52`, unless that is beyond the range of numbers.
+pub(super) fn scaled(value: &IBig, exponent: i32) -> f64 {
     use dashu_int::ops::BitTest;
     // Kept to 64 bits first, so that nothing overflows.
     let excess = value.bit_len().saturating_sub(64);

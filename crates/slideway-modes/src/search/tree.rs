@@ -11,6 +11,7 @@ use super::load::LoadedProblem;
 use super::monitor::Monitor;
 use super::proof_log::ProofLog;
 use super::propagation::SolvedForm;
+use super::reduced::ReducedRelaxation;
 use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
 use super::states::{StateSet, all_states, fraction_of_patterns};
@@ -239,9 +240,8 @@ impl<'a> Tree<'a> {
             open.push(Node { states: left, basis: node.basis });
             return Ok(());
         }
-        let (pivots, proceed) = (&mut self.report.pivots, &mut || monitor.goes_on());
-        let parent = node.basis.map_or_else(|| self.relaxation.first_basis(), Arc::unwrap_or_clone);
-        let (relaxed, basis) = self.relaxation.solve(&node.states, parent, pivots, proceed);
+        let reduced = self.reduced(&node.states, monitor);
+        let (relaxed, basis) = self.relax((&node.states, reduced.as_deref()), node.basis, monitor);
         let relaxed = match relaxed {
             Relaxed::Excluded(farkas) if self.log_excluded(&node.states, &farkas, &basis, monitor) => {
                 self.report.shares.relaxation += fraction_of_patterns(self.problem, &node.states);
@@ -262,7 +262,7 @@ impl<'a> Tree<'a> {
                     && !self.relaxation.is_far()
                     && is_complementary(&node.states, relaxed) =>
             {
-                self.relaxation.inside(&node.states, &basis, &mut || monitor.goes_on())
+                self.inside((&node.states, reduced.as_deref()), &basis, monitor)
             }
             _ => None,
         };
@@ -292,6 +292,44 @@ impl<'a> Tree<'a> {
             open.push(Node { states, basis: Some(Arc::clone(&basis)) });
         }
         Ok(())
+    }
+
+    /// The relaxation without free unknowns, for a node that allows it.
+    fn reduced(&self, states: &[StateSet], monitor: &mut Monitor<'_>) -> Option<Arc<ReducedRelaxation>> {
+        // The arguments that are kept speak of all equations.
+        let faces = self.faces.as_ref().filter(|_| !self.keep_exclusions)?;
+        faces.reduced(states, &mut || monitor.goes_on())
+    }
+
+    /// Solves the relaxation of a node from the basis of its parent, unless that had another relaxation.
+    fn relax(
+        &mut self,
+        (states, reduced): (&[StateSet], Option<&ReducedRelaxation>),
+        parent: Option<Arc<Basis>>,
+        monitor: &mut Monitor<'_>,
+    ) -> (Relaxed, Basis) {
+        let (pivots, proceed) = (&mut self.report.pivots, &mut || monitor.goes_on());
+        let relaxation = reduced.map_or(&*self.relaxation, ReducedRelaxation::of_others);
+        let parent = parent.filter(|parent| parent.size() == relaxation.load().len());
+        let parent = parent.map_or_else(|| relaxation.first_basis(), Arc::unwrap_or_clone);
+        match reduced {
+            Some(reduced) => reduced.solve(states, parent, pivots, proceed),
+            None => relaxation.solve(states, parent, pivots, proceed),
+        }
+    }
+
+    /// The unknowns that are positive inside the face of all relaxed solutions of a node.
+    fn inside(
+        &self,
+        (states, reduced): (&[StateSet], Option<&ReducedRelaxation>),
+        basis: &Basis,
+        monitor: &mut Monitor<'_>,
+    ) -> Option<Vec<Positive>> {
+        let proceed = &mut || monitor.goes_on();
+        match reduced {
+            Some(reduced) => reduced.inside(states, basis, proceed),
+            None => self.relaxation.inside(states, basis, proceed),
+        }
     }
 
     /// Whether a node that the relaxation left undecided has no solution, proven in integers.
@@ -414,6 +452,7 @@ impl<'a> Tree<'a> {
     fn force_sides(&mut self, states: &mut [StateSet]) -> Option<Vec<StateSet>> {
         let faces = self.faces.as_ref()?;
         let before = fraction_of_patterns(self.problem, states);
+        let before_states = states.to_vec();
         let mut left = None;
         while left.is_none()
             && let Some(forced) = faces.signs().forced(states, &faces.allowed(states))
@@ -427,6 +466,12 @@ impl<'a> Tree<'a> {
                 }
             }
             states[forced.contact] = StateSet::only(forced.side);
+        }
+        if self.log.is_none() {
+            // The equations give them their sides anyway, and what is eliminated takes none.
+            for contact in faces.open_free(&before_states) {
+                states[contact] = before_states[contact];
+            }
         }
         self.report.shares.propagation += before - fraction_of_patterns(self.problem, states);
         left

@@ -8,9 +8,12 @@
 use std::sync::{Arc, OnceLock};
 
 use dashu_int::IBig;
+use dashu_int::ops::BitTest;
+use nalgebra::DMatrix;
 
-use super::separation::{Separated, separate};
-use crate::certificate::{LiftedSystem, make_primitive};
+use super::separation::{Separated, log2, scaled, separate};
+use crate::certificate::{IntervalMatrix, LiftedSystem, make_primitive};
+use crate::problem::{BySide, IntervalModeProblem};
 use crate::solutions::ContactSet;
 
 /// The lifted equations with and without the free unknowns.
@@ -62,6 +65,22 @@ impl WithoutFree {
         Some(left.combined(&vector, self.system.rows()))
     }
 
+    /// The mode problem of the other contacts, in their order, with its integers rounded within bounds; `None` if the columns
+    /// of the free contacts are dependent, if a contact has a jump, if the numbers differ too much in size, or if there is
+    /// no time.
+    pub(super) fn others(&self, proceed: &mut dyn FnMut() -> bool) -> Option<IntervalModeProblem> {
+        let contacts = self.system.contacts();
+        let others: Vec<usize> = (0..contacts).filter(|&contact| !self.free.contains(contact)).collect();
+        if others.len() == contacts || self.system.width() > 2 * contacts {
+            return None;
+        }
+        let left = self.left(proceed)?;
+        (left.system.rows() == others.len()).then_some(())?;
+        let negative = others.iter().map(|&contact| contacts + contact);
+        let columns = others.iter().copied().chain(negative).map(|column| left.system.column(column));
+        left.rounded(&columns.collect::<Vec<_>>())
+    }
+
     fn left(&self, proceed: &mut dyn FnMut() -> bool) -> Option<&Left> {
         let eliminated = || {
             let free: Vec<usize> = self.free.iter().collect();
@@ -73,6 +92,32 @@ impl WithoutFree {
 }
 
 impl Left {
+    /// The mode problem with these columns, first all of positive sides and then all of negative ones.
+    fn rounded(&self, columns: &[&[IBig]]) -> Option<IntervalModeProblem> {
+        let rows = self.system.rows();
+        let largest = |row: usize| columns.iter().map(|column| log2(&column[row])).max().unwrap_or(0);
+        let exponents: Vec<i32> = (0..rows).map(|row| -largest(row)).collect();
+        let matrix = |columns: &[&[IBig]]| {
+            let (mut centre, mut radius) =
+                (DMatrix::zeros(rows, columns.len()), DMatrix::zeros(rows, columns.len()));
+            for (at, entry) in columns.iter().enumerate().flat_map(|(at, column)| {
+                column.iter().enumerate().map(move |(row, entry)| ((row, at), entry))
+            }) {
+                centre[at] = scaled(entry, exponents[at.0]);
+                // The quotient of two rounded numbers would not be a normal one.
+                (entry.is_zero() || centre[at].abs() > f64::MIN_POSITIVE.sqrt()).then_some(())?;
+                if entry.bit_len() > f64::MANTISSA_DIGITS as usize {
+                    radius[at] = (centre[at].abs() * f64::EPSILON).next_up();
+                }
+            }
+            IntervalMatrix::around(centre, radius)
+        };
+        let (positive, negative) = columns.split_at(rows);
+        let none = IntervalMatrix::exact(DMatrix::zeros(rows, rows));
+        let columns = BySide { positive: matrix(positive)?, negative: matrix(negative)? };
+        IntervalModeProblem::new(&columns, &BySide::same(none), &matrix(&[self.system.right()])?).ok()
+    }
+
     /// `sum_i t_i K_i`, without common factor.
     fn combined(&self, vector: &[IBig], rows: usize) -> Vec<IBig> {
         let mut all = vec![IBig::ZERO; rows];

@@ -225,6 +225,11 @@ impl LinearProgram {
 }
 
 impl Basis {
+    /// The number of equations.
+    pub(crate) fn size(&self) -> usize {
+        self.basic.len()
+    }
+
     /// Drops the nonbasic variables that `bounds` fix to zero.
     pub(crate) fn restrict(&mut self, bounds: &Bounds) {
         let is_kept = |nonbasic: &Nonbasic| {

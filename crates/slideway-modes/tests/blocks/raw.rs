@@ -106,3 +106,19 @@ fn what_is_no_equation_is_refused() {
     assert_eq!(new(Some(DMatrix::zeros(3, 3)), &[1, 2]), Err(ModeProblemError::NotRegular));
     assert!(matches!(new(Some(DMatrix::zeros(2, 2)), &[1, 2]), Err(ModeProblemError::Shape { .. })));
 }
+
+/// `x = (-5e-324, 2e-300)`, where bounds on the first component leave its sign open: so does the text.
+#[test]
+fn a_component_beyond_the_range_is_told_with_both_signs_if_its_sign_is_open() {
+    let json = br#"{"type": "block_ave", "blocks": [2], "B": [[0], [-1e-300]], "b": [-5e-324, 2e-300]}"#;
+    let report = answer(&RawProblem::from_json(json).unwrap());
+    let [solution] = report.solutions.as_slice() else { panic!("one solution") };
+    let [beyond] = solution.beyond_range.as_slice() else { panic!("one component") };
+    let least = f64::MIN_POSITIVE;
+    let expected = match solution.signs[0] {
+        -1 => format!("between 0 and -{least:e}"),
+        0 => format!("between -{least:e} and {least:e}"),
+        sign => panic!("sign {sign}"),
+    };
+    assert_eq!((beyond.index, &beyond.value), (0, &expected));
+}
