@@ -1,28 +1,6 @@
-// The drawings of the mechanism and of its contact modes, with the verdict above them.
+// The drawings of the mechanism and of its contact modes.
 
 import { element, parsed } from "./dom.js";
-
-/** What is seen at a glance, for each status. */
-const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", infinitely_many: "∞" };
-
-/** Shows how many solutions there are, or why that is not known, in a box with a heading, a line and a list. */
-export function showVerdict({ box, verdict, certainty, reasons }, look) {
-  const { answer } = look;
-  const status = answer ? answer.status : "refused";
-  box.dataset.status = status;
-  const words = answer ? answer.words : "This question has no answer here.";
-  const text = `${SIGNS[status] ?? "–"} ${words}`;
-  // Said again only if it is another.
-  if (verdict.textContent !== text) verdict.textContent = text;
-  certainty.textContent = !answer
-    ? ""
-    : answer.partial
-      ? "The search was ended early: there may be more."
-      : answer.complete === "proven"
-        ? "The list is proven complete."
-        : "That these are all is not proven.";
-  reasons.replaceChildren(...look.reasons.map((reason) => element("li", {}, reason)));
-}
 
 /** Shows the drawings; those that are as before stay as they are. */
 export class Drawings {

@@ -126,6 +126,34 @@ test("the strip is dragged with the mouse", { skip }, async () => {
   await close(page);
 });
 
+/** L / (2 a) = 2/3; two solutions of the paper's example from mu_1 = 0.45265396 (book, chapter Limits). */
+for (const [name, options] of [
+  ["a desktop", { viewport: { width: 1400, height: 900 } }],
+  ["a phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }],
+]) {
+  test(`on ${name} the strip stays where it is when the number of solutions changes`, { skip }, async () => {
+    for (const [address, statuses] of [
+      ["#model=gallery:drawer&vary=parameter~mu~0~1", ["one", "none", "one"]],
+      ["#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8", ["several", "one", "several"]],
+    ]) {
+      const page = await set.open(address, options);
+      await limits(page);
+      const slider = page.locator(".strip-slider");
+      const place = () =>
+        slider.evaluate((element) => [element, document.getElementById("pictures")].map((one) => one.offsetTop));
+      const places = [];
+      for (const [index, part] of [0.62, 0.9, 0.1].entries()) {
+        await slider.fill(String(part * (address.includes("drawer") ? 1 : 0.8)));
+        await verdict(page, statuses[index]);
+        places.push(await place());
+      }
+      assert.deepEqual(places[1], places[0]);
+      assert.deepEqual(places[2], places[0]);
+      await close(page);
+    }
+  });
+}
+
 test("every model of the gallery is shown, and nothing is complained of", { skip }, async () => {
   const page = await set.open();
   for (const name of gallery) {
@@ -447,29 +475,4 @@ test("it asks no other place for anything, and its policy forbids it", { skip },
   );
   assert.equal(refused, "refused");
   await close(page);
-});
-
-test("a figure of another page is live, and its picture stays where scripts are off", { skip }, async () => {
-  const content = `<!doctype html><p>Before</p><slideway-live model="klepp-2002" set="F_20=0" vary="mu_1=0..0.8"><p id="static">the picture</p></slideway-live><script type="module" src="${set.at}embed.js"></script>`;
-  const context = await set.browser.newContext();
-  const page = await context.newPage();
-  await page.route("**/figure.html", (route) => route.fulfill({ contentType: "text/html", body: content }));
-  await page.goto(`${set.at}figure.html`);
-  await page.locator("slideway-live .live").waitFor({ timeout: 30_000 });
-  assert.ok(!(await page.locator("#static").isVisible()));
-  await page.locator("slideway-live .strip .count").first().waitFor({ state: "attached", timeout: 30_000 });
-  assert.match(await page.locator("slideway-live #verdict-box").textContent(), /2 solutions/);
-  await page.evaluate(() => {
-    const slider = document.querySelector("slideway-live").shadowRoot.querySelector(".strip-slider");
-    slider.value = 0.2;
-    slider.dispatchEvent(new Event("input"));
-  });
-  await page.locator("slideway-live #verdict-box[data-status=one]").waitFor();
-  assert.match(await page.locator("slideway-live a").getAttribute("href"), /#|\/$/);
-  await context.close();
-  const silent = await set.browser.newContext({ javaScriptEnabled: false });
-  const other = await silent.newPage();
-  await other.setContent(content);
-  assert.ok(await other.locator("#static").isVisible());
-  await silent.close();
 });

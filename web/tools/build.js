@@ -98,6 +98,7 @@ async function bundle() {
     target: "es2022",
     minify: true,
     metafile: true,
+    define: { ENGINE_BYTES: String(statSync(engine).size) },
     logLevel: "warning",
   });
   const packages = Object.keys(metafile.inputs).map((input) => /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1]);
@@ -117,10 +118,8 @@ async function gather(packages) {
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
   writeFileSync(resolve(page, "library.json"), JSON.stringify(ask({ ask: "library" }).answer));
-  for (const name of ["style.css", "manifest.webmanifest", "icon.svg"])
+  for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"])
     cpSync(resolve(web, "src", name), resolve(page, name));
-  const index = readFileSync(resolve(web, "src/index.html"), "utf8");
-  writeFileSync(resolve(page, "index.html"), index.replace("{{ engine bytes }}", statSync(engine).size));
   writeFileSync(resolve(page, "notices.txt"), notices(packages));
   const files = readdirSync(page).sort();
   const hash = createHash("sha256");
