@@ -94,7 +94,7 @@ pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) ->
     let solved = solved.and_then(|_| solve_with(&model, &options, callback));
     let configuration = configuration.unwrap_or_else(|_| Configuration::drawing(&mechanism));
     let coordinates = coordinates_of(&model, &mechanism, &configuration)?;
-    let sheets = pieces(&mechanism, &configuration, solved.as_ref().ok());
+    let sheets = pieces(&mechanism, &configuration, solved.as_ref().ok(), None);
     Ok(Look {
         title: line(&title(&mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
