@@ -2,6 +2,10 @@
 
 import { element, parsed } from "./dom.js";
 
+/** The smallest texts of drawings, in their units, and how large they are at least where space is short (pixels). */
+const SMALLEST = 14;
+const LEGIBLE = 11;
+
 /** Shows the drawings; those that are as before stay as they are. */
 export class Drawings {
   #place;
@@ -16,6 +20,8 @@ export class Drawings {
       const old = this.#place.children[index];
       if (old && this.#shown[index] === drawing.svg) return;
       const [svg] = parsed(drawing.svg);
+      // Where the style sheet asks for it a drawing is at least so wide that its texts can be read.
+      svg.style.setProperty("--legible", `${Math.ceil((LEGIBLE / SMALLEST) * svg.viewBox.baseVal.width)}px`);
       svg.removeAttribute("width");
       svg.removeAttribute("height");
       const figure = element("figure", { role: "listitem", tabindex: "0", "aria-label": drawing.words }, svg);

@@ -42,6 +42,8 @@ function isDark(place) {
 class Live extends HTMLElement {
   #state;
   #quantity = null;
+  /** What drawings keep while values change. */
+  #held = null;
   #slow;
   #newest;
   #drawings;
@@ -86,7 +88,7 @@ class Live extends HTMLElement {
     this.#slow = slow;
     this.#newest = new Newest(engine);
     this.#state = await this.#asked(library);
-    this.#figure.append(...verdictElements(), this.#pictures);
+    this.#figure.append(...verdictElements());
     this.#verdict = new Verdict(this.#figure, () => {
       engine.cancel();
       slow.end(this);
@@ -96,7 +98,7 @@ class Live extends HTMLElement {
       this.#state.changes.set(key(this.#quantity), withUnit(value, this.#quantity.unit));
       this.#look();
     });
-    this.#figure.append(element("p", {}, this.#link));
+    this.#figure.append(this.#pictures, element("p", {}, this.#link));
     const styles = ["drawing.css", "style.css"].map((name) =>
       element("link", { rel: "stylesheet", href: here(name) }),
     );
@@ -132,7 +134,7 @@ class Live extends HTMLElement {
   #look() {
     this.#newest.want(
       () => ({
-        question: { ask: "look", ...this.#state.asked(), margins: false },
+        question: { ask: "look", ...this.#state.asked(), margins: false, held: this.#held },
         options: { seconds: 10, progress: (done) => this.#verdict.progress(done) },
       }),
       (reply, question) => this.#took(reply, question),
@@ -149,6 +151,7 @@ class Live extends HTMLElement {
   #took({ answer, faults }, question) {
     if (faults) return this.#atFault(faults, question.settings);
     this.#pictures.classList.remove("stale");
+    if (answer.answer) this.#held = answer.held;
     const isFirst = !this.#quantity;
     if (isFirst) this.#begun(answer);
     this.#quantity = answer.quantities.find((one) => key(one) === key(this.#state.strip));

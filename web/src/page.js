@@ -38,6 +38,8 @@ const library = fetch("library.json").then((response) => response.json());
 let state = new State();
 /** What the engine said last, of which text and settings. */
 let look = null;
+/** What drawings keep while values change: { held, text }, the engine's own words for scale and place, and for which model. */
+let kept = { held: null, text: "" };
 
 const verdict = new Verdict(document, () => {
   live.cancel();
@@ -75,7 +77,7 @@ function refresh() {
   const wanted = (margins) =>
     newest.want(
       () => ({
-        question: { ask: "look", ...state.asked(), margins },
+        question: { ask: "look", ...state.asked(), margins, held: kept.text === state.text ? kept.held : null },
         options: { seconds: 10, progress: (done) => verdict.progress(done) },
       }),
       ifSame(took),
@@ -109,6 +111,7 @@ function took(reply, question) {
     return;
   }
   look = reply.answer;
+  if (look.answer) kept = { held: look.held, text: question.text };
   showFaults(look.warnings, question);
   verdict.show(look);
   document.title = `${look.title} – slideway`;
@@ -236,6 +239,7 @@ function edited(text) {
 function begin(next) {
   state = next;
   look = null;
+  kept = { held: null, text: "" };
   told("asking");
   document.documentElement.dataset.begun = String(Number(document.documentElement.dataset.begun ?? 0) + 1);
   notice(state.unread.join(" "));
@@ -257,6 +261,7 @@ async function beginWith(text) {
 
 byId("reset").addEventListener("click", () => {
   state.changes.clear();
+  kept = { held: null, text: "" };
   refresh();
 });
 
@@ -439,22 +444,22 @@ const showRest = settled(async () => {
 
 // ---- Address, downloads, colours
 
-let written = "";
+let address = "";
 
 const remember = settled(async () => {
-  written = await state.address();
-  history.replaceState(null, "", `#${written}`);
+  address = await state.address();
+  history.replaceState(null, "", `#${address}`);
 }, 100);
 
 addEventListener("hashchange", async () => {
-  const address = location.hash.slice(1);
-  if (address !== written) begin(await State.of(address, await library));
+  const wanted = location.hash.slice(1);
+  if (wanted !== address) begin(await State.of(wanted, await library));
 });
 
 byId("share").addEventListener("click", async () => {
-  written = await state.address();
-  if (!written) return notice("This model is too large for a link: send its file.");
-  history.replaceState(null, "", `#${written}`);
+  address = await state.address();
+  if (!address) return notice("This model is too large for a link: send its file.");
+  history.replaceState(null, "", `#${address}`);
   await copy(location.href, byId("share"), "Copied");
 });
 
@@ -472,7 +477,7 @@ async function copy(text, button, done) {
 }
 
 const offers = {
-  toml: async (name) => save(state.text, `${name}.toml`, "application/toml"),
+  toml: async (name) => save(await written(), `${name}.toml`, "application/toml"),
   svg: async (name) => save(await drawn(), `${name}.svg`, "image/svg+xml"),
   png: async (name) => save(await pixels(await drawn()), `${name}.png`, "image/png"),
   csv: async (name) => save((await answered({ ask: "solve" })).csv, `${name}.csv`, "text/csv"),
@@ -491,6 +496,9 @@ async function answered(question) {
   if (reply.faults) throw new Error(reply.faults[0].message);
   return reply.answer;
 }
+
+/** The text of the model with what is changed; as it is where nothing is, even if it is at fault. */
+const written = async () => (state.changes.size === 0 ? state.text : await answered({ ask: "save" }));
 
 const drawn = async () => (await answered({ ask: "draw", theme: themeName() })).svg;
 

@@ -99,7 +99,7 @@ test("a figure shows that its engine comes, and its time begins when that is the
   const page = await pageWith(KLEPP, {
     route: ["**/engine.wasm", (route) => late.then(() => route.continue())],
   });
-  await inFigure(page, "progress").waitFor();
+  await inFigure(page, "progress[aria-label=Loading]").waitFor();
   // Longer than a question may take.
   await page.waitForTimeout(14_000);
   release();

@@ -132,9 +132,9 @@ for (const [name, options] of [
   ["a phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }],
 ]) {
   test(`on ${name} the strip stays where it is when the number of solutions changes`, { skip }, async () => {
-    for (const [address, statuses] of [
-      ["#model=gallery:drawer&vary=parameter~mu~0~1", ["one", "none", "one"]],
-      ["#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8", ["several", "one", "several"]],
+    for (const [address, states] of [
+      ["#model=gallery:drawer&vary=parameter~mu~0~1", { 0.62: "one", 0.9: "none", 0.1: "one" }],
+      ["#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8", { 0.5: "several", 0.1: "one", 0.7: "several" }],
     ]) {
       const page = await set.open(address, options);
       await limits(page);
@@ -142,9 +142,9 @@ for (const [name, options] of [
       const place = () =>
         slider.evaluate((element) => [element, document.getElementById("pictures")].map((one) => one.offsetTop));
       const places = [];
-      for (const [index, part] of [0.62, 0.9, 0.1].entries()) {
-        await slider.fill(String(part * (address.includes("drawer") ? 1 : 0.8)));
-        await verdict(page, statuses[index]);
+      for (const [value, status] of Object.entries(states)) {
+        await slider.fill(value);
+        await verdict(page, status);
         places.push(await place());
       }
       assert.deepEqual(places[1], places[0]);
@@ -432,16 +432,46 @@ test("the files are those of the command line", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer&set=mu%3D0.5");
   await page.click("#downloads summary");
   for (const [kind, pattern] of [
-    ["toml", /^# A drawer/],
+    ["toml", /^# A drawer[^]*\nmu = 0\.5 /],
     ["svg", /^<svg /],
     ["csv", /^pattern|^solution|,/],
     ["json", /"schema": "slideway\/solve/],
     ["png", /PNG/],
   ]) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-file=${kind}]`)]);
-    assert.match(readFileSync(await download.path(), "latin1").slice(0, 400), pattern, kind);
+    assert.match(readFileSync(await download.path(), "latin1").slice(0, kind === "toml" ? undefined : 400), pattern, kind);
   }
   assert.equal(await page.textContent("#command"), "slideway solve drawer.toml --set mu=0.5");
+  await close(page);
+});
+
+test("a link can be copied twice", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&set=mu%3D0.5", { permissions: ["clipboard-read", "clipboard-write"] });
+  for (const mu of ["0.5", "0.7"]) {
+    await sliderOf(page, "parameter", "mu").fill(mu);
+    await page.click("#share");
+    await page.waitForFunction(() => document.getElementById("share").textContent === "Copied");
+    assert.match(await page.evaluate(() => navigator.clipboard.readText()), new RegExp(`mu%3D${mu}(&|$)`));
+  }
+  // Twice within the time for which it says so.
+  await page.click("#share");
+  await page.click("#share");
+  await page.waitForFunction(() => /^Copy.link$/.test(document.getElementById("share").textContent));
+  await close(page);
+});
+
+test("texts of drawings have at least 11 pixels on a phone", { skip }, async () => {
+  const page = await set.open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  for (const name of ["drawer", "klepp-2002", "quick-return", "drawer-on-two-rails"]) {
+    await choose(page, name);
+    const sizes = await page.evaluate(() =>
+      [...document.querySelectorAll("#drawings svg, .strip")].flatMap((svg) =>
+        [...svg.querySelectorAll("text")].map((one) => Number.parseFloat(getComputedStyle(one).fontSize) * svg.getScreenCTM().a),
+      ),
+    );
+    assert.ok(sizes.length > 5 && Math.min(...sizes) >= 11 - 1e-6, `${name}: ${Math.min(...sizes)}`);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 391);
+  }
   await close(page);
 });
 
