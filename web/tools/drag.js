@@ -1,8 +1,8 @@
 // How the page feels on a slow machine and a slow line; it has been built (tools/build.js):
 //
-//     node web/tools/drag.js
+//     node web/tools/drag.js [NAME ..]
 //
-// For each model of the gallery: how many pictures a second the first drag shows, right after the model was opened, when
+// For each model of the gallery, or those that are named: how many pictures a second the first drag shows, right after the model was opened, when
 // everything is as slow as if the machine were so many times slower; and the processor time of the renderer for each
 // picture, which does not depend on what else the machine does. Then how long the first picture takes over slow lines.
 
@@ -109,7 +109,9 @@ for (const megabits of LINES) {
   say(`${megabits} Mbit/s: the first picture after ${seconds.toFixed(1)} s, ${megabytes.toFixed(2)} MB`);
 }
 const all = [];
-for (const name of readdirSync(resolve(top, "models")).map((file) => file.slice(0, -".toml".length))) {
+const gallery = readdirSync(resolve(top, "models")).map((file) => file.slice(0, -".toml".length));
+const named = process.argv.slice(2);
+for (const name of named.length > 0 ? named : gallery) {
   const { rate } = await firstDrag(name, true);
   const { each } = await firstDrag(name, false);
   all.push({ name, rate, each });

@@ -106,6 +106,9 @@ mod tests {
     #[test]
     fn every_character_has_an_advance_and_an_outline() {
         assert_eq!(OUTLINES.len(), include_str!("../fonts/outlines.txt").lines().count());
-        assert!(OUTLINES.len() == ADVANCES.len() && OUTLINES.keys().all(|character| ADVANCES.contains_key(character)));
+        assert!(
+            OUTLINES.len() == ADVANCES.len()
+                && OUTLINES.keys().all(|character| ADVANCES.contains_key(character))
+        );
     }
 }

@@ -25,8 +25,7 @@ pub(crate) fn saved(asked: &Asked) -> Result<String, Faults> {
         !settings[index + 1..].iter().any(|later| (later.kind, &later.name) == (setting.kind, &setting.name))
     };
     let last = settings.iter().enumerate().filter(is_last);
-    let mut edits: Vec<Edit> =
-        last.filter_map(|(_, setting)| edit(&file, &asked.text, setting)).collect();
+    let mut edits: Vec<Edit> = last.filter_map(|(_, setting)| edit(&file, &asked.text, setting)).collect();
     // From the end, so that the bytes before keep their places.
     edits.sort_by_key(|edit| std::cmp::Reverse(edit.span.start));
     let mut text = asked.text.clone();
@@ -123,7 +122,11 @@ mod tests {
         let text = slideway::gallery::find("drawer").expect("in the gallery").text;
         let changed = saved(
             text,
-            &[(SettingKind::Parameter, "L", "0.5"), (SettingKind::Parameter, "mu", "0.65"), (SettingKind::Rate, "x", "2*v")],
+            &[
+                (SettingKind::Parameter, "L", "0.5"),
+                (SettingKind::Parameter, "mu", "0.65"),
+                (SettingKind::Rate, "x", "2*v"),
+            ],
         );
         let expected = text
             .replace("L = \"0.4 m\"               #", "L = \"0.5 m\"               #")
@@ -146,14 +149,20 @@ mod tests {
                 settings.push((SettingKind::Position, &coordinate.name, "0.01".to_owned()));
                 settings.push((SettingKind::Rate, &coordinate.name, "0.25".to_owned()));
             }
-            let borrowed: Vec<_> = settings.iter().map(|(kind, name, value)| (*kind, *name, &**value)).collect();
+            let borrowed: Vec<_> =
+                settings.iter().map(|(kind, name, value)| (*kind, *name, &**value)).collect();
             let changed = Model::parse(&saved(model.text, &borrowed)).unwrap_or_else(|faults| {
                 panic!("{}: {faults:?}", model.name);
             });
             let written = changed.constants().map(|known| changed.parameter_values(&known)).expect("values");
             let before = file.constants().map(|known| file.parameter_values(&known)).expect("values");
             assert_eq!(written, before, "{}", model.name);
-            assert!(changed.coordinates.iter().all(|coordinate| coordinate.value.is_some() && coordinate.rate.is_some()));
+            assert!(
+                changed
+                    .coordinates
+                    .iter()
+                    .all(|coordinate| coordinate.value.is_some() && coordinate.rate.is_some())
+            );
         }
     }
 

@@ -63,9 +63,10 @@ impl State {
     /// Its drawings, and what those of the next state keep of them; `held` is what they keep of those before.
     pub(crate) fn drawn(&self, held: Option<Held>) -> (Vec<Sheet>, Option<Held>) {
         let sheets = pieces(&self.mechanism, &self.configuration, self.solved.as_ref().ok(), held.as_ref());
-        let has_solutions = self.solved.as_ref().is_ok_and(|report| {
-            !report.solutions.is_empty() || !report.preload_gap_states.is_empty()
-        });
+        let has_solutions = self
+            .solved
+            .as_ref()
+            .is_ok_and(|report| !report.solutions.is_empty() || !report.preload_gap_states.is_empty());
         // What shows why it jams has no scale of forces, and its friction cones need a place that no other drawing does.
         if held.is_some() && !has_solutions {
             return (sheets, held);
