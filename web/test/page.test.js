@@ -239,6 +239,20 @@ test("a link shows a colleague the same", { skip }, async () => {
   await Promise.all([close(page), close(other)]);
 });
 
+test("a drag ends with the picture that a link shows: the scale of forces stays", { skip }, async () => {
+  const [page, other] = [await set.open("#model=gallery:drawer"), await set.open("#model=gallery:drawer&set=mu%3D0.55")];
+  const picture = (of) => of.locator("#drawings figure:nth-child(2) svg").innerHTML();
+  const atFirst = await picture(page);
+  await sliderOf(page, "parameter", "mu").fill("0.4");
+  await page.waitForFunction(() => document.querySelector(".row.changed .field")?.value === "0.4");
+  await sliderOf(page, "parameter", "mu").fill("0.55");
+  const wanted = await picture(other);
+  await page.waitForFunction((svg) => document.querySelector("#drawings figure:nth-child(2) svg").innerHTML === svg, wanted);
+  await page.click("#reset");
+  await page.waitForFunction((svg) => document.querySelector("#drawings figure:nth-child(2) svg").innerHTML === svg, atFirst);
+  await Promise.all([close(page), close(other)]);
+});
+
 test("a page that changes its address shows what stands there", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer");
   await page.evaluate(() => {
