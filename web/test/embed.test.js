@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { dragWithFinger, dragWithMouse, marked, setUp, skip } from "./browser.js";
+import { close, dragWithFinger, dragWithMouse, marked, setUp, skip } from "./browser.js";
 
 const set = setUp();
 
@@ -21,7 +21,6 @@ async function pageWith(attributes, options = {}) {
   return page;
 }
 
-const close = (page) => page.context().close();
 const inFigure = (page, selector) => page.locator(`slideway-live ${selector}`);
 const verdict = (page, status) => inFigure(page, `#verdict-box[data-status=${status}]`).waitFor({ timeout: 30_000 });
 const limits = (page) => inFigure(page, ".strip .count").first().waitFor({ state: "attached", timeout: 30_000 });
