@@ -99,9 +99,7 @@ class Live extends HTMLElement {
       this.#look();
     });
     this.#figure.append(this.#pictures, element("p", {}, this.#link));
-    const styles = ["drawing.css", "style.css"].map((name) =>
-      element("link", { rel: "stylesheet", href: here(name) }),
-    );
+    const styles = ["drawing.css", "style.css"].map((name) => element("link", { rel: "stylesheet", href: here(name) }));
     this.shadowRoot.prepend(...styles);
     this.#look();
   }
@@ -127,7 +125,9 @@ class Live extends HTMLElement {
     const [from, to] = ends.map(([, number]) => Number(number));
     const isRead = ends.every(([, , unit]) => unit === "" || unit === quantity.unit);
     if (!(ends.length === 2 && isRead && from < to))
-      throw new Error(`vary="${text}" has no range such as ${name}=${quantity.from}..${withUnit(quantity.to, quantity.unit)}`);
+      throw new Error(
+        `vary="${text}" has no range such as ${name}=${quantity.from}..${withUnit(quantity.to, quantity.unit)}`,
+      );
     this.#state.strip = { kind: quantity.kind, name, from, to };
   }
 

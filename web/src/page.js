@@ -431,9 +431,7 @@ const showRest = settled(async () => {
   for (const [title, ask] of questions) {
     try {
       const reply = await slowly({ ask, ...state.asked() });
-      const text = reply.faults
-        ? reply.faults.map(inWords).join("\n")
-        : reply.answer.text;
+      const text = reply.faults ? reply.faults.map(inWords).join("\n") : reply.answer.text;
       told.push(element("h3", {}, title), element("pre", { tabindex: "0" }, text));
     } catch (error) {
       told.push(element("p", {}, error.message));

@@ -175,7 +175,10 @@ test("a file that is saved has what was changed, and its comments", () => {
       .replace("mu = 0.3                  #", "mu = 0.65                 #")
       .replace("[coordinates.x]\n", '[coordinates.x]\nvalue = "20 mm"\n'),
   );
-  assert.match(ask({ ask: "save", text: file, settings: [setting("parameter", "mu", "1 kg")] }).faults[0].message, /mass/);
+  assert.match(
+    ask({ ask: "save", text: file, settings: [setting("parameter", "mu", "1 kg")] }).faults[0].message,
+    /mass/,
+  );
 });
 
 test("faults are those of the command line, at their places", () => {

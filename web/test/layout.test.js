@@ -47,7 +47,10 @@ for (const [name, options] of [
   test(`on ${name} the strip stays where it is when the number of solutions changes`, { skip }, async () => {
     for (const [address, states] of [
       ["#model=gallery:drawer&vary=parameter~mu~0~1", { 0.62: "one", 0.9: "none", 0.1: "one" }],
-      ["#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8", { 0.5: "several", 0.1: "one", 0.7: "several" }],
+      [
+        "#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8",
+        { 0.5: "several", 0.1: "one", 0.7: "several" },
+      ],
     ]) {
       const page = await set.open(address, options);
       await limits(page);
@@ -101,7 +104,9 @@ test("texts of drawings have at least 11 pixels on a phone", { skip }, async () 
     await choose(page, name);
     const sizes = await page.evaluate(() =>
       [...document.querySelectorAll("#drawings svg, .strip")].flatMap((svg) =>
-        [...svg.querySelectorAll("text")].map((one) => Number.parseFloat(getComputedStyle(one).fontSize) * svg.getScreenCTM().a),
+        [...svg.querySelectorAll("text")].map(
+          (one) => Number.parseFloat(getComputedStyle(one).fontSize) * svg.getScreenCTM().a,
+        ),
       ),
     );
     assert.ok(sizes.length > 5 && Math.min(...sizes) >= 11 - 1e-6, `${name}: ${Math.min(...sizes)}`);

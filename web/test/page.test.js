@@ -204,16 +204,25 @@ test("a link shows a colleague the same", { skip }, async () => {
 });
 
 test("a drag ends with the picture that a link shows: the scale of forces stays", { skip }, async () => {
-  const [page, other] = [await set.open("#model=gallery:drawer"), await set.open("#model=gallery:drawer&set=mu%3D0.55")];
+  const [page, other] = [
+    await set.open("#model=gallery:drawer"),
+    await set.open("#model=gallery:drawer&set=mu%3D0.55"),
+  ];
   const picture = (of) => of.locator("#drawings figure:nth-child(2) svg").innerHTML();
   const atFirst = await picture(page);
   await sliderOf(page, "parameter", "mu").fill("0.4");
   await page.waitForFunction(() => document.querySelector(".row.changed .field")?.value === "0.4");
   await sliderOf(page, "parameter", "mu").fill("0.55");
   const wanted = await picture(other);
-  await page.waitForFunction((svg) => document.querySelector("#drawings figure:nth-child(2) svg").innerHTML === svg, wanted);
+  await page.waitForFunction(
+    (svg) => document.querySelector("#drawings figure:nth-child(2) svg").innerHTML === svg,
+    wanted,
+  );
   await page.click("#reset");
-  await page.waitForFunction((svg) => document.querySelector("#drawings figure:nth-child(2) svg").innerHTML === svg, atFirst);
+  await page.waitForFunction(
+    (svg) => document.querySelector("#drawings figure:nth-child(2) svg").innerHTML === svg,
+    atFirst,
+  );
   await Promise.all([close(page), close(other)]);
 });
 
@@ -358,14 +367,20 @@ test("the files are those of the command line", { skip }, async () => {
     ["png", /PNG/],
   ]) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-file=${kind}]`)]);
-    assert.match(readFileSync(await download.path(), "latin1").slice(0, kind === "toml" ? undefined : 400), pattern, kind);
+    assert.match(
+      readFileSync(await download.path(), "latin1").slice(0, kind === "toml" ? undefined : 400),
+      pattern,
+      kind,
+    );
   }
   assert.equal(await page.textContent("#command"), "slideway solve drawer.toml --set mu=0.5");
   await close(page);
 });
 
 test("a link can be copied twice", { skip }, async () => {
-  const page = await set.open("#model=gallery:drawer&set=mu%3D0.5", { permissions: ["clipboard-read", "clipboard-write"] });
+  const page = await set.open("#model=gallery:drawer&set=mu%3D0.5", {
+    permissions: ["clipboard-read", "clipboard-write"],
+  });
   for (const mu of ["0.5", "0.7"]) {
     await sliderOf(page, "parameter", "mu").fill(mu);
     await page.click("#share");
