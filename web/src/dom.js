@@ -50,3 +50,6 @@ export function themeName() {
   const chosen = document.documentElement.dataset.theme;
   return chosen || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 }
+
+/** A fault in words. */
+export const inWords = ({ message, hint }) => [message, hint].filter(Boolean).join(": ");

@@ -1,28 +1,10 @@
-// The drawings of the mechanism and of its contact modes, with the verdict above them.
+// The drawings of the mechanism and of its contact modes.
 
 import { element, parsed } from "./dom.js";
 
-/** What is seen at a glance, for each status. */
-const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", infinitely_many: "∞" };
-
-/** Shows how many solutions there are, or why that is not known, in a box with a heading, a line and a list. */
-export function showVerdict({ box, verdict, certainty, reasons }, look) {
-  const { answer } = look;
-  const status = answer ? answer.status : "refused";
-  box.dataset.status = status;
-  const words = answer ? answer.words : "This question has no answer here.";
-  const text = `${SIGNS[status] ?? "–"} ${words}`;
-  // Said again only if it is another.
-  if (verdict.textContent !== text) verdict.textContent = text;
-  certainty.textContent = !answer
-    ? ""
-    : answer.partial
-      ? "The search was ended early: there may be more."
-      : answer.complete === "proven"
-        ? "The list is proven complete."
-        : "That these are all is not proven.";
-  reasons.replaceChildren(...look.reasons.map((reason) => element("li", {}, reason)));
-}
+/** The smallest texts of drawings, in their units, and how large they are at least where space is short (pixels). */
+const SMALLEST = 14;
+const LEGIBLE = 11;
 
 /** Shows the drawings; those that are as before stay as they are. */
 export class Drawings {
@@ -38,6 +20,8 @@ export class Drawings {
       const old = this.#place.children[index];
       if (old && this.#shown[index] === drawing.svg) return;
       const [svg] = parsed(drawing.svg);
+      // Where the style sheet asks for it a drawing is at least so wide that its texts can be read.
+      svg.style.setProperty("--legible", `${Math.ceil((LEGIBLE / SMALLEST) * svg.viewBox.baseVal.width)}px`);
       svg.removeAttribute("width");
       svg.removeAttribute("height");
       const figure = element("figure", { role: "listitem", tabindex: "0", "aria-label": drawing.words }, svg);

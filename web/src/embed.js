@@ -6,24 +6,26 @@
 //     </slideway-live>
 //
 // What stands inside is shown where scripts are off, and until the engine is there, which is fetched once a figure comes
-// near.
+// near. If that fails, or the figure asks for what there is not, it stays, and the reason stands below it.
 
-import { element, settled } from "./dom.js";
-import { Drawings, showVerdict } from "./drawings.js";
+import { element, inWords, settled } from "./dom.js";
+import { Drawings } from "./drawings.js";
 import { withUnit } from "./numbers.js";
-import { State } from "./state.js";
-import { Strip } from "./strip.js";
+import { key } from "./sliders.js";
+import { State, changesOf } from "./state.js";
+import { Strip, limitsQuestion } from "./strip.js";
+import { Verdict, verdictElements } from "./verdict.js";
 import { Engine, Newest, Turns, load } from "./workers.js";
 
 const here = (name) => new URL(name, import.meta.url).href;
-let asked;
+let shared;
 
 /** What all figures of a page share: an engine for questions that take longer, and the models to begin with. */
-async function begin() {
-  const module = load(here("engine.wasm"));
+async function share(module) {
   const slow = new Turns(new Engine(module, here("worker.js")));
-  const library = await (await fetch(here("library.json"))).json();
-  return { module, slow, library };
+  const response = await fetch(here("library.json"));
+  if (!response.ok) throw new Error(`library.json: ${response.status} ${response.statusText}`);
+  return { slow, library: await response.json() };
 }
 
 /** Whether the page around an element is dark. */
@@ -39,93 +41,161 @@ function isDark(place) {
 
 class Live extends HTMLElement {
   #state;
-  #quantity;
+  #quantity = null;
+  /** What drawings keep while values change. */
+  #held = null;
+  #slow;
+  #newest;
   #drawings;
   #strip;
-  #parts = {
-    box: element("div", { id: "verdict-box" }),
-    verdict: element("span", { role: "status" }),
-    certainty: element("p"),
-    reasons: element("ul"),
-  };
+  #verdict;
+  #static = element("slot");
+  #loading = element("progress", { max: ENGINE_BYTES, value: 0, "aria-label": "Loading", hidden: true });
+  #notice = element("p", { role: "status" });
+  #pictures = element("div", { id: "drawings", role: "list", "aria-label": "The mechanism and its solutions" });
   #link = element("a", { href: here("./") }, "Open in the page");
+  #figure = element("div", { class: "live", hidden: true });
 
   connectedCallback() {
+    // It may be moved to another place of its page.
+    if (this.shadowRoot) return;
+    this.attachShadow({ mode: "open" }).append(this.#static, this.#loading, this.#notice, this.#figure);
     const watch = new IntersectionObserver(
       ([entry]) => {
         if (!entry.isIntersecting) return;
         watch.disconnect();
-        this.#begin().catch((error) => console.warn(error));
+        this.#begin().catch((error) => this.#refuse(error.message));
       },
       { rootMargin: "200px" },
     );
     watch.observe(this);
   }
 
-  async #begin() {
-    asked ??= begin();
-    const { module, slow, library } = await asked;
-    const newest = new Newest(new Engine(module, here("worker.js")));
-    this.#state = await State.of(new URLSearchParams({ model: `gallery:${this.getAttribute("model")}` }), library);
-    for (const setting of (this.getAttribute("set") ?? "").split(";").filter(Boolean)) {
-      const [name, value] = setting.split("=").map((part) => part.trim());
-      this.#state.changes.set(`parameter ${name}`, value);
-    }
-    const root = this.attachShadow({ mode: "open" });
-    const { box, verdict, certainty, reasons } = this.#parts;
-    box.append(element("h2", {}, verdict), certainty, reasons);
-    const pictures = element("div", { id: "drawings", role: "list", "aria-label": "The mechanism and its solutions" });
-    const figure = element("div", { class: "live", hidden: true }, box, pictures);
-    root.append(
-      element("link", { rel: "stylesheet", href: here("drawing.css") }),
-      element("link", { rel: "stylesheet", href: here("style.css") }),
-      element("slot"),
-      figure,
-    );
-    this.#drawings = new Drawings(pictures);
-    const look = () =>
-      newest.want(
-        () => ({ question: { ask: "look", ...this.#state.asked(), margins: false } }),
-        ({ answer }) => answer && this.#show(answer, figure, slow),
-        () => {},
-      );
-    this.#strip = new Strip(figure, (value) => {
-      this.#state.changes.set(`${this.#quantity.kind} ${this.#quantity.name}`, withUnit(value, this.#quantity.unit));
-      look();
-    });
-    figure.append(element("p", {}, this.#link));
-    look();
+  /** The figure cannot be live: what stands inside stays. */
+  #refuse(why) {
+    this.#loading.hidden = true;
+    this.#notice.textContent = `This figure is not live: ${why.replace(/\.$/, "")}.`;
   }
 
-  #show(answer, figure, slow) {
-    const [name, range] = this.getAttribute("vary").split("=");
-    this.#quantity = answer.quantities.find((one) => one.name === name && one.kind !== "rate");
-    const isFirst = figure.hidden;
-    if (isFirst) {
-      const [from, to] = range.split("..").map((end) => Number.parseFloat(end));
-      this.#state.strip = { kind: this.#quantity.kind, name, from, to };
-      this.dataset.theme = isDark(this) ? "dark" : "light";
-      figure.hidden = false;
-      this.shadowRoot.querySelector("slot").hidden = true;
+  async #begin() {
+    this.#loading.hidden = false;
+    const module = load(here("engine.wasm"), (bytes) => {
+      this.#loading.value = bytes;
+    });
+    shared ??= share(module);
+    const { slow, library } = await shared;
+    const engine = new Engine(module, here("worker.js"));
+    this.#slow = slow;
+    this.#newest = new Newest(engine);
+    this.#state = await this.#asked(library);
+    this.#figure.append(...verdictElements());
+    this.#verdict = new Verdict(this.#figure, () => {
+      engine.cancel();
+      slow.end(this);
+    });
+    this.#drawings = new Drawings(this.#pictures);
+    this.#strip = new Strip(this.#figure, (value) => {
+      this.#state.changes.set(key(this.#quantity), withUnit(value, this.#quantity.unit));
+      this.#look();
+    });
+    this.#figure.append(this.#pictures, element("p", {}, this.#link));
+    const styles = ["drawing.css", "style.css"].map((name) => element("link", { rel: "stylesheet", href: here(name) }));
+    this.shadowRoot.prepend(...styles);
+    this.#look();
+  }
+
+  /** The state that the attributes ask for. */
+  async #asked(library) {
+    const state = await State.of(new URLSearchParams({ model: `gallery:${this.getAttribute("model")}` }), library);
+    if (state.unread.length > 0) throw new Error(`there is no model ${this.getAttribute("model")}`);
+    for (const setting of (this.getAttribute("set") ?? "").split(";").filter((text) => text.trim())) {
+      const [name, value] = setting.split("=").map((part) => part.trim());
+      state.changes.set(`parameter ${name}`, value ?? "");
     }
-    showVerdict(this.#parts, answer);
+    return state;
+  }
+
+  /** What is varied, from the first answer: the quantity and the ends of the strip, which are in its unit. */
+  #vary(quantities) {
+    const text = this.getAttribute("vary") ?? "";
+    const [name, range = ""] = text.split("=").map((part) => part.trim());
+    const quantity = quantities.find((one) => one.name === name && one.kind !== "rate");
+    if (!quantity) throw new Error(`vary="${text}" names no quantity of this model`);
+    const ends = range.split("..").map((end) => /^\s*([-+.\deE]+)\s*(.*?)\s*$/.exec(end) ?? []);
+    const [from, to] = ends.map(([, number]) => Number(number));
+    const isRead = ends.every(([, , unit]) => unit === "" || unit === quantity.unit);
+    if (!(ends.length === 2 && isRead && from < to))
+      throw new Error(
+        `vary="${text}" has no range such as ${name}=${quantity.from}..${withUnit(quantity.to, quantity.unit)}`,
+      );
+    this.#state.strip = { kind: quantity.kind, name, from, to };
+  }
+
+  #look() {
+    this.#newest.want(
+      () => ({
+        question: { ask: "look", ...this.#state.asked(), margins: false, held: this.#held },
+        options: { seconds: 10, progress: (done) => this.#verdict.progress(done) },
+      }),
+      (reply, question) => this.#took(reply, question),
+      (error) => this.#failed(error),
+    );
+  }
+
+  #failed(error) {
+    if (!this.#quantity) return this.#refuse(error.message);
+    this.#verdict.fail(error);
+    this.#pictures.classList.add("stale");
+  }
+
+  #took({ answer, faults }, question) {
+    if (faults) return this.#atFault(faults, question.settings);
+    this.#pictures.classList.remove("stale");
+    if (answer.answer) this.#held = answer.held;
+    const isFirst = !this.#quantity;
+    if (isFirst) this.#begun(answer);
+    this.#quantity = answer.quantities.find((one) => key(one) === key(this.#state.strip));
+    this.#verdict.show(answer);
     this.#drawings.show(answer.drawings);
-    this.#strip.prepare(this.#state.strip, this.#quantity);
+    const name = key(this.#quantity);
+    const isNewest = changesOf(question.settings).get(name) === this.#state.changes.get(name);
+    this.#strip.prepare(this.#state.strip, this.#quantity, isNewest);
     this.#linked();
-    if (isFirst) this.#limits(slow, name, range);
+    if (isFirst) this.#limits();
+  }
+
+  /** With the settings that are at fault before their faults. */
+  #atFault(faults, settings) {
+    const words = faults.map((fault) => {
+      const setting = settings[fault.place?.setting];
+      return setting ? `${setting.name}=${setting.value}: ${inWords(fault)}` : inWords(fault);
+    });
+    if (!this.#quantity) return this.#refuse(words.join("; "));
+    this.#pictures.classList.add("stale");
+    this.#verdict.showFaults(words.map((message) => ({ message })));
+  }
+
+  /** The first answer is there: the figure takes the place of what stands inside. */
+  #begun(answer) {
+    this.#vary(answer.quantities);
+    this.dataset.theme = isDark(this) ? "dark" : "light";
+    for (const part of [this.#static, this.#loading, this.#notice]) part.hidden = true;
+    this.#figure.hidden = false;
   }
 
   #linked = settled(async () => {
     this.#link.href = `${here("./")}#${await this.#state.address()}`;
   }, 200);
 
-  async #limits(slow, name, range) {
-    const reply = await slow.ask(this, {
-      ask: "limits",
-      ...this.#state.asked(this.#quantity),
-      vary: `${name}=${range}`,
-    });
-    if (reply.answer) this.#strip.show(JSON.parse(reply.answer.json));
+  async #limits() {
+    const options = { seconds: 60, progress: (done) => this.#verdict.progress(done) };
+    try {
+      this.#strip.took(await this.#slow.ask(this, limitsQuestion(this.#state, this.#quantity), options));
+    } catch (error) {
+      this.#strip.refuse(`Not known: ${error.message}.`);
+    } finally {
+      this.#verdict.rest();
+    }
   }
 }
 

@@ -1,6 +1,6 @@
 // A map of two quantities, in which one walks.
 
-import { element, parsed, shape, themeName } from "./dom.js";
+import { element, inWords, parsed, shape, themeName } from "./dom.js";
 import { key } from "./sliders.js";
 import { scale, withUnit } from "./numbers.js";
 
@@ -115,9 +115,7 @@ export class MapPanel {
         axes,
       );
       if (reply.faults) {
-        this.#notice.textContent = reply.faults
-          .map(({ message, hint }) => [message, hint].filter(Boolean).join(": "))
-          .join("; ");
+        this.#notice.textContent = reply.faults.map(inWords).join("; ");
         this.#place.replaceChildren();
         this.#shown = null;
         return;

@@ -1,6 +1,6 @@
 // The motion in time: its moving picture, and its story.
 
-import { element, shape, shapes } from "./dom.js";
+import { element, inWords, shape, shapes } from "./dom.js";
 
 export class MotionPanel {
   #ask;
@@ -70,9 +70,7 @@ export class MotionPanel {
     try {
       const reply = await this.#ask(this.#until.value);
       if (reply.faults) {
-        this.#notice.textContent = reply.faults
-          .map(({ message, hint }) => [message, hint].filter(Boolean).join(": "))
-          .join("; ");
+        this.#notice.textContent = reply.faults.map(inWords).join("; ");
         return;
       }
       this.#show(JSON.parse(reply.answer.film), JSON.parse(reply.answer.json));

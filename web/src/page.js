@@ -1,22 +1,24 @@
 // The page: a model, what is changed in it, and what the engine says of it.
 
-import { byId, element, parsed, settled, themeName } from "./dom.js";
+import { byId, element, inWords, parsed, settled, themeName } from "./dom.js";
 import { pixels, save } from "./downloads.js";
-import { Drawings, showVerdict } from "./drawings.js";
+import { Drawings } from "./drawings.js";
 import { Editor } from "./editor.js";
 import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
 import { scale, withUnit } from "./numbers.js";
 import { Sliders, key } from "./sliders.js";
 import { State, changesOf } from "./state.js";
-import { Strip } from "./strip.js";
-import { Ended, Engine, Newest, Turns, load } from "./workers.js";
+import { Strip, limitsQuestion } from "./strip.js";
+import { Verdict } from "./verdict.js";
+import { Engine, Newest, Turns, load } from "./workers.js";
 
 /** A file larger than this is not read: no model is. */
 const LARGEST_FILE = 4 << 20;
 /** Without a change for this long (ms) what takes longer is computed, too. */
 const REST = 250;
 
+byId("loading").max = ENGINE_BYTES;
 const module = load("engine.wasm", (bytes) => {
   byId("loading").value = bytes;
 });
@@ -36,13 +38,13 @@ const library = fetch("library.json").then((response) => response.json());
 let state = new State();
 /** What the engine said last, of which text and settings. */
 let look = null;
+/** What drawings keep while values change: { held, text }, the engine's own words for scale and place, and for which model. */
+let kept = { held: null, text: "" };
 
-const parts = {
-  box: byId("verdict-box"),
-  verdict: byId("verdict"),
-  certainty: byId("certainty"),
-  reasons: byId("reasons"),
-};
+const verdict = new Verdict(document, () => {
+  live.cancel();
+  slow.end();
+});
 const drawings = new Drawings(byId("drawings"));
 const sliders = new Sliders(byId("sliders"), changed);
 const editor = new Editor(byId("editor"), settled(edited, 120));
@@ -75,8 +77,8 @@ function refresh() {
   const wanted = (margins) =>
     newest.want(
       () => ({
-        question: { ask: "look", ...state.asked(), margins },
-        options: { seconds: 10, progress: showProgress },
+        question: { ask: "look", ...state.asked(), margins, held: kept.text === state.text ? kept.held : null },
+        options: { seconds: 10, progress: (done) => verdict.progress(done) },
       }),
       ifSame(took),
       ifSame(failed),
@@ -95,10 +97,13 @@ const thoroughly = settled((wanted) => {
 
 /** The reply of a look. */
 function took(reply, question) {
-  byId("work").hidden = true;
+  verdict.rest();
   document.documentElement.dataset.milliseconds = reply.milliseconds.toFixed(1);
   if (question.margins && state.tab === "rest") showRest();
-  if (!look) sliders.clear();
+  if (!look) {
+    sliders.clear();
+    verdict.forget();
+  }
   if (reply.faults) {
     if (!look) showNothing();
     showFaults(reply.faults, question);
@@ -106,8 +111,9 @@ function took(reply, question) {
     return;
   }
   look = reply.answer;
+  if (look.answer) kept = { held: look.held, text: question.text };
   showFaults(look.warnings, question);
-  showVerdict(parts, look);
+  verdict.show(look);
   document.title = `${look.title} – slideway`;
   byId("about").textContent = look.title;
   drawings.show(look.drawings);
@@ -147,11 +153,7 @@ function told(what, question = state) {
 }
 
 function failed(error) {
-  byId("work").hidden = true;
-  parts.box.dataset.status = "unknown";
-  parts.verdict.textContent = error instanceof Ended ? `? No answer: ${error.message}.` : `? ${error.message}`;
-  parts.certainty.textContent = "";
-  parts.reasons.replaceChildren();
+  verdict.fail(error);
   byId("drawings").classList.add("stale");
   told("failed");
 }
@@ -170,13 +172,7 @@ function showFaults(faults, question) {
   const errors = faults.filter(({ is_warning }) => !is_warning);
   byId("drawings").classList.toggle("stale", errors.length > 0);
   if (errors.length > 0) {
-    parts.box.dataset.status = "faults";
-    parts.verdict.textContent =
-      errors.length === 1
-        ? "✎ One fault in the model or the values"
-        : `✎ ${errors.length} faults in the model or the values`;
-    parts.certainty.textContent = "";
-    parts.reasons.replaceChildren(...errors.slice(0, 50).map((fault) => listed(fault, fault.message, question.text)));
+    verdict.showFaults(errors, (fault) => listed(fault, fault.message, question.text));
   }
   sliders.showFaults(errors, question.settings, state.changes);
   editor.showFaults(faults, question.text);
@@ -208,27 +204,14 @@ const listed = ({ place }, words, text) =>
 
 const lineOf = (text, place) => `line ${text.slice(0, place).split("\n").length}`;
 
-function showProgress({ done, fraction, counted }) {
-  byId("work").hidden = false;
-  const bar = byId("progress");
-  if (fraction === null) bar.removeAttribute("value");
-  else bar.value = fraction;
-  byId("progress-words").textContent = `${done} ${counted}`;
-}
-
 /** The reply of the engine for what takes longer, with its progress. */
 async function slowly(question) {
   try {
-    return await slow.ask(question.ask, question, { seconds: 60, progress: showProgress });
+    return await slow.ask(question.ask, question, { seconds: 60, progress: (done) => verdict.progress(done) });
   } finally {
-    byId("work").hidden = true;
+    verdict.rest();
   }
 }
-
-byId("stop").addEventListener("click", () => {
-  live.cancel();
-  slow.end();
-});
 
 // ---- What is changed
 
@@ -256,11 +239,12 @@ function edited(text) {
 function begin(next) {
   state = next;
   look = null;
+  kept = { held: null, text: "" };
   told("asking");
   document.documentElement.dataset.begun = String(Number(document.documentElement.dataset.begun ?? 0) + 1);
   notice(state.unread.join(" "));
   limitsOf = "";
-  strip.show(null);
+  strip.forget();
   editor.text = state.text;
   byId("pick").value = state.from;
   motion.until = state.until;
@@ -277,6 +261,7 @@ async function beginWith(text) {
 
 byId("reset").addEventListener("click", () => {
   state.changes.clear();
+  kept = { held: null, text: "" };
   refresh();
 });
 
@@ -374,23 +359,14 @@ function setStrip(quantity) {
 const askLimits = settled(async () => {
   const quantity = varied();
   if (!quantity) return;
-  const { name, from, to } = state.strip;
-  const question = {
-    ask: "limits",
-    ...state.asked(quantity),
-    vary: `${name}=${withUnit(from, quantity.unit)}..${withUnit(to, quantity.unit)}`,
-  };
+  const question = limitsQuestion(state, quantity);
   const asked = JSON.stringify(question);
   if (asked === limitsOf) return;
   limitsOf = asked;
   try {
     const reply = await slowly(question);
     if (limitsOf !== asked) return;
-    if (reply.faults) {
-      strip.refuse(reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("; "));
-    } else {
-      strip.show(JSON.parse(reply.answer.json));
-    }
+    strip.took(reply);
     document.documentElement.dataset.limits = asked;
   } catch (error) {
     if (limitsOf === asked) {
@@ -455,9 +431,7 @@ const showRest = settled(async () => {
   for (const [title, ask] of questions) {
     try {
       const reply = await slowly({ ask, ...state.asked() });
-      const text = reply.faults
-        ? reply.faults.map(({ message, hint }) => [message, hint].filter(Boolean).join(": ")).join("\n")
-        : reply.answer.text;
+      const text = reply.faults ? reply.faults.map(inWords).join("\n") : reply.answer.text;
       told.push(element("h3", {}, title), element("pre", { tabindex: "0" }, text));
     } catch (error) {
       told.push(element("p", {}, error.message));
@@ -468,22 +442,22 @@ const showRest = settled(async () => {
 
 // ---- Address, downloads, colours
 
-let written = "";
+let address = "";
 
 const remember = settled(async () => {
-  written = await state.address();
-  history.replaceState(null, "", `#${written}`);
+  address = await state.address();
+  history.replaceState(null, "", `#${address}`);
 }, 100);
 
 addEventListener("hashchange", async () => {
-  const address = location.hash.slice(1);
-  if (address !== written) begin(await State.of(address, await library));
+  const wanted = location.hash.slice(1);
+  if (wanted !== address) begin(await State.of(wanted, await library));
 });
 
 byId("share").addEventListener("click", async () => {
-  written = await state.address();
-  if (!written) return notice("This model is too large for a link: send its file.");
-  history.replaceState(null, "", `#${written}`);
+  address = await state.address();
+  if (!address) return notice("This model is too large for a link: send its file.");
+  history.replaceState(null, "", `#${address}`);
   await copy(location.href, byId("share"), "Copied");
 });
 
@@ -501,7 +475,7 @@ async function copy(text, button, done) {
 }
 
 const offers = {
-  toml: async (name) => save(state.text, `${name}.toml`, "application/toml"),
+  toml: async (name) => save(await written(), `${name}.toml`, "application/toml"),
   svg: async (name) => save(await drawn(), `${name}.svg`, "image/svg+xml"),
   png: async (name) => save(await pixels(await drawn()), `${name}.png`, "image/png"),
   csv: async (name) => save((await answered({ ask: "solve" })).csv, `${name}.csv`, "text/csv"),
@@ -520,6 +494,9 @@ async function answered(question) {
   if (reply.faults) throw new Error(reply.faults[0].message);
   return reply.answer;
 }
+
+/** The text of the model with what is changed; as it is where nothing is, even if it is at fault. */
+const written = async () => (state.changes.size === 0 ? state.text : await answered({ ask: "save" }));
 
 const drawn = async () => (await answered({ ask: "draw", theme: themeName() })).svg;
 

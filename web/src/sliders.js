@@ -1,6 +1,6 @@
 // A slider and a field for everything that can be changed in a model.
 
-import { element } from "./dom.js";
+import { element, inWords } from "./dom.js";
 import { scale, short, withUnit } from "./numbers.js";
 
 /** Title, which quantities it has, and whether it is open at first. */
@@ -60,10 +60,9 @@ export class Sliders {
       row.showFault("");
       row.showChange(changes.get(name));
     }
-    for (const { place, message, hint } of faults) {
-      if (place?.text !== "setting") continue;
-      const setting = settings[place.setting];
-      this.#rows.get(key(setting))?.showFault([message, hint].filter(Boolean).join(": "));
+    for (const fault of faults) {
+      if (fault.place?.text !== "setting") continue;
+      this.#rows.get(key(settings[fault.place.setting]))?.showFault(inWords(fault));
     }
   }
 }

@@ -1,7 +1,7 @@
 // A strip that shows for which values of one quantity each mode exists, and how many solutions there are, with the present
 // value, which can be dragged.
 
-import { element, shape } from "./dom.js";
+import { element, inWords, shape } from "./dom.js";
 import { scale as slider, short, ticks, withUnit } from "./numbers.js";
 
 const ROW = 26;
@@ -11,6 +11,13 @@ const RIGHT = 16;
 const COUNTS = 34;
 /** Colours of modes, in the order in which they come. */
 const COLOURS = 8;
+
+/** Asks for the limits of the quantity along the strip, which do not depend on its value. */
+export const limitsQuestion = (state, quantity) => {
+  const { name, from, to } = state.strip;
+  const range = [from, to].map((end) => withUnit(end, quantity.unit)).join("..");
+  return { ask: "limits", ...state.asked(quantity), vary: `${name}=${range}` };
+};
 
 const signs = (pattern) => [...pattern].join(" ").replaceAll("-", "−");
 
@@ -23,6 +30,8 @@ export class Strip {
   #quantity = null;
   #value = 0;
   #line;
+  /** The most modes that were shown of this model: what stands below does not move when there are fewer. */
+  #rows = 1;
   /** Kept: to ask the browser for it takes a new layout of the whole page. */
   #width = 600;
 
@@ -66,10 +75,22 @@ export class Strip {
     if (isNewest) this.#present(quantity.value);
   }
 
+  /** Shows the limits of a reply, or why there are none. */
+  took({ answer, faults }) {
+    if (faults) this.refuse(faults.map(inWords).join("; "));
+    else this.#show(JSON.parse(answer.json));
+  }
+
+  /** There is another model. */
+  forget() {
+    this.#rows = 1;
+    this.#show(null);
+  }
+
   /** Shows the limits; nothing while there are none. */
-  show(report) {
+  #show(report) {
     this.#report = report;
-    this.#words.textContent = report ? inWords(report, this.#quantity, this.#vary) : "";
+    this.#words.textContent = report ? modesInWords(report, this.#quantity, this.#vary) : "";
     // The picture says the same to those who see it.
     this.#words.classList.add("unseen");
     this.#draw();
@@ -120,13 +141,14 @@ export class Strip {
     if (!this.#vary) return;
     const modes = this.#report?.modes ?? [];
     const patterns = [...new Set(modes.map((mode) => mode.pattern))];
-    const height = TOP + ROW * Math.max(1, patterns.length) + COUNTS + 24;
+    this.#rows = Math.max(this.#rows, patterns.length);
+    const bottom = TOP + ROW * this.#rows;
+    const height = bottom + COUNTS + 24;
     const width = this.#width;
     this.#svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.#svg.setAttribute("height", height);
     this.#svg.replaceChildren(hatching());
     const of = (value) => this.#place(value / this.#quantity.scale);
-    const bottom = TOP + ROW * Math.max(1, patterns.length);
     for (const { from, to, solutions } of this.#report?.counts ?? []) {
       if (solutions === 0)
         this.#svg.append(
@@ -242,7 +264,7 @@ function countAt(report, value) {
 }
 
 /** The strip for those who do not see it. */
-function inWords(report, { unit, scale }, { name }) {
+function modesInWords(report, { unit, scale }, { name }) {
   const value = (si) => withUnit(si / scale, unit);
   const counts = report.counts.map(
     ({ from, to, solutions }) =>

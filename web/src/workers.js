@@ -7,9 +7,11 @@ export class Ended extends Error {}
 const GRACE = 3;
 
 let compiled;
+const listeners = new Set();
 
-/** The module of the engine, compiled once; a promise. `progress(bytes)` learns how much of it has come. */
-export function load(address, progress = () => {}) {
+/** The module of the engine, compiled once; a promise. `progress(bytes)` learns how much of it has come, of ENGINE_BYTES. */
+export function load(address, progress) {
+  listeners.add(progress);
   compiled ??= fetch(address).then((response) => {
     if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
     let bytes = 0;
@@ -17,7 +19,7 @@ export function load(address, progress = () => {}) {
       new TransformStream({
         transform(part, through) {
           bytes += part.length;
-          progress(bytes);
+          for (const told of listeners) told(bytes);
           through.enqueue(part);
         },
       }),

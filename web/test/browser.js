@@ -62,6 +62,17 @@ export const settled = (page) =>
     timeout: 30_000,
   });
 
+/** Closes a page. */
+export const close = (page) => page.context().close();
+
+/** Shows a model of the gallery. */
+export async function choose(page, name) {
+  const before = await page.evaluate(() => document.documentElement.dataset.begun);
+  await page.selectOption("#pick", `gallery:${name}`);
+  await page.waitForFunction((then) => document.documentElement.dataset.begun !== then, before);
+  await settled(page);
+}
+
 /** Waits until the verdict is of this kind. */
 export const verdict = (page, status) =>
   page.waitForFunction((wanted) => document.getElementById("verdict-box").dataset.status === wanted, status, {

@@ -125,6 +125,62 @@ test("a map is told as on the command line", () => {
   assertSameJson(reply.answer.json, readFileSync(file, "utf8"), "map");
 });
 
+/** The lengths of the arrows of both normal forces in a drawing of the drawer; a third one is the scale. */
+const arrows = ({ svg }) =>
+  [...svg.matchAll(/class="s-reaction"><polyline[^>]* points="([^"]*)"\/><polygon[^>]* points="(\S+)/g)]
+    .slice(0, 2)
+    .map(([, line, tip]) => {
+      const [[x, y], [toX, toY]] = [line.split(" ")[0], tip].map((place) => place.split(",").map(Number));
+      return Math.hypot(toX - x, toY - y);
+    });
+
+/** The push is Q / (1 - 2 mu a / L), and each normal force that times a / L (book, chapter Limits). */
+test("arrows grow towards the jam, and the scale is that of the file", () => {
+  const asked = (mu, held) => ({
+    ask: "look",
+    text: text("drawer.toml"),
+    settings: [setting("parameter", "mu", String(mu))],
+    margins: false,
+    held,
+  });
+  const force = (mu) => (0.75 * 20) / (1 - 1.5 * mu);
+  const { answer: first } = ask({ ask: "look", text: text("drawer.toml"), margins: false });
+  const [usual] = arrows(first.drawings[1]);
+  let { held } = first;
+  for (const mu of [0.1, 0.4, 0.5]) {
+    const { answer } = ask(asked(mu, held));
+    for (const length of arrows(answer.drawings[1]))
+      assert.ok(Math.abs(length / usual - force(mu) / force(0.3)) < 1e-3, `mu = ${mu}: ${length}`);
+    // A link shows the same as a drag.
+    assert.deepEqual(arrows(ask(asked(mu, undefined)).answer.drawings[1]), arrows(answer.drawings[1]));
+    held = answer.held;
+  }
+  // Near the jam an arrow would leave the picture: it is as long as it may be, with two strokes.
+  const { answer: near } = ask(asked(0.66, held));
+  assert.ok(arrows(near.drawings[1])[0] < 4 * usual);
+  assert.match(near.drawings[1].svg, /s-break/);
+  const { answer: jammed } = ask(asked(0.7, held));
+  assert.match(jammed.drawings[1].title, /Why it jams/);
+  assert.match(jammed.drawings[1].svg, /s-cone/);
+  assert.deepEqual(jammed.held, held);
+});
+
+test("a file that is saved has what was changed, and its comments", () => {
+  const file = text("drawer.toml");
+  const settings = [setting("parameter", "mu", "0.65"), setting("position", "x", "20 mm")];
+  const { answer } = ask({ ask: "save", text: file, settings });
+  assert.equal(
+    answer,
+    file
+      .replace("mu = 0.3                  #", "mu = 0.65                 #")
+      .replace("[coordinates.x]\n", '[coordinates.x]\nvalue = "20 mm"\n'),
+  );
+  assert.match(
+    ask({ ask: "save", text: file, settings: [setting("parameter", "mu", "1 kg")] }).faults[0].message,
+    /mass/,
+  );
+});
+
 test("faults are those of the command line, at their places", () => {
   const faulty = text("drawer.toml").replace('mu = "mu"', 'mu = "mo"');
   const { faults } = ask({ ask: "solve", text: faulty });

@@ -48,6 +48,15 @@ test("the better coding that a browser accepts is sent", async () => {
   }
 });
 
+test("what a browser has is not sent again", async () => {
+  const accepted = { "accept-encoding": "br" };
+  const { headers } = await get("/engine.wasm", accepted);
+  const again = await get("/engine.wasm", { ...accepted, "if-none-match": headers.etag });
+  assert.equal(again.statusCode, 304);
+  const other = await get("/engine.wasm", { "if-none-match": headers.etag });
+  assert.equal(other.statusCode, 200);
+});
+
 test("no request ends it, and none leaves the folder", async () => {
   for (const path of [
     "/%E0%A4%A",

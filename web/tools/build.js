@@ -98,6 +98,7 @@ async function bundle() {
     target: "es2022",
     minify: true,
     metafile: true,
+    define: { ENGINE_BYTES: String(statSync(engine).size) },
     logLevel: "warning",
   });
   const packages = Object.keys(metafile.inputs).map((input) => /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1]);
@@ -117,10 +118,8 @@ async function gather(packages) {
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
   writeFileSync(resolve(page, "library.json"), JSON.stringify(ask({ ask: "library" }).answer));
-  for (const name of ["style.css", "manifest.webmanifest", "icon.svg"])
+  for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"])
     cpSync(resolve(web, "src", name), resolve(page, name));
-  const index = readFileSync(resolve(web, "src/index.html"), "utf8");
-  writeFileSync(resolve(page, "index.html"), index.replace("{{ engine bytes }}", statSync(engine).size));
   writeFileSync(resolve(page, "notices.txt"), notices(packages));
   const files = readdirSync(page).sort();
   const hash = createHash("sha256");
@@ -131,13 +130,31 @@ async function gather(packages) {
   writeFileSync(resolve(page, "service.js"), service.replace("{{ version }}", version).replace("{{ files }}", kept));
 }
 
+/** The engine compressed as well as brotli can, which takes its time: kept beside it until there is another one. */
+function smallestEngine(bytes) {
+  const kept = resolve(engineTarget, `engine-${createHash("sha256").update(bytes).digest("hex").slice(0, 16)}.br`);
+  if (existsSync(kept)) return readFileSync(kept);
+  const compressed = brotliCompressSync(bytes, {
+    params: {
+      [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY,
+      [constants.BROTLI_PARAM_LGWIN]: constants.BROTLI_MAX_WINDOW_BITS,
+      [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length,
+    },
+  });
+  mkdirSync(engineTarget, { recursive: true });
+  for (const old of readdirSync(engineTarget).filter((name) => /^engine-.*\.br$/.test(name)))
+    rmSync(resolve(engineTarget, old));
+  writeFileSync(kept, compressed);
+  return compressed;
+}
+
 /** Compresses what is sent as text or code, each file beside itself, so that a server need not do it for every visitor. */
 function compress() {
   const shown = (length) => `${(length / 1e6).toFixed(2)} MB`;
   for (const name of readdirSync(page).filter((file) => /\.(wasm|js|css|json|html|svg|txt)$/.test(file))) {
     const bytes = readFileSync(resolve(page, name));
     const gzip = gzipSync(bytes, { level: 9 });
-    const brotli = brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } });
+    const brotli = name === "engine.wasm" ? smallestEngine(bytes) : brotliCompressSync(bytes);
     writeFileSync(resolve(page, `${name}.gz`), gzip);
     writeFileSync(resolve(page, `${name}.br`), brotli);
     if (["engine.wasm", "page.js"].includes(name))

@@ -47,14 +47,21 @@ function answer(folder, request, response) {
   }
   const accepted = (request.headers["accept-encoding"] ?? "").split(",").map((coding) => coding.trim());
   const coding = Object.keys(CODINGS).find((name) => accepted.includes(name) && existsSync(file + CODINGS[name]));
-  response.writeHead(200, {
+  const sent = coding ? file + CODINGS[coding] : file;
+  const { size, mtimeMs } = statSync(sent);
+  // What the browser has is not sent again, neither to the page nor to what keeps it for use without a network.
+  const etag = `"${size.toString(36)}-${Math.round(mtimeMs).toString(36)}"`;
+  const isKnown = (request.headers["if-none-match"] ?? "").split(/,\s*/).includes(etag);
+  response.writeHead(isKnown ? 304 : 200, {
     "content-type": TYPES[extname(file)] ?? "application/octet-stream",
     ...(coding && { "content-encoding": coding }),
     vary: "accept-encoding",
     "cache-control": "no-cache",
+    etag,
     "x-content-type-options": "nosniff",
   });
-  pipeline(createReadStream(coding ? file + CODINGS[coding] : file), response, () => {});
+  if (isKnown) response.end();
+  else pipeline(createReadStream(sent), response, () => {});
 }
 
 /** Serves a folder on this machine alone; the server once it listens. */

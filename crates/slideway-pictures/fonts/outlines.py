@@ -1,7 +1,7 @@
-"""Writes outlines.txt, the glyphs of DejaVuSans-subset.ttf. Needs fontTools (pip install fonttools).
+"""Writes advances.txt and outlines.txt, the glyphs of DejaVuSans-subset.ttf. Needs fontTools (pip install fonttools).
 
-One line for each character, in their order: its number, its advance, and its outline as the data of an SVG path, in units of
-the typeface (2048 for the size), y upwards.
+One line for each character, in their order: its number, and its advance or its outline as the data of an SVG path, in units
+of the typeface (2048 for the size), y upwards.
 """
 
 from pathlib import Path
@@ -37,9 +37,11 @@ folder = Path(__file__).parent
 font = TTFont(folder / "DejaVuSans-subset.ttf")
 assert font["head"].unitsPerEm == 2048
 glyphs = font.getGlyphSet()
-lines = []
+advances, outlines = [], []
 for number, name in sorted(font.getBestCmap().items()):
     pen = Outline(glyphs)
     glyphs[name].draw(pen)
-    lines.append(f"{number:04x} {font['hmtx'][name][0]} {''.join(pen.data)}\n")
-(folder / "outlines.txt").write_text("".join(lines))
+    advances.append(f"{number:04x} {font['hmtx'][name][0]}\n")
+    outlines.append(f"{number:04x} {''.join(pen.data)}\n")
+(folder / "advances.txt").write_text("".join(advances))
+(folder / "outlines.txt").write_text("".join(outlines))

@@ -14,25 +14,23 @@ pub const STACK: &str = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif";
 /// Units of the typeface in its size.
 const UNITS: f64 = 2048.0;
 
-/// The characters of DejaVu Sans (`fonts/README.md`).
-static GLYPHS: LazyLock<HashMap<char, Glyph>> =
-    LazyLock::new(|| include_str!("../fonts/outlines.txt").lines().filter_map(Glyph::of_line).collect());
+/// The advances of the characters of DejaVu Sans, in its units (`fonts/README.md`).
+static ADVANCES: LazyLock<HashMap<char, f64>> = LazyLock::new(|| {
+    let of_line = |(character, advance): (char, &str)| Some((character, advance.parse().ok()?));
+    lines(include_str!("../fonts/advances.txt")).filter_map(of_line).collect()
+});
 
-/// A character of the typeface, in its units, y upwards.
-struct Glyph {
-    advance: f64,
-    /// The data of an SVG path: M, L, Q and Z with absolute places.
-    #[cfg_attr(not(feature = "png"), expect(dead_code, reason = "letters of pixels alone have outlines"))]
-    outline: &'static str,
-}
+/// Their outlines, as the data of an SVG path: M, L, Q and Z with absolute places in these units, y upwards.
+#[cfg(feature = "png")]
+static OUTLINES: LazyLock<HashMap<char, &'static str>> =
+    LazyLock::new(|| lines(include_str!("../fonts/outlines.txt")).collect());
 
-impl Glyph {
-    fn of_line(line: &'static str) -> Option<(char, Self)> {
+/// What a file says of each character.
+fn lines(file: &'static str) -> impl Iterator<Item = (char, &'static str)> {
+    file.lines().filter_map(|line| {
         let (number, rest) = line.split_once(' ')?;
-        let (advance, outline) = rest.split_once(' ')?;
-        let character = char::from_u32(u32::from_str_radix(number, 16).ok()?)?;
-        Some((character, Self { advance: advance.parse().ok()?, outline }))
-    }
+        Some((char::from_u32(u32::from_str_radix(number, 16).ok()?)?, rest))
+    })
 }
 
 /// Width of a text, in units of its size times `size`.
@@ -52,7 +50,7 @@ pub(crate) fn outlines(text: &str, size: f64, x: f64, y: f64) -> String {
     let mut out = String::new();
     let (mut pen, scale) = (x, size / UNITS);
     for character in text.chars() {
-        for command in glyph(character).into_iter().flat_map(|glyph| commands(glyph.outline)) {
+        for command in found(&OUTLINES, character).into_iter().flat_map(|outline| commands(outline)) {
             out.push_str(&command[..1]);
             let numbers = command[1..].split(' ').filter_map(|number| number.parse::<f64>().ok());
             for (index, number) in numbers.enumerate() {
@@ -73,14 +71,14 @@ fn commands(outline: &str) -> impl Iterator<Item = &str> {
     starts.zip(ends).map(|(start, end)| &outline[start..end])
 }
 
-/// The glyph of a character; of the sign for what is missing if the typeface does not have it.
-fn glyph(character: char) -> Option<&'static Glyph> {
-    GLYPHS.get(&character).or_else(|| GLYPHS.get(&'\u{fffd}'))
+/// What there is of a character; of the sign for what is missing if the typeface does not have it.
+fn found<T>(glyphs: &HashMap<char, T>, character: char) -> Option<&T> {
+    glyphs.get(&character).or_else(|| glyphs.get(&'\u{fffd}'))
 }
 
 /// Advance of a character in units of the size.
 fn advance(character: char) -> f64 {
-    glyph(character).map_or(0.6, |glyph| glyph.advance / UNITS)
+    found(&ADVANCES, character).map_or(0.6, |advance| advance / UNITS)
 }
 
 #[cfg(test)]
@@ -100,7 +98,17 @@ mod tests {
 
     #[test]
     fn every_character_of_the_file_is_read() {
-        assert_eq!(GLYPHS.len(), include_str!("../fonts/outlines.txt").lines().count());
-        assert!(GLYPHS.contains_key(&'\u{fffd}') && GLYPHS.contains_key(&'μ') && GLYPHS.contains_key(&' '));
+        assert_eq!(ADVANCES.len(), include_str!("../fonts/advances.txt").lines().count());
+        assert!(['\u{fffd}', 'μ', ' '].iter().all(|character| ADVANCES.contains_key(character)));
+    }
+
+    #[cfg(feature = "png")]
+    #[test]
+    fn every_character_has_an_advance_and_an_outline() {
+        assert_eq!(OUTLINES.len(), include_str!("../fonts/outlines.txt").lines().count());
+        assert!(
+            OUTLINES.len() == ADVANCES.len()
+                && OUTLINES.keys().all(|character| ADVANCES.contains_key(character))
+        );
     }
 }

@@ -15,7 +15,8 @@
 //!
 //! # Files
 //! `question.rs` is what can be asked, `reply.rs` asks the library, `look.rs` is what the page shows of a
-//! state, `quantity.rs` what can be changed in it and between which ends, `told_fault.rs` what is wrong,
+//! state, `state.rs` that state and how it is drawn, `quantity.rs` what can be changed in it and between which ends, `told_fault.rs` what is wrong,
+//! `saved.rs` the text with what was changed,
 //! `library.rs` models to begin with.
 
 #[cfg(target_family = "wasm")]
@@ -25,6 +26,8 @@ mod look;
 mod quantity;
 mod question;
 mod reply;
+mod saved;
+mod state;
 mod told_fault;
 
 use question::Question;

@@ -2,20 +2,18 @@
 
 use crate::quantity::{MOST, Quantity, quantities};
 use crate::question::Asked;
+use crate::state::{Kept, State, first_held};
 use crate::told_fault::{ToldFault, told};
 use serde::Serialize;
 use slideway::check::coordinates_of;
-use slideway::configuration::Configuration;
 use slideway::fault::Faults;
-use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::printable::line;
 use slideway::progress::Callback;
 use slideway::report::{Proof, SolveReport, Status};
-use slideway::solve::{SolveOptions, solve_with};
 use slideway::warning::{ranges_at_middle, warnings};
 use slideway_pictures::drawing::svg::{Colours, write};
-use slideway_pictures::drawing::{Sheet, pieces, title};
+use slideway_pictures::drawing::{Held, Sheet, title};
 use slideway_pictures::page::{reasons, solve_parts};
 
 /// What the page shows of a state.
@@ -31,6 +29,8 @@ pub(crate) struct Look {
     drives: Vec<String>,
     /// The mechanism, each of its solutions, and the key to the colours.
     drawings: Vec<Drawing>,
+    /// What the drawings of the next state of the same model keep of these.
+    held: Option<Kept>,
     /// How many solutions there are; absent where the question has no answer.
     answer: Option<Verdict>,
     /// Why there is no answer.
@@ -84,25 +84,28 @@ impl Verdict {
 /// # Errors
 /// Faults of the model. That the question has no answer, or that the state cannot be assembled, is none: then there
 /// are reasons, and a drawing without forces or none at all.
-pub(crate) fn look(asked: &Asked, margins: bool, callback: &mut Callback<'_>) -> Result<Look, Faults> {
+pub(crate) fn look(
+    asked: &Asked,
+    held: Option<Kept>,
+    margins: bool,
+    callback: &mut Callback<'_>,
+) -> Result<Look, Faults> {
     let file = Model::parse(&asked.text)?;
     let model = asked.set(&file)?;
-    let mechanism = Mechanism::new(&model)?;
-    let configuration = Configuration::new(&mechanism);
-    let options = SolveOptions::default().margins(margins);
-    let solved = configuration.as_ref().map_err(Clone::clone);
-    let solved = solved.and_then(|_| solve_with(&model, &options, callback));
-    let configuration = configuration.unwrap_or_else(|_| Configuration::drawing(&mechanism));
-    let coordinates = coordinates_of(&model, &mechanism, &configuration)?;
-    let sheets = pieces(&mechanism, &configuration, solved.as_ref().ok());
+    let state = State::of(&model, margins, callback)?;
+    let held = held.map(Held::from).or_else(|| first_held(asked, &file, &state, callback));
+    let (sheets, held) = state.drawn(held);
+    let State { mechanism, configuration, solved } = &state;
+    let coordinates = coordinates_of(&model, mechanism, configuration)?;
     Ok(Look {
-        title: line(&title(&mechanism)).into_owned(),
+        title: line(&title(mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
         left_out: model.parameters.len().saturating_sub(MOST),
-        quantities: quantities(&file, &model, &asked.text, &mechanism, &coordinates)?,
+        quantities: quantities(&file, &model, &asked.text, mechanism, &coordinates)?,
         loads: mechanism.loads.iter().map(|load| load.name.to_string()).collect(),
         drives: mechanism.drives.iter().map(|drive| drive.name.to_string()).collect(),
         drawings: sheets.iter().filter_map(Drawing::of).collect(),
+        held: held.map(Kept::from),
         answer: solved.as_ref().ok().map(Verdict::of),
         reasons: solved.as_ref().err().map(reasons).unwrap_or_default(),
     })

@@ -1,5 +1,6 @@
 //! What can be asked.
 
+use crate::state::Kept;
 use serde::Deserialize;
 use slideway::fault::Faults;
 use slideway::limits::Vary;
@@ -20,7 +21,12 @@ pub(crate) enum Question {
         of: Asked,
         /// Whether margins of friction are computed, too, which may take longer than everything else.
         margins: bool,
+        /// What the last answer about this model gave its drawings to keep.
+        #[serde(default)]
+        held: Option<Kept>,
     },
+    /// The text of the model with what is changed in it.
+    Save(Asked),
     /// `slideway check`
     Check(Asked),
     /// `slideway solve`

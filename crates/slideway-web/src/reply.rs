@@ -4,6 +4,7 @@ use crate::Reply;
 use crate::library::entries;
 use crate::look::look;
 use crate::question::{Asked, Question, ThemeName, vary};
+use crate::saved::saved;
 use crate::told_fault::{ToldFault, told};
 use serde::Serialize;
 use slideway::check::check;
@@ -82,9 +83,10 @@ pub(crate) fn reply(question: &Question, callback: &mut Callback<'_>) -> String 
     match question {
         Question::Library => Reply::Answer(entries()).json(),
         Question::Style => Reply::Answer(stylesheet()).json(),
-        Question::Look { of, margins } => {
-            written(of, look(of, *margins, callback).map(Some).map_err(Refusal::from))
+        Question::Look { of, margins, held } => {
+            written(of, look(of, *held, *margins, callback).map(Some).map_err(Refusal::from))
         }
+        Question::Save(of) => written(of, saved(of).map(Some).map_err(Refusal::from)),
         Question::Check(of) => written(of, checked(of)),
         Question::Solve(of) => written(of, solved(of, callback)),
         Question::Hold { of, load } => written(of, held(of, load.as_deref(), callback)),

@@ -73,8 +73,8 @@ impl Painter<'_> {
         let length = forces.normal.abs() * scale;
         // It presses from outside what it acts on if that is the inner part, else from inside.
         let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
-        let from = if is_on_inner { face - direction * length.max(super::loads::LEAST_ARROW) } else { face };
-        self.arrow(Class::Reaction, from, from + direction * length, self.shown(forces.normal.abs(), "N"));
+        let text = self.shown(forces.normal.abs(), "N");
+        self.arrow_of_force(Class::Reaction, (face, is_on_inner), direction * length, text);
     }
 
     fn friction(&mut self, slide: &Slide, contact: ContactId, side: f64, forces: ContactForces, scale: f64) {
@@ -84,7 +84,8 @@ impl Painter<'_> {
         let from = self.face(slide, contact, side);
         let direction = -slide.guide.along * (forces.friction.signum() * slide.action());
         let length = forces.friction.abs() * scale;
-        self.arrow(Class::Friction, from, from + direction * length, self.shown(forces.friction.abs(), "N"));
+        let text = self.shown(forces.friction.abs(), "N");
+        self.arrow_of_force(Class::Friction, (from, false), direction * length, text);
     }
 
     /// The velocity of what moves in a joint (m/s), if it has an arrow: of the block, or of the guide past a block on

@@ -93,9 +93,10 @@ impl Painter<'_> {
         let across = Vector2::new(force.y, -force.x) / size;
         let from = centre + self.view.direction(across * (pin.couple / size * scale));
         let along = unit(self.view.direction(force), Point::x());
-        let to = from + along * (size * force_scale);
+        let length = size * force_scale;
+        let to = from + along * length.min(self.options.longest_arrow);
         self.scene.add(Class::ActionLine, Shape::Line(vec![from - along * BEYOND, to + along * BEYOND]));
-        self.arrow(Class::PinForce, from, to, self.shown(size, "N"));
+        self.arrow_of_force(Class::PinForce, (from, false), along * length, self.shown(size, "N"));
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Painter;
 use super::looks::Look;
 use super::outline::{turned, unit};
-use super::scene::{Class, Point, Shape};
+use super::scene::{Class, Element, Point, Shape};
 use super::sliders::Slide;
 use super::view::is_zero;
 use nalgebra::Vector2;
@@ -15,8 +15,8 @@ use std::f64::consts::TAU;
 
 /// Length of an arrow that is not to scale.
 const ARROW: f64 = 46.0;
-/// Greatest length of a load's arrow; a longer one is drawn broken.
-const LONGEST_LOAD: f64 = 110.0;
+/// Greatest length of an arrow to scale, unless options say another.
+pub(super) const LONGEST_ARROW: f64 = 110.0;
 /// Below this length an arrow to scale is a head alone.
 pub(super) const LEAST_ARROW: f64 = 9.0;
 /// A force whose part along a belt is smaller than itself by at most this part of it is along the belt, as rounding
@@ -174,12 +174,10 @@ impl Painter<'_> {
         let Some(force) = self.actual.pad_force(self.mechanism, pad) else { return };
         if force > 0.0 {
             let away = slide.guide.along * -pad.sense();
-            let length = self.options.force_scale.map_or(ARROW, |scale| (scale * force).min(LONGEST_LOAD));
+            let length = self.options.force_scale.map_or(ARROW, |scale| scale * force);
             let face = slide.guide.at(stop.face, 0.0);
-            self.arrow(Class::Load, face, face + away * length, format!("pad {}", self.shown(force, "N")));
-            if self.options.force_scale.is_some_and(|scale| scale * force > LONGEST_LOAD) {
-                self.broken(face + away * (0.45 * length), away);
-            }
+            let text = format!("pad {}", self.shown(force, "N"));
+            self.arrow_of_force(Class::Load, (face, false), away * length, text);
         }
     }
 
@@ -234,27 +232,31 @@ impl Painter<'_> {
         let direction = self.view.direction(force / force.norm());
         let is_known = class != Class::Drive;
         let to_scale = self.options.force_scale.filter(|_| is_known).map(|scale| scale * force.norm());
-        let is_broken = to_scale.is_some_and(|length| length > LONGEST_LOAD);
-        let length = to_scale.map_or(ARROW, |length| length.min(LONGEST_LOAD));
+        let length = to_scale.unwrap_or(ARROW);
         let pushes = (centre - place).dot(&direction) > 1.0;
-        let from = if pushes { place - direction * length } else { place };
-        self.arrow(class, from, from + direction * length, text);
-        if is_broken {
-            self.broken(from + direction * (0.45 * length), direction);
-        }
+        self.arrow_of_force(class, (place, pushes), direction * length, text);
     }
 
-    /// Two strokes across an arrow that is too short for its scale.
-    fn broken(&mut self, middle: Point, direction: Point) {
-        let stroke = (turned(direction) - direction * 0.5) * 6.0;
-        for shift in [-2.5, 2.5] {
-            let centre = middle + direction * shift;
-            self.line(Class::Break, vec![centre - stroke, centre + stroke]);
+    /// The arrow of a force that ends or begins at a place, and its value; broken where it would be too long.
+    pub(super) fn arrow_of_force(
+        &mut self,
+        class: Class,
+        (place, ends_there): (Point, bool),
+        arrow: Point,
+        text: String,
+    ) {
+        let direction = unit(arrow, Point::x());
+        let length = arrow.norm().min(self.options.longest_arrow);
+        let from = if ends_there { place - direction * length.max(LEAST_ARROW) } else { place };
+        self.arrow(class, from, from + direction * length, text);
+        if arrow.norm() > length {
+            let strokes = broken(from + direction * (0.45 * length), direction);
+            self.scene.elements.extend(strokes.map(|shape| Element { class: Class::Break, shape }));
         }
     }
 
     /// An arrow and its value; the head alone where the arrow would be too short.
-    pub(super) fn arrow(&mut self, class: Class, from: Point, to: Point, text: String) {
+    fn arrow(&mut self, class: Class, from: Point, to: Point, text: String) {
         let direction = unit(to - from, Point::x());
         if (to - from).norm() < LEAST_ARROW {
             let tip = from + direction * LEAST_ARROW;
@@ -345,6 +347,13 @@ pub(super) fn load_force(
         matches!(load.kind, LoadKind::Force { .. } | LoadKind::Spring { .. } | LoadKind::Damper { .. });
     let wrenches = load_wrenches(mechanism, configuration, load).ok().filter(|_| is_force)?;
     Some(wrenches.first()?.force)
+}
+
+/// Two strokes across an arrow that is too short for its scale.
+pub(super) fn broken(middle: Point, direction: Point) -> impl Iterator<Item = Shape> {
+    let stroke = (turned(direction) - direction * 0.5) * 6.0;
+    let centres = [-2.5, 2.5].map(|shift| middle + direction * shift);
+    centres.into_iter().map(move |centre| Shape::Line(vec![centre - stroke, centre + stroke]))
 }
 
 /// The line of a spring.

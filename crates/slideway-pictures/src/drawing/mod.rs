@@ -31,7 +31,7 @@ mod view;
 
 pub use hinges::PinForce;
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
-pub use sheet::{Caption, Panel, Sheet, Shown, pieces, sheet, title};
+pub use sheet::{Caption, Held, Panel, Sheet, Shown, pieces, sheet, title};
 pub use view::View;
 
 pub(crate) use forces::forces_on;
@@ -144,6 +144,8 @@ pub struct SceneOptions {
     /// Drawing units for a newton: forces of contacts, loads and drives are drawn to this scale. Without it
     /// loads are arrows of one length.
     pub force_scale: Option<f64>,
+    /// Greatest length of an arrow that is to scale; a longer one is drawn so long, with two strokes.
+    pub longest_arrow: f64,
     /// Sliding velocities.
     pub velocities: bool,
     /// The forces of contacts and drives alone, without values, as what locks the mechanism: those of contacts within
@@ -225,6 +227,7 @@ impl SceneOptions {
             values: true,
             dimensions: true,
             force_scale: None,
+            longest_arrow: loads::LONGEST_ARROW,
             velocities: true,
             locking: false,
             within: None,

@@ -1,6 +1,7 @@
 //! A sheet: the mechanism, and beside it each of its solutions.
 
 use super::forces::forces_on;
+use super::loads::broken;
 use super::paragraph::{LINE, beside, paragraph};
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
@@ -27,8 +28,9 @@ const LEAST_WIDTH: f64 = 290.0;
 const ROW: f64 = 1300.0;
 /// The most solutions that are drawn.
 const MOST: usize = 24;
-/// Length of the longest arrow of a force.
+/// Length of the longest arrow of a force, and to which it may grow at a scale that is held.
 const LONGEST_FORCE: f64 = 76.0;
+const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
 /// Space between panels, and around the sheet.
 const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
@@ -120,8 +122,20 @@ pub struct Sheet {
     pub title: String,
     /// What it shows, in words.
     pub description: String,
+    /// What another drawing needs to be comparable with this one; none of a key and of several drawings.
+    pub held: Option<Held>,
     /// How many of the elements belong to the heading, and where that ends.
     heading: (usize, f64),
+}
+
+/// The scale of forces and the place of a drawing, which [`pieces`] keeps for another state of the same mechanism: so
+/// arrows grow with forces, and what does not move stays where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Held {
+    /// The force (N) whose arrow is as long as the longest of a drawing by itself; none where no force is to scale.
+    pub longest_force: Option<f64>,
+    /// The place that the drawing has. It grows where another needs more, and never shrinks.
+    pub place: Bounds,
 }
 
 impl Sheet {
@@ -183,7 +197,7 @@ pub fn sheet(
 ) -> Option<Sheet> {
     let mechanism = &in_units_of(report, mechanism, configuration);
     let view = view(mechanism, configuration);
-    let drawn = Drawn { mechanism, configuration, report, view: &view };
+    let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force: None };
     let panels = drawn.panels(shown)?;
     let title = title(mechanism);
     let mut lines: Vec<String> =
@@ -195,19 +209,39 @@ pub fn sheet(
 }
 
 /// The same drawings each by itself, with its caption, and at the end the key to their colours, for a page that has
-/// the title and the state itself.
+/// the title and the state itself. Where something is held, solutions are drawn to its scale and in its place.
+///
+/// ```
+/// use slideway::model::{Model, Settings};
+/// use slideway::{configuration::Configuration, mechanism::Mechanism, solve::solve};
+/// use slideway_pictures::drawing::{Held, Sheet, pieces};
+///
+/// let file = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
+/// let drawn = |mu: &str, held: Option<&Held>| -> Result<Vec<Sheet>, slideway::fault::Faults> {
+///     let model = file.with(&Settings::default().parameter("mu", mu))?;
+///     let mechanism = Mechanism::new(&model)?;
+///     let configuration = Configuration::new(&mechanism)?;
+///     Ok(pieces(&mechanism, &configuration, Some(&solve(&model)?), held))
+/// };
+/// // The mechanism itself, its solution, and the key.
+/// let held = drawn("0.3", None)?[1].held;
+/// assert_eq!(drawn("0.5", held.as_ref())?[1].held, held);
+/// # Ok::<(), slideway::fault::Faults>(())
+/// ```
 pub fn pieces(
     mechanism: &Mechanism,
     configuration: &Configuration,
     report: Option<&SolveReport>,
+    held: Option<&Held>,
 ) -> Vec<Sheet> {
     let mechanism = &in_units_of(report, mechanism, configuration);
     let view = view(mechanism, configuration);
-    let drawn = Drawn { mechanism, configuration, report, view: &view };
+    let longest_force = held.and_then(|held| held.longest_force);
+    let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force };
     let panels = drawn.panels(Shown::All).unwrap_or_default();
     let title = title(mechanism);
     let (lines, forces_on) = (Vec::new(), forces_on(mechanism));
-    Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces()
+    Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held)
 }
 
 /// A view with room for what each contact needs.
@@ -226,6 +260,8 @@ struct Drawn<'a> {
     configuration: &'a Configuration,
     report: Option<&'a SolveReport>,
     view: &'a View,
+    /// The force whose arrow is the longest; without it, the greatest of each drawing.
+    longest_force: Option<f64>,
 }
 
 impl Drawn<'_> {
@@ -318,9 +354,12 @@ impl Drawn<'_> {
 
     fn solution(&self, solution: &Solution, heading: String, names: bool) -> Panel {
         let greatest = self.greatest_force(solution);
-        let force_scale = if greatest > 0.0 { LONGEST_FORCE / greatest } else { 1.0 };
+        let longest = self.longest_force.unwrap_or(greatest);
+        let force_scale = if longest > 0.0 { LONGEST_FORCE / longest } else { 1.0 };
+        let mode = SceneOptions::contact_mode(force_scale);
+        let longest_arrow = self.longest_force.map_or(mode.longest_arrow, |_| LONGEST_HELD);
         // Beside the mechanism itself, which shows them, velocities would only be repeated.
-        let options = SceneOptions { names, velocities: names, ..SceneOptions::contact_mode(force_scale) };
+        let options = SceneOptions { names, velocities: names, longest_arrow, ..mode };
         let states = ContactStates::of(solution);
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
         let signs = signs(&solution.pattern);
@@ -421,35 +460,41 @@ impl Layout<'_> {
         }
         y = key(&mut scene, y, row_width, self.forces_on);
         let bounds = Bounds { least: Point::zeros(), greatest: Point::new(row_width, y) }.widened(MARGIN);
-        Sheet { scene, bounds, title: self.title, description, heading }
+        Sheet { scene, bounds, title: self.title, description, held: None, heading }
     }
 
     /// Each panel by itself, and the key.
-    fn pieces(self) -> Vec<Sheet> {
-        let picture = self.picture();
+    fn pieces(self, held: Option<&Held>) -> Vec<Sheet> {
+        let wanted = self.picture();
+        let picture = held.map_or(wanted, |held| wanted.with(held.place));
         let width = picture.size().x.max(LEAST_WIDTH);
         let mut all = Scene::default();
-        let sheet = |scene: Scene, foot: f64, title: &str, description: String| {
+        let sheet = |scene: Scene, foot: f64, (title, description): (&str, String), held: Option<Held>| {
             let frame =
                 Bounds { least: Point::zeros(), greatest: Point::new(width, foot) }.widened(0.5 * SPACE);
             // Nothing that is drawn is cut off.
             let (bounds, title) = (scene.bounds().map_or(frame, |drawn| frame.with(drawn)), title.to_owned());
-            Sheet { scene, bounds, title, description, heading: (0, 0.0) }
+            Sheet { scene, bounds, title, description, held, heading: (0, 0.0) }
         };
         let piece = |panel: &Panel| {
             let own = bounds_of(std::slice::from_ref(panel));
-            let picture = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let own = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let picture = held.map_or(own, |held| own.with(held.place));
             let mut scene = Scene::default();
             let foot = self.panel(&mut scene, panel, &picture, Point::zeros());
             all.elements.extend(scene.elements.iter().cloned());
-            sheet(scene, foot, &panel.caption.heading, panel.caption.in_words())
+            let longest_force = panel.force_scale.map(|scale| LONGEST_FORCE / scale);
+            let longest_force = held.and_then(|held| held.longest_force).or(longest_force);
+            let held = Held { longest_force, place: picture };
+            let words = (&*panel.caption.heading, panel.caption.in_words());
+            sheet(scene, foot, words, Some(held))
         };
         let mut pieces: Vec<Sheet> = self.panels.iter().map(piece).collect();
         let drawn = all.elements.len();
         let foot = key(&mut all, 0.0, width, self.forces_on);
         let key = Scene { elements: all.elements.split_off(drawn), ..Scene::default() };
         if !key.elements.is_empty() {
-            pieces.push(sheet(key, foot, "Key", "What the colours of arrows mean".to_owned()));
+            pieces.push(sheet(key, foot, ("Key", "What the colours of arrows mean".to_owned()), None));
         }
         pieces
     }
@@ -540,22 +585,25 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
         (Class::Velocity, "sliding velocity".to_owned()),
+        (Class::Break, "not to scale".to_owned()),
     ];
     let used: Vec<_> = words
         .into_iter()
         .filter(|(class, _)| scene.elements.iter().any(|element| element.class == *class))
         .collect();
-    let is_broken = scene.elements.iter().any(|element| element.class == Class::Break);
     let mut corner = Point::new(0.0, y + 18.0);
     for (class, text) in &used {
-        let broken = if *class == Class::Load && is_broken { "; with two strokes: not to scale" } else { "" };
-        let text = format!("{text}{broken}");
-        let total = 40.0 + width(&text, VALUE_SIZE);
+        let total = 40.0 + width(text, VALUE_SIZE);
         if corner.x > 0.0 && corner.x + total > most {
             corner = Point::new(0.0, corner.y + LINE * VALUE_SIZE);
         }
-        scene.add(*class, Shape::Arrow { from: corner, to: corner + Point::new(28.0, 0.0) });
-        let end = beside(scene, corner + Point::new(26.0, 0.0), text);
+        let to = corner + Point::new(28.0, 0.0);
+        if *class == Class::Break {
+            broken(corner.lerp(&to, 0.45), Point::x()).for_each(|line| scene.add(*class, line));
+        } else {
+            scene.add(*class, Shape::Arrow { from: corner, to });
+        }
+        let end = beside(scene, corner + Point::new(26.0, 0.0), text.clone());
         corner.x = end + 26.0;
     }
     if used.is_empty() { y } else { corner.y + 8.0 }

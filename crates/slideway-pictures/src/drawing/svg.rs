@@ -274,7 +274,7 @@ pub fn rules(colour: &Colour) -> String {
         ".s-overlap",
         format!("fill: {friction}; fill-opacity: 0.3; stroke: {friction}; stroke-width: 1.2;"),
     );
-    rule(".s-break", format!("fill: none; {}", pen(load, 1.6)));
+    rule(".s-break", format!("fill: none; {}", pen(ink, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));
     rule(".s-leader", format!("fill: none; stroke-dasharray: 2 3; {}", pen(muted, 1.0)));

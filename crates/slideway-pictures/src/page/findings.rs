@@ -59,7 +59,8 @@ impl Findings {
         };
         let answer =
             solve_with(model, &SolveOptions::default(), &mut look).map_err(|faults| reasons(&faults));
-        let (title, drawings) = (title(&mechanism), pieces(&mechanism, &configuration, answer.as_ref().ok()));
+        let (title, drawings) =
+            (title(&mechanism), pieces(&mechanism, &configuration, answer.as_ref().ok(), None));
         let limits = varied(model, wanted, &mut look)?;
         let efficiency = efficiency(model, &mut look);
         let rest = rest(model, &mut look);

@@ -54,7 +54,9 @@ fn cases() -> Vec<(String, Case)> {
 #[test]
 fn everything_is_within_the_view_box() {
     for (name, case, sheet) in &*CASES {
-        for sheet in once(sheet).chain(&pieces(&case.mechanism, &case.configuration, case.report.as_ref())) {
+        for sheet in
+            once(sheet).chain(&pieces(&case.mechanism, &case.configuration, case.report.as_ref(), None))
+        {
             within(name, sheet);
         }
     }
@@ -221,7 +223,7 @@ fn arrows(scene: &Scene, class: Class) -> Vec<(Point, Point)> {
 fn contact_mode(case: &Case, number: usize, force_scale: f64) -> (View, Scene) {
     let view = View::fitting(&case.mechanism, &[&case.configuration], [440.0, 320.0]);
     let solution = &case.report.as_ref().unwrap().solutions[number - 1];
-    let options = SceneOptions::contact_mode(force_scale);
+    let options = SceneOptions { longest_arrow: f64::INFINITY, ..SceneOptions::contact_mode(force_scale) };
     let states = ContactStates::of(solution);
     let scene = scene(&case.mechanism, &case.configuration, &states, &view, &options);
     (view, scene)

@@ -18,7 +18,7 @@ fn overview(case: &Case) -> (View, Scene) {
 fn solved(case: &Case) -> Scene {
     let view = View::fitting(&case.mechanism, &[&case.configuration], [440.0, 320.0]);
     let [solution] = &case.report.as_ref().unwrap().solutions[..] else { panic!("one solution") };
-    let options = SceneOptions::contact_mode(1.0);
+    let options = SceneOptions { longest_arrow: f64::INFINITY, ..SceneOptions::contact_mode(1.0) };
     scene(&case.mechanism, &case.configuration, &ContactStates::of(solution), &view, &options)
 }
 

@@ -9,6 +9,7 @@ mod drawing;
 mod random_mechanisms;
 
 mod gallery;
+mod held;
 mod jam;
 mod looks;
 mod random;

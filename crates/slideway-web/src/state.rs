@@ -1,0 +1,107 @@
+//! A state of a model with its answer, and what its drawings share with those of other states of the same model.
+//!
+//! While a slider is dragged the force scale stays, so that arrows grow as forces do, and so does the place of the
+//! picture. The scale is that of the model as it is in the file, whatever is set: the same link shows the same picture.
+
+use crate::question::Asked;
+use serde::{Deserialize, Serialize};
+use slideway::configuration::Configuration;
+use slideway::fault::Faults;
+use slideway::mechanism::Mechanism;
+use slideway::model::Model;
+use slideway::progress::Callback;
+use slideway::report::SolveReport;
+use slideway::solve::{SolveOptions, solve_with};
+use slideway_pictures::drawing::{Bounds, Held, Point, Sheet, pieces};
+
+/// What the page sends back with its next question of the same model: scale and place of the drawings.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct Kept {
+    /// The force (N) whose arrow has the usual length.
+    longest_force: Option<f64>,
+    /// Least x and y, then greatest.
+    place: [f64; 4],
+}
+
+impl From<Held> for Kept {
+    fn from(Held { longest_force, place: Bounds { least, greatest } }: Held) -> Self {
+        Self { longest_force, place: [least.x, least.y, greatest.x, greatest.y] }
+    }
+}
+
+impl From<Kept> for Held {
+    fn from(Kept { longest_force, place: [left, top, right, bottom] }: Kept) -> Self {
+        let place = Bounds { least: Point::new(left, top), greatest: Point::new(right, bottom) };
+        Self { longest_force, place }
+    }
+}
+
+/// A state of a model.
+pub(crate) struct State {
+    pub(crate) mechanism: Mechanism,
+    /// As it is drawn in the file where it cannot be assembled.
+    pub(crate) configuration: Configuration,
+    /// Its solutions, or why the question has no answer.
+    pub(crate) solved: Result<SolveReport, Faults>,
+}
+
+impl State {
+    /// The present state of a model.
+    ///
+    /// # Errors
+    /// Faults of the model.
+    pub(crate) fn of(model: &Model, margins: bool, callback: &mut Callback<'_>) -> Result<Self, Faults> {
+        let mechanism = Mechanism::new(model)?;
+        let options = SolveOptions::default().margins(margins);
+        let (configuration, solved) = match Configuration::new(&mechanism) {
+            Ok(configuration) => (configuration, solve_with(model, &options, callback)),
+            Err(faults) => (Configuration::drawing(&mechanism), Err(faults)),
+        };
+        Ok(Self { mechanism, configuration, solved })
+    }
+
+    /// Its drawings, and what those of the next state keep of them; `held` is what they keep of those before.
+    pub(crate) fn drawn(&self, held: Option<Held>) -> (Vec<Sheet>, Option<Held>) {
+        let sheets = pieces(&self.mechanism, &self.configuration, self.solved.as_ref().ok(), held.as_ref());
+        let has_solutions = self
+            .solved
+            .as_ref()
+            .is_ok_and(|report| !report.solutions.is_empty() || !report.preload_gap_states.is_empty());
+        // What shows why it jams has no scale of forces, and its friction cones need a place that no other drawing does.
+        if held.is_some() && !has_solutions {
+            return (sheets, held);
+        }
+        // The first sheet is the mechanism itself.
+        let solutions = sheets.iter().skip(1).filter_map(|sheet| sheet.held).filter(|_| has_solutions);
+        let longest_force = solutions.clone().filter_map(|held| held.longest_force).reduce(f64::max);
+        let longest_force = held.and_then(|held| held.longest_force).or(longest_force);
+        let places = sheets.first().and_then(|sheet| sheet.held).into_iter().chain(solutions);
+        let place = places.map(|held| held.place).reduce(Bounds::with);
+        let kept = place.map(|place| Held { longest_force, place });
+        (sheets, kept.filter(|held| is_finite(*held)))
+    }
+}
+
+/// A place beyond floating-point numbers is none that JSON could hold.
+fn is_finite(held: Held) -> bool {
+    let Kept { longest_force, place } = Kept::from(held);
+    place.into_iter().chain(longest_force).all(f64::is_finite)
+}
+
+/// What the drawings of the first state that is asked for keep of the state in the file.
+pub(crate) fn first_held(
+    asked: &Asked,
+    file: &Model,
+    state: &State,
+    callback: &mut Callback<'_>,
+) -> Option<Held> {
+    if asked.settings.entries().is_empty() {
+        return state.drawn(None).1;
+    }
+    // The file may be at fault where settings mend it.
+    let in_file = State::of(file, false, callback).ok().and_then(|in_file| in_file.drawn(None).1);
+    match in_file {
+        Some(Held { longest_force: Some(_), .. }) => in_file,
+        _ => state.drawn(None).1,
+    }
+}

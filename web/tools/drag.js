@@ -1,0 +1,123 @@
+// How the page feels on a slow machine and a slow line; it has been built (tools/build.js):
+//
+//     node web/tools/drag.js [NAME ..]
+//
+// For each model of the gallery, or those that are named: how many pictures a second the first drag shows, right after the model was opened, when
+// everything is as slow as if the machine were so many times slower; and the processor time of the renderer for each
+// picture, which does not depend on what else the machine does. Then how long the first picture takes over slow lines.
+
+import { readdirSync } from "node:fs";
+import { resolve } from "node:path";
+import { chromium } from "playwright-core";
+import { browserProgram, limits, settled } from "../test/browser.js";
+import { page as folder, top } from "./places.js";
+import { serve } from "./serve.js";
+
+/** So many times slower than this machine. */
+const SLOWER = 4;
+const MOVES = 60;
+/** Lines (Mbit/s), with 100 ms from question to answer. */
+const LINES = [1.6, 0.4];
+const LATENCY = 100;
+
+const server = await serve(folder);
+const at = `http://localhost:${server.address().port}/`;
+const browser = await chromium.launch({ executablePath: browserProgram(), args: ["--no-sandbox"] });
+const control = await browser.newBrowserCDPSession();
+
+/** Makes a worker slower, which the browser can do for the page only: each answer waits for so many times its own time. */
+const slowed = (script) => `{
+  const post = self.postMessage.bind(self);
+  let begun = 0;
+  addEventListener("message", () => { begun = performance.now(); });
+  self.postMessage = (message) => {
+    const until = performance.now() + ${SLOWER - 1} * (performance.now() - begun);
+    while (message.reply && performance.now() < until);
+    post(message);
+  };
+}
+${script}`;
+
+/** Processor time of all pages (s). */
+async function spent() {
+  const { processInfo } = await control.send("SystemInfo.getProcessInfo");
+  return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+}
+
+/** The first drag of a model: pictures a second, and the processor time of each (ms). */
+async function firstDrag(name, slower) {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, serviceWorkers: "block" });
+  const page = await context.newPage();
+  if (slower) {
+    await page.route("**/worker.js", async (route) => {
+      const response = await route.fetch();
+      await route.fulfill({ response, body: slowed(await response.text()) });
+    });
+  }
+  await page.goto(`${at}#model=gallery:${name}`);
+  await settled(page);
+  await limits(page).catch(() => {});
+  if (slower) {
+    const client = await context.newCDPSession(page);
+    await client.send("Emulation.setCPUThrottlingRate", { rate: SLOWER });
+  }
+  const box = await page.locator(".strip-slider").boundingBox();
+  const shown = () => page.evaluate(() => [Number(document.documentElement.dataset.shown), performance.now()]);
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + 0.3 * box.width, y);
+  await page.mouse.down();
+  const [[first, from], before] = [await shown(), await spent()];
+  for (let move = 1; move <= MOVES; move++) {
+    await page.mouse.move(box.x + (0.3 + (0.4 * move) / MOVES) * box.width, y);
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+  const [[last, to], after] = [await shown(), await spent()];
+  await page.mouse.up();
+  await context.close();
+  const count = Math.max(1, last - first);
+  return { rate: (1000 * (last - first)) / (to - from), each: (1000 * (after - before)) / count };
+}
+
+/** Time until the first picture over a line (s), and what came (MB). */
+async function firstPicture(megabits) {
+  const context = await browser.newContext({ serviceWorkers: "block" });
+  const page = await context.newPage();
+  const client = await context.newCDPSession(page);
+  let bytes = 0;
+  client.on("Network.loadingFinished", ({ encodedDataLength }) => {
+    bytes += encodedDataLength;
+  });
+  await client.send("Network.enable");
+  const throughput = (megabits * 1e6) / 8;
+  await client.send("Network.emulateNetworkConditions", {
+    offline: false,
+    latency: LATENCY,
+    downloadThroughput: throughput,
+    uploadThroughput: throughput,
+  });
+  const begun = performance.now();
+  await page.goto(at, { waitUntil: "commit", timeout: 120_000 });
+  await page.waitForFunction(() => document.documentElement.dataset.state === "shown", null, { timeout: 300_000 });
+  const seconds = (performance.now() - begun) / 1000;
+  await context.close();
+  return { seconds, megabytes: bytes / 1e6 };
+}
+
+const say = (text) => process.stdout.write(`${text}\n`);
+for (const megabits of LINES) {
+  const { seconds, megabytes } = await firstPicture(megabits);
+  say(`${megabits} Mbit/s: the first picture after ${seconds.toFixed(1)} s, ${megabytes.toFixed(2)} MB`);
+}
+const all = [];
+const gallery = readdirSync(resolve(top, "models")).map((file) => file.slice(0, -".toml".length));
+const named = process.argv.slice(2);
+for (const name of named.length > 0 ? named : gallery) {
+  const { rate } = await firstDrag(name, true);
+  const { each } = await firstDrag(name, false);
+  all.push({ name, rate, each });
+  say(`${name}: ${rate.toFixed(0)} pictures a second, ${each.toFixed(1)} ms of processor time for each`);
+}
+const median = (of) => all.map(of).sort((a, b) => a - b)[Math.floor(all.length / 2)];
+say(`median: ${median(({ rate }) => rate).toFixed(0)} pictures a second, ${median(({ each }) => each).toFixed(1)} ms`);
+await browser.close();
+server.close();
