@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints what CHANGELOG.md says of a release, and fails unless everything is ready for it.
 
-    .ci/release-notes v0.1.0
+    .ci/release_notes.py v0.1.0
 
 The workspace and the Python package must have the version of the tag, and the changelog a date for it.
 """
