@@ -1,19 +1,26 @@
-"""Everything that the package gives can be sent to another process."""
+"""The package as a whole: its version, and that everything it gives can be sent to another process."""
 
 from __future__ import annotations
 
 import dataclasses
 import inspect
 import pickle
+import tomllib
 from typing import Any
 
 import pytest
 import slideway
 import slideway.dask
+from conftest import WORKSPACE
 from slideway import Model
 from slideway._answer import Record
 
 MODULES = (slideway, slideway.dask, slideway.modes, slideway.plotting, slideway.reports)
+
+
+def test_the_version_is_that_of_the_workspace() -> None:
+    manifest = tomllib.loads((WORKSPACE / "Cargo.toml").read_text())
+    assert slideway.__version__ == manifest["workspace"]["package"]["version"]
 
 
 def public_classes() -> set[type]:
