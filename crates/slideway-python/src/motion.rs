@@ -117,17 +117,18 @@ pub(crate) fn computed<'py>(
     watch: &Watch,
 ) -> PyResult<Bound<'py, PyAny>> {
     let refused = |faults| asked.refused(py, &faults);
-    let configuration = Configuration::new(mechanism).map_err(refused)?;
     let Some(most) = all_branches else {
         let history = watch.run(py, |callback| {
+            let configuration = Configuration::with_progress(mechanism, callback)?;
             simulate_with(mechanism, &configuration, &options, &mut Thorough, callback)
         })?;
-        let history = history.so_far().map_err(refused)?;
+        let history = history.answer(refused)?;
         return Motion::object(py, history, options, asked);
     };
     let tree = watch.run(py, |callback| {
-        simulate_all(mechanism, &configuration, &options, (&mut Thorough, most), callback)
+        let configuration = Configuration::with_progress(mechanism, callback)?;
+        let tree = simulate_all(mechanism, &configuration, &options, (&mut Thorough, most), callback)?;
+        finite(motion::tree_report(&tree, &options))
     })?;
-    let report = tree.so_far().and_then(|tree| finite(motion::tree_report(&tree, &options)));
-    Answer::object(py, "TreeReport", report.map_err(refused)?, Some(asked))
+    Answer::object(py, "TreeReport", tree.answer(refused)?, Some(asked))
 }

@@ -2,6 +2,8 @@
 
 use pyo3::exceptions::{PyRuntimeError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
+use slideway::Faults;
+use slideway::fault::FaultKind;
 use slideway::progress::{Callback, Progress};
 use std::ops::ControlFlow;
 use std::panic::{self, AssertUnwindSafe};
@@ -42,7 +44,26 @@ impl<T> Ended<Option<T>> {
     pub(crate) fn whole(self) -> PyResult<T> {
         match self {
             Self::Done(Some(value)) => Ok(value),
-            _ => Err(PyTimeoutError::new_err("the work was not done within time_limit")),
+            _ => Err(time_up()),
+        }
+    }
+}
+
+fn time_up() -> PyErr {
+    PyTimeoutError::new_err("the work was not done within time_limit")
+}
+
+impl<T> Ended<Result<T, Faults>> {
+    /// The answer as far as it goes.
+    ///
+    /// # Errors
+    /// What it is refused for; `TimeoutError` if there was no answer yet when its time was up.
+    pub(crate) fn answer(self, refused: impl FnOnce(Faults) -> PyErr) -> PyResult<T> {
+        let is_ended =
+            |faults: &Faults| faults.sorted().iter().any(|fault| fault.kind == FaultKind::WorkEnded);
+        match self {
+            Self::TimeUp(Err(faults)) if is_ended(&faults) => Err(time_up()),
+            Self::Done(answer) | Self::TimeUp(answer) => answer.map_err(refused),
         }
     }
 }

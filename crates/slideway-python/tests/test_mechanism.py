@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -217,6 +218,26 @@ def test_copies_are_their_own() -> None:
         "<slideway.Mechanism: parameter mu, body drawer, joint rail, load push, coordinate x>"
     )
     assert repr(Mechanism()) == "<slideway.Mechanism: empty>"
+
+
+def test_a_pickled_mechanism_goes_on() -> None:
+    m = drawer()
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        again = pickle.loads(pickle.dumps(m, protocol))
+        assert again.to_toml() == m.to_toml() and repr(again) == repr(m)
+    assert again.build().with_(mu=0.2) == m.build().with_(mu=0.2)
+    for each in (m, again):
+        each.force("second", "drawer", at=(0, 0), components=("mu * 1 N", 0))
+        each.drive_by_force("drive", "x", "drawer", at=(0, 0), direction=0)
+        with pytest.raises(ValueError, match="there is a joint named \"rail\" already"):
+            slider_named(each, "rail")
+    assert again.to_toml() == m.to_toml() and "second" in m.to_toml()
+    with pytest.raises(ValueError, match="no mechanism that this version of slideway has pickled"):
+        Mechanism._restore("{}")
+
+
+def slider_named(m: Mechanism, name: str) -> str:
+    return m.block_slider(name, "drawer", GROUND, at=(0, 0), length=1)
 
 
 def test_names_are_written_safely() -> None:

@@ -241,17 +241,6 @@ def test_dollars_in_a_title_are_no_formula():
     assert any("1 \\$ and 2 \\$" in each.get_text() for each in ax.texts)
 
 
-def test_without_matplotlib_it_says_what_to_install():
-    program = (
-        "import sys; sys.modules['matplotlib'] = None\n"
-        "import slideway\n"
-        "report = slideway.Model.gallery('drawer').limits('mu', 0, 1)\n"
-        "try:\n    report.plot()\nexcept ImportError as error:\n    print(error)\n"
-    )
-    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert said.stdout == "plots need matplotlib: pip install slideway[plot]\n"
-
-
 def test_what_panels_show_does_not_depend_on_matplotlib(figure_4):
     wide, narrow = (figure_4._answer.plot().drawn(width, 380.0)[0] for width in (700.0, 300.0))
     assert wide.x == narrow.x and wide.y == narrow.y

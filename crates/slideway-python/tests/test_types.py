@@ -14,7 +14,7 @@ from typing import Any, get_args
 import pytest
 
 import slideway
-from slideway import _values
+from slideway import _values, modes
 
 HERE = Path(__file__).resolve().parent
 
@@ -47,6 +47,13 @@ def test_signatures_show_their_defaults() -> None:
             if callable(thing) and not name.startswith("_"):
                 defaults = [one.default for one in inspect.signature(thing).parameters.values()]
                 assert Ellipsis not in defaults, name
+
+
+def test_functions_of_matrices_show_the_keywords_of_every_search() -> None:
+    keywords = "max_solutions: 'int' = 100, max_nodes: 'int | None' = None, max_found: 'int | None' = None"
+    keywords += ", uniqueness: 'bool' = False, time_limit: 'float | None' = None, progress: 'Progress | None' = None"
+    for name in modes.__all__:
+        assert keywords in str(inspect.signature(getattr(modes, name)))
 
 
 def test_words_of_choices_are_those_that_are_taken() -> None:

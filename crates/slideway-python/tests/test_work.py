@@ -44,6 +44,16 @@ def test_a_time_limit_without_a_partial_answer() -> None:
         Model.gallery("klepp-2002").map(mu_1=(0, 1), alpha=("70 deg", "85 deg"), size=(900, 900), time_limit=0.2)
 
 
+@pytest.mark.parametrize("question", [Model.solve, lambda model, **limit: model.simulate("2 s", **limit)])
+def test_a_time_limit_before_there_is_any_answer(question: Any) -> None:
+    # The position itself takes thousands of steps, after which it is refused (crates/slideway/tests/extremes.rs).
+    far = Model.gallery("slider-crank").with_(phi="1e5 rad")
+    with pytest.raises(TimeoutError, match="not done within time_limit"):
+        question(far, time_limit=1e-9)
+    with pytest.raises(slideway.ModelError, match="too far from the drawing"):
+        question(far)
+
+
 def test_a_callback_that_raises() -> None:
     class Enough(Exception):
         pass

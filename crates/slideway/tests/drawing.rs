@@ -43,6 +43,22 @@ fn handles_find_what_belongs_to_them() {
     }
 }
 
+/// Names of points and numbers of contacts go on where they were.
+#[test]
+fn a_drawing_that_was_stored_is_continued() {
+    let (mut drawing, [_, _, upper]) = paper();
+    let mut stored: Drawing = serde_json::from_str(&serde_json::to_string(&drawing).unwrap()).unwrap();
+    let mut slots = Vec::new();
+    for drawing in [&mut drawing, &mut stored] {
+        let bar = slideway::ids::BodyId(0);
+        slots.push(drawing.pin_in_slot("upper_2", bar, GROUND).at([0, 0]).mu(0.5).id().contact());
+        drawing.force("A", bar).at([0, 0]).components([1, 0]);
+    }
+    assert_eq!(stored.to_toml(), drawing.to_toml());
+    assert!(stored.to_toml().contains("A_2"), "a point has the name of the hinge already");
+    assert_eq!((slots[0], slots[1].index()), (slots[1], upper.index() + 1));
+}
+
 /// A drawer as in the gallery, with everything that its file has but words and shape.
 #[test]
 fn a_drawing_is_its_model_file() {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING, Any, Literal
 
+from ._needs import needs
 from ._values import ThemeName
 
 if TYPE_CHECKING:
@@ -44,11 +45,9 @@ LEGENDS = (("curve", "several"), ("marker", "end", "point"), ("cut", "hatched", 
 
 def pyplot() -> Any:
     """The module of matplotlib."""
-    try:
-        from matplotlib import pyplot as module
-    except ImportError as error:
-        raise ImportError("plots need matplotlib: pip install slideway[plot]") from error
-    return module
+    with needs("plots need matplotlib", "matplotlib"):
+        from matplotlib import pyplot
+    return pyplot
 
 
 def wrapped(text: str, width: float, size: float) -> list[str]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _display, plotting
+from ._needs import needs
 
 if TYPE_CHECKING:
     import pandas
@@ -118,7 +119,8 @@ class Sweep:
         >>> slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).to_polars().height
         2
         """
-        import polars
+        with needs("to_polars() needs polars", "polars"):
+            import polars
 
         return polars.DataFrame(self)
 
@@ -135,7 +137,9 @@ class Sweep:
         >>> len(slideway.Model.gallery("drawer").sweep(mu=[0.1, 0.2]).to_pandas())
         2
         """
-        import pyarrow
+        with needs("to_pandas() needs pandas and pyarrow", "pandas", "pyarrow"):
+            import pandas
+            import pyarrow
 
         return pyarrow.table(self).to_pandas()
 

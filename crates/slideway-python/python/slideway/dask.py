@@ -1,4 +1,4 @@
-"""Sweeps over a cluster, with Dask: `pip install slideway[dask]`.
+"""Sweeps over a cluster, with Dask.
 
 A sweep is cut into shards, as `slideway sweep --shard` cuts it: chunks that take seconds, so that Dask's share of the
 time is small. Each is a task of its own; one whose worker dies is computed again by another.
@@ -12,14 +12,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import dask.dataframe as dd
 import numpy as np
-import pandas
-import pyarrow
-import pyarrow.parquet
 
 from . import __version__
+from ._needs import needs
 from ._slideway import Model
+
+with needs("slideway.dask needs Dask", "dask[dataframe]", "distributed", "pandas", "pyarrow"):
+    import dask.dataframe as dd
+    import pandas
+    import pyarrow
+    import pyarrow.parquet
 
 if TYPE_CHECKING:
     from distributed import Client

@@ -10,28 +10,92 @@
 
 from __future__ import annotations
 
+import inspect
 import operator
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypedDict, TypeVar, Unpack
 
 from numpy.typing import ArrayLike
 
 from . import _slideway, reports
+from ._values import Progress
 
 __all__ = ["block_ave", "game", "hlcp", "lcp", "mcp", "mlcp", "mode_problem", "solve"]
 
-Progress = Callable[[float | None, int, str], object]
+_Question = TypeVar("_Question", bound=Callable[..., reports.RawReport])
 
 
-def _options(
-    max_solutions: int,
-    max_nodes: int | None,
-    max_found: int | None,
-    uniqueness: bool,
-    time_limit: float | None,
-    progress: Progress | None,
-) -> dict[str, Any]:
-    options: dict[str, Any] = dict(locals())
+class Search(TypedDict, total=False):
+    """What a search may cost, and what is listed: keywords of every function here."""
+
+    max_solutions: int
+    max_nodes: int | None
+    max_found: int | None
+    uniqueness: bool
+    time_limit: float | None
+    progress: Progress | None
+
+
+_DEFAULTS: Search = {
+    "max_solutions": 100,
+    "max_nodes": None,
+    "max_found": None,
+    "uniqueness": False,
+    "time_limit": None,
+    "progress": None,
+}
+# Stands in the documentation of every function, before its examples.
+_DOCUMENTATION = """\
+Other Parameters
+----------------
+max_solutions : int, default 100
+    How many solutions to list, perhaps none; all are counted. What is part of a continuum is not listed by itself.
+max_nodes : int, optional
+    After how many nodes the search ends; the answer is then partial.
+max_found : int, optional
+    The search of unknowns that do not depend on others ends once it has more solutions than this; the answer
+    is then partial.
+uniqueness : bool, default False
+    Whether to decide if there is exactly one solution for every right-hand side, too.
+time_limit : float, optional
+    The longest that it may take (s); the answer is then partial.
+progress : callable, optional
+    Called with the fraction that is done (None if it is not known), a count, and what is counted.
+
+Returns
+-------
+reports.RawReport
+    Iterable over its solutions; `complete` says how it is known that there are no others.
+
+Raises
+------
+ValueError
+    Sizes that do not fit, numbers that are not finite, or a matrix that should be regular and is not.
+
+Examples
+--------
+"""
+
+
+def _searching(function: _Question) -> _Question:
+    """The function with the keywords of `Search` in its signature and documentation."""
+    signature = inspect.signature(function)
+    hints = Search.__annotations__
+    own = [one for one in signature.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
+    searching = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=hints[name].__forward_arg__)
+        for name, default in _DEFAULTS.items()
+    ]
+    function.__signature__ = signature.replace(parameters=[*own, *searching])  # type: ignore[attr-defined]
+    text = inspect.cleandoc(function.__doc__ or "")
+    function.__doc__ = text.replace("Examples\n--------\n", _DOCUMENTATION)
+    return function
+
+
+def _options(search: Search) -> dict[str, Any]:
+    options: dict[str, Any] = {**_DEFAULTS, **search}
+    if unknown := options.keys() - _DEFAULTS.keys():
+        raise TypeError(f"there is no keyword argument {min(unknown)!r}; there are {', '.join(_DEFAULTS)}")
     for name in ("max_solutions", "max_nodes", "max_found"):
         count = options[name]
         if count is None and name != "max_solutions":
@@ -45,18 +109,8 @@ def _options(
     return options
 
 
-def solve(
-    A: ArrayLike,
-    B: ArrayLike,
-    b: ArrayLike,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
-) -> reports.RawReport:
+@_searching
+def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **search: Unpack[Search]) -> reports.RawReport:
     """All solutions `x` of the absolute value equation `A x + B |x| = b`.
 
     Parameters
@@ -64,52 +118,21 @@ def solve(
     A, B : array, n by n
     b : array of n
 
-    Other Parameters
-    ----------------
-    max_solutions : int, default 100
-        How many solutions to list, perhaps none; all are counted. What is part of a continuum is not listed by itself.
-    max_nodes : int, optional
-        After how many nodes the search ends; the answer is then partial.
-    max_found : int, optional
-        The search of unknowns that do not depend on others ends once it has more solutions than this; the answer
-        is then partial.
-    uniqueness : bool, default False
-        Whether to decide if there is exactly one solution for every `b`, too.
-    time_limit : float, optional
-        The longest that it may take (s); the answer is then partial.
-    progress : callable, optional
-        Called with the fraction that is done (None if it is not known), a count, and what is counted.
-
-    Returns
-    -------
-    reports.RawReport
-        Iterable over its solutions; `complete` says how it is known that there are no others.
-
-    Raises
-    ------
-    ValueError
-        Sizes that do not fit, or numbers that are not finite.
-
     Examples
     --------
     >>> [solution.x.tolist() for solution in solve([[1.0]], [[-0.5]], [1.0])]
     [[2.0]]
     """
-    return _slideway.solve(A, B, b, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.solve(A, B, b, _options(search))
 
 
+@_searching
 def block_ave(
     B: ArrayLike,
     b: ArrayLike,
     blocks: ArrayLike,
     A: ArrayLike | None = None,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
+    **search: Unpack[Search],
 ) -> reports.RawReport:
     """All solutions of `A x + B |x| = b`, where `|x|` has the lengths of blocks of one or two components.
 
@@ -127,41 +150,17 @@ def block_ave(
     A : array, n by n, optional
         A regular matrix; without it, the identity.
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-        Iterable over its solutions; `complete` says how it is known that there are no others.
-
-    Raises
-    ------
-    ValueError
-        Sizes that do not fit, numbers that are not finite, or a matrix `A` that is not regular.
-
     Examples
     --------
     >>> answer = block_ave([[-2.0], [0.0]], [-1.0, 0.0], [2])     # x = (2, 0) |x| - (1, 0)
     >>> sorted(round(float(abs(solution.x[0])), 12) for solution in answer)
     [0.333333333333, 1.0]
     """
-    return _slideway.blocks((B, A), b, blocks, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.blocks((B, A), b, blocks, _options(search))
 
 
-def lcp(
-    M: ArrayLike,
-    q: ArrayLike,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
-) -> reports.RawReport:
+@_searching
+def lcp(M: ArrayLike, q: ArrayLike, **search: Unpack[Search]) -> reports.RawReport:
     """All solutions of the linear complementarity problem `w = M z + q`, `w >= 0`, `z >= 0`, `w z = 0`.
 
     Parameters
@@ -169,35 +168,16 @@ def lcp(
     M : array, n by n
     q : array of n
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-
     Examples
     --------
     >>> [solution.z.tolist() for solution in lcp([[2.0]], [-1.0])]
     [[0.5]]
     """
-    return _slideway.lcp(M, q, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.lcp(M, q, _options(search))
 
 
-def hlcp(
-    A: ArrayLike,
-    B: ArrayLike,
-    q: ArrayLike,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
-) -> reports.RawReport:
+@_searching
+def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **search: Unpack[Search]) -> reports.RawReport:
     """All solutions of the horizontal linear complementarity problem `A w - B z = q`, `w >= 0`, `z >= 0`, `w z = 0`.
 
     Parameters
@@ -205,23 +185,15 @@ def hlcp(
     A, B : array, n by n
     q : array of n
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-
     Examples
     --------
     >>> [solution.z.tolist() for solution in hlcp([[1.0]], [[2.0]], [-1.0])]
     [[0.5]]
     """
-    return _slideway.hlcp(A, B, q, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.hlcp(A, B, q, _options(search))
 
 
+@_searching
 def mlcp(
     A: ArrayLike,
     B: ArrayLike,
@@ -229,13 +201,7 @@ def mlcp(
     D: ArrayLike,
     a: ArrayLike,
     b: ArrayLike,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
+    **search: Unpack[Search],
 ) -> reports.RawReport:
     """All solutions of the mixed linear complementarity problem `A u + C z + a = 0`, `w = D u + B z + b`, `w >= 0`,
     `z >= 0`, `w z = 0`, in which `u` is free.
@@ -245,37 +211,17 @@ def mlcp(
     A, B, C, D : array, n by n, m by m, n by m and m by n
     a, b : array of n and of m
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-
     Examples
     --------
     >>> answer = mlcp([[0.0]], [[1.0]], [[1.0]], [[-1.0]], [-1.0], [0.0])     # z = 1, w = z - u
     >>> [(solution.u.tolist(), solution.z.tolist()) for solution in answer]
     [([1.0], [1.0])]
     """
-    return _slideway.mlcp((A, B, C, D), (a, b), _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.mlcp((A, B, C, D), (a, b), _options(search))
 
 
-def mcp(
-    M: ArrayLike,
-    q: ArrayLike,
-    l: ArrayLike,
-    u: ArrayLike,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
-) -> reports.RawReport:  # noqa: E741
+@_searching
+def mcp(M: ArrayLike, q: ArrayLike, l: ArrayLike, u: ArrayLike, **search: Unpack[Search]) -> reports.RawReport:  # noqa: E741
     """All solutions of the mixed complementarity problem `w = M z + q`, `l <= z <= u`, with `w >= 0` where `z < u`, and
     `w <= 0` where `z > l`.
 
@@ -285,35 +231,17 @@ def mcp(
     q, l, u : array of n
         Bounds may be infinite.
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-
     Examples
     --------
     >>> answer = mcp([[1.0]], [-5.0], [0.0], [3.0])
     >>> [(solution.z.tolist(), solution.w.tolist()) for solution in answer]
     [([3.0], [-2.0])]
     """
-    return _slideway.mcp(M, q, (l, u), _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.mcp(M, q, (l, u), _options(search))
 
 
-def game(
-    A: ArrayLike,
-    B: ArrayLike | None = None,
-    *,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
-) -> reports.RawReport:
+@_searching
+def game(A: ArrayLike, B: ArrayLike | None = None, **search: Unpack[Search]) -> reports.RawReport:
     """All Nash equilibria of a bimatrix game: `x` maximises `x A y`, and `y` maximises `x B y`.
 
     Parameters
@@ -323,36 +251,23 @@ def game(
     B : array, m by n, optional
         Payoffs of the second player, who chooses a column; by default `-A`.
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-
     Examples
     --------
     >>> answer = game([[2.0, 0.0], [0.0, 1.0]], [[1.0, 0.0], [0.0, 2.0]])     # battle of the sexes
     >>> [(solution.x.round(3).tolist(), round(solution.payoff_1, 3)) for solution in answer]
     [([0.667, 0.333], 0.667), ([1.0, 0.0], 2.0), ([0.0, 1.0], 1.0)]
     """
-    return _slideway.game(A, B, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.game(A, B, _options(search))
 
 
+@_searching
 def mode_problem(
     columns_positive: ArrayLike,
     columns_negative: ArrayLike,
     right_hand_side: ArrayLike,
     *,
     jumps: tuple[ArrayLike, ArrayLike] | None = None,
-    max_solutions: int = 100,
-    max_nodes: int | None = None,
-    max_found: int | None = None,
-    uniqueness: bool = False,
-    time_limit: float | None = None,
-    progress: Progress | None = None,
+    **search: Unpack[Search],
 ) -> reports.RawReport:
     """All solutions of a mode problem, eq. (6) of Klepp (2002).
 
@@ -365,19 +280,10 @@ def mode_problem(
     jumps : pair of arrays, optional
         The jumps of preloads for positive and for negative normal forces (N).
 
-    Other Parameters
-    ----------------
-    max_solutions, max_nodes, max_found, uniqueness, time_limit, progress
-        As for `solve`.
-
-    Returns
-    -------
-    reports.RawReport
-
     Examples
     --------
     >>> answer = mode_problem([[0.5]], [[-1.5]], [1.0])     # 0.5 N = 1, or -1.5 |N| = 1
     >>> [solution.normal_forces.tolist() for solution in answer]
     [[2.0]]
     """
-    return _slideway.mode_problem(columns_positive, columns_negative, right_hand_side, jumps, _options(max_solutions, max_nodes, max_found, uniqueness, time_limit, progress))
+    return _slideway.mode_problem(columns_positive, columns_negative, right_hand_side, jumps, _options(search))

@@ -9,18 +9,21 @@
 mod state;
 mod values;
 
-use crate::arguments::{pair, quantity, sequence, two};
+use crate::arguments::{pair, quantity};
 use crate::model::Model;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use slideway::drawing::{
     BlockSlider, BodyBuilder, CoordinateBuilder, DriveBuilder, ForceBuilder, LoadBuilder, SingleSlider,
     SliderBuilder,
 };
 pub(crate) use state::GROUND;
 use state::{State, found};
+use std::borrow::Cow;
 use std::sync::Mutex;
 use values::{
-    BlockEnd, CoordinateValues, End, Gravity, Said, SliderValues, Support, optional, optional_pair,
+    BlockEnd, BodyValues, CoordinateValues, End, Gravity, Said, SliderValues, Support, optional,
+    optional_pair,
 };
 
 #[doc = include_str!("../../docs/mechanism/class.txt")]
@@ -84,23 +87,9 @@ impl Mechanism {
         outline: Option<&Bound<'_, PyAny>>,
         massless: bool,
     ) -> PyResult<String> {
-        let (mass, inertia) = (optional("mass", mass)?, optional("inertia", inertia)?);
-        let (centre, rectangle) = (optional_pair("centre", centre)?, optional_pair("rectangle", rectangle)?);
-        let disc = optional("disc", disc)?;
-        let bar = bar.map(|ends| two("bar", ends, "places")).transpose()?;
-        let bar =
-            bar.map(|[one, other]| Ok::<_, PyErr>([pair("bar", &one)?, pair("bar", &other)?])).transpose()?;
-        let corner = |corner: &Bound<'_, PyAny>| pair("outline", corner);
-        let corners = outline.map(|corners| sequence("outline", corners, "places")).transpose()?;
-        let corners =
-            corners.map(|corners| corners.iter().map(corner).collect::<PyResult<Vec<_>>>()).transpose()?;
+        let values = BodyValues::new([mass, inertia, disc], [centre, rectangle], [bar, outline])?;
         self.add(py, ("body", name), |state| {
-            let body = state.drawing.body(name);
-            let body = body.with(mass, BodyBuilder::mass).with(inertia, BodyBuilder::inertia);
-            let body = body.with(centre, BodyBuilder::centre).with(rectangle, BodyBuilder::rectangle);
-            let body = body.with(disc, BodyBuilder::disc).with(bar, BodyBuilder::bar);
-            let body = body.with(corners, BodyBuilder::outline).when(massless, BodyBuilder::massless);
-            let id = body.id();
+            let id = values.say(state.drawing.body(name)).when(massless, BodyBuilder::massless).id();
             state.bodies.push((name.to_owned(), id));
             Ok(())
         })
@@ -491,7 +480,7 @@ impl Mechanism {
 
     fn __repr__(&self) -> String {
         let state = self.state();
-        let told = |(what, name): &(&str, String)| format!("{what} {name}");
+        let told = |(what, name): &(Cow<'_, str>, String)| format!("{what} {name}");
         let names: Vec<String> = state.names.iter().map(told).collect();
         let names = if names.is_empty() { "empty".to_owned() } else { names.join(", ") };
         format!("<slideway.Mechanism: {names}>")
@@ -504,5 +493,16 @@ impl Mechanism {
     #[pyo3(signature = (_memo: "object") -> "Mechanism")]
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
         self.__copy__()
+    }
+
+    #[pyo3(signature = () -> "tuple[object, ...]")]
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        (py.get_type::<Self>().getattr("_restore")?, (self.state().kept()?,)).into_pyobject(py)
+    }
+
+    /// The mechanism that was pickled.
+    #[staticmethod]
+    fn _restore(kept: &str) -> PyResult<Self> {
+        Ok(Self { state: Mutex::new(State::restored(kept)?) })
     }
 }

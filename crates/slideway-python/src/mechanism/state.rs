@@ -5,22 +5,24 @@ use super::values::End;
 use crate::fault::Texts;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 use slideway::drawing::{Quantity, SliderHandle};
 use slideway::fault::{Fault, FaultKind, nearest};
 use slideway::ids::{BodyId, CoordinateId, Frame, JointId};
 use slideway::model::Settings;
 use slideway::{Drawing, Faults};
+use std::borrow::Cow;
 use std::sync::PoisonError;
 
 /// The name of the fixed frame.
 pub(crate) const GROUND: &str = "ground";
 
 /// A mechanism that is put together: its drawing, and the names of what others refer to.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct State {
     pub(super) drawing: Drawing,
     /// What everything is, and its name.
-    pub(super) names: Vec<(&'static str, String)>,
+    pub(super) names: Vec<(Cow<'static, str>, String)>,
     pub(super) bodies: Vec<(String, BodyId)>,
     pub(super) sliders: Vec<(String, JointId)>,
     pub(super) coordinates: Vec<(String, CoordinateId)>,
@@ -35,12 +37,24 @@ pub(super) enum Refused {
 }
 
 impl State {
+    /// What is pickled of it.
+    pub(super) fn kept(&self) -> PyResult<String> {
+        serde_json::to_string(self).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// What was pickled.
+    pub(super) fn restored(kept: &str) -> PyResult<Self> {
+        let other =
+            |error| format!("this is no mechanism that this version of slideway has pickled: {error}");
+        serde_json::from_str(kept).map_err(|error| PyValueError::new_err(other(error)))
+    }
+
     /// Takes a name for a thing of its kind.
     pub(super) fn claim(&mut self, what: &'static str, name: &str) -> Result<(), Refused> {
         if self.names.iter().any(|(kind, taken)| *kind == what && taken == name) {
             return Err(Refused::Taken { what, name: name.to_owned() });
         }
-        self.names.push((what, name.to_owned()));
+        self.names.push((what.into(), name.to_owned()));
         Ok(())
     }
 

@@ -1,11 +1,11 @@
 //! What methods take, converted before it is said of a drawing.
 
-use crate::arguments::{pair, quantity, two};
+use crate::arguments::{pair, quantity, sequence, two};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyMapping, PyString};
 use slideway::drawing::{
-    BlockSlider, ContactBuilder, CoordinateBuilder, Quantity, SliderBuilder, SliderHandle,
+    BlockSlider, BodyBuilder, ContactBuilder, CoordinateBuilder, Quantity, SliderBuilder, SliderHandle,
 };
 use slideway::fault::nearest;
 
@@ -34,6 +34,54 @@ pub(super) fn optional(name: &str, given: Given<'_, '_>) -> PyResult<Option<Quan
 
 pub(super) fn optional_pair(name: &str, given: Given<'_, '_>) -> PyResult<Option<[Quantity; 2]>> {
     given.map(|given| pair(name, given)).transpose()
+}
+
+/// What a body can have.
+pub(super) struct BodyValues {
+    mass: Option<Quantity>,
+    inertia: Option<Quantity>,
+    centre: Option<[Quantity; 2]>,
+    rectangle: Option<[Quantity; 2]>,
+    disc: Option<Quantity>,
+    bar: Option<[[Quantity; 2]; 2]>,
+    outline: Option<Vec<[Quantity; 2]>>,
+}
+
+impl BodyValues {
+    /// `mass`, `inertia` and `disc`, `centre` and `rectangle`, `bar` and `outline`.
+    pub(super) fn new(
+        [mass, inertia, disc]: [Given<'_, '_>; 3],
+        [centre, rectangle]: [Given<'_, '_>; 2],
+        [bar, outline]: [Given<'_, '_>; 2],
+    ) -> PyResult<Self> {
+        let ends = |bar: &Bound<'_, PyAny>| {
+            let [one, other] = two("bar", bar, "places")?;
+            Ok::<_, PyErr>([pair("bar", &one)?, pair("bar", &other)?])
+        };
+        let corners = |outline: &Bound<'_, PyAny>| {
+            let corners = sequence("outline", outline, "places")?;
+            corners.iter().map(|corner| pair("outline", corner)).collect::<PyResult<Vec<_>>>()
+        };
+        Ok(Self {
+            mass: optional("mass", mass)?,
+            inertia: optional("inertia", inertia)?,
+            centre: optional_pair("centre", centre)?,
+            rectangle: optional_pair("rectangle", rectangle)?,
+            disc: optional("disc", disc)?,
+            bar: bar.map(ends).transpose()?,
+            outline: outline.map(corners).transpose()?,
+        })
+    }
+
+    pub(super) fn say(self, body: BodyBuilder<'_>) -> BodyBuilder<'_> {
+        body.with(self.mass, BodyBuilder::mass)
+            .with(self.inertia, BodyBuilder::inertia)
+            .with(self.centre, BodyBuilder::centre)
+            .with(self.rectangle, BodyBuilder::rectangle)
+            .with(self.disc, BodyBuilder::disc)
+            .with(self.bar, BodyBuilder::bar)
+            .with(self.outline, BodyBuilder::outline)
+    }
 }
 
 /// An end of a spring or damper: a body, and a place of the drawing that moves with it.

@@ -1,34 +1,34 @@
 //! The class `slideway.Model`: a model with its settings, and a method for each question.
 //!
 //! # Files
-//! `state.rs` is what it holds, and how it is asked; `options.rs` what questions take besides, `pickle.rs` what is
-//! pickled.
+//! `state.rs` is what it holds, and how it is asked; `options.rs` what questions take besides, `size.rs` and
+//! `simulation.rs` for those that take much, `pickle.rs` what is pickled.
 
 mod options;
 mod pickle;
+mod simulation;
+mod size;
 mod state;
 
-use crate::answer::{Answer, Asked, not_finite, theme as named};
+use crate::answer::{Answer, Asked, theme as named};
 use crate::arguments::{choice, count, optional_count, settings, varied, varied_one, vary};
 use crate::fault::file_error;
-use crate::motion;
 use crate::work::Watch;
 use crate::{gallery, shards, sweep};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
-use slideway::choice::Choice;
-use slideway::fault::{Fault, FaultKind};
+use simulation::MotionQuestion;
+use size::Demand;
 use slideway::limits::curves_with;
 use slideway::map::map_with;
-use slideway::mechanism::Mechanism;
 use slideway::modes::SearchOptions;
-use slideway::size::{Against, size_with};
+use slideway::size::size_with;
 use slideway::solve::solve_with;
 use slideway::standstill::hold_with;
-use slideway::{DriveOptions, Faults, LimitsOptions, SimulateOptions, SizeOptions, SolveOptions, UnitSystem};
+use slideway::{DriveOptions, LimitsOptions, SolveOptions, UnitSystem};
 use slideway_pictures::drawing::Shown;
-use slideway_pictures::page::{Findings, Origin};
+use state::UNTITLED;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::path::PathBuf;
@@ -131,11 +131,7 @@ impl Model {
         values: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let settings = settings(&self.asked.model, values, [at, rate], time)?;
-        let changed = self.changed(py, &settings)?;
-        match units {
-            Some(name) => Ok(changed.in_system(choice("units", name)?)),
-            None => Ok(changed),
-        }
+        self.changed(py, &settings)?.in_units(units)
     }
 
     #[doc = include_str!("../../docs/check.txt")]
@@ -166,8 +162,8 @@ impl Model {
         let options = options.search(SearchOptions::within(nodes, found));
         let model = &self.asked.model;
         let watch = Watch::new(time_limit, progress)?;
-        let report = watch.run(py, |callback| solve_with(model, &options, callback))?.so_far();
-        let report = report.map_err(|faults| self.refused(py, &faults))?;
+        let report = watch.run(py, |callback| solve_with(model, &options, callback))?;
+        let report = report.answer(|faults| self.refused(py, &faults))?;
         Answer::object(py, "SolveReport", report, Some(self.asked.clone()))
     }
 
@@ -275,31 +271,11 @@ impl Model {
         progress: Option<Py<PyAny>>,
         ranges: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let given = [
-            ("margin", margin),
-            ("max_effort", max_effort),
-            ("max_normal_force", max_normal_force),
-            ("max_pressure", max_pressure),
-            ("min_efficiency", min_efficiency),
-        ];
-        let given: Vec<_> = given.into_iter().filter_map(|(name, value)| Some((name, value?))).collect();
-        let [(name, wanted)] = *given else {
-            let names = "margin, max_effort, max_normal_force, max_pressure and min_efficiency";
-            return Err(PyTypeError::new_err(format!("exactly one of {names} must be given")));
-        };
-        let (wanted, typed_in) = options::limit(name, wanted)?;
-        let against = match name {
-            "max_effort" => Ok(Against::Effort { drive: load }),
-            "max_normal_force" => Ok(Against::NormalForce { contact: load }),
-            "max_pressure" => Ok(Against::Pressure { contact: load }),
-            "min_efficiency" => Against::efficiency(load),
-            _ => Against::margin(choice("against", against)?, load, &self.asked.model),
-        };
+        let demand = Demand::new([margin, max_effort, max_normal_force, max_pressure, min_efficiency])?;
+        let against = demand.against(choice("against", against)?, load, &self.asked.model);
         let against = against.map_err(|faults| self.refused(py, &faults))?;
-        let options = SizeOptions::new(vary(vary_name, [start, stop], ranges)?, wanted)
-            .against(against)
-            .both_directions(both_directions)
-            .typed_in(typed_in);
+        let options = demand.options(vary(vary_name, [start, stop], ranges)?).against(against);
+        let options = options.both_directions(both_directions);
         let report =
             self.ask(py, (time_limit, progress), |model, callback| size_with(model, &options, callback))?;
         Answer::object(py, "SizeReport", report, Some(self.asked.clone()))
@@ -411,42 +387,23 @@ impl Model {
     fn simulate<'py>(
         &self,
         py: Python<'py>,
-        until: &Bound<'_, PyAny>,
+        until: &Bound<'py, PyAny>,
         mode: Option<&str>,
         branches: Option<Vec<i64>>,
         prefer: &str,
         all_branches: Option<i64>,
         tolerance: f64,
-        longest_step: Option<&Bound<'_, PyAny>>,
+        longest_step: Option<&Bound<'py, PyAny>>,
         max_steps: i64,
         max_events: i64,
         max_reaction: Option<f64>,
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let refused = |faults: Faults| self.refused(py, &faults);
-        let mechanism = Mechanism::new(&self.asked.model).map_err(refused)?;
-        let (start, end) = (mechanism.time, self.time(py, "until", until)?);
-        if end <= start {
-            return Err(refused(Fault::general(FaultKind::NothingToSimulate { start, end }).into()));
-        }
-        let all_branches = optional_count("all_branches", all_branches)?;
-        let branches = options::branches(branches.unwrap_or_default())?;
-        let longest_step = longest_step.map(|step| self.time(py, "longest_step", step)).transpose()?;
-        let mut options = SimulateOptions::new(end - start)
-            .tolerance(tolerance)
-            .longest_step(longest_step)
-            .most_steps(count("max_steps", max_steps)?)
-            .most_events(count("max_events", max_events)?)
-            .reaction_limit(max_reaction)
-            .branches(branches)
-            .prefers_sliding(options::prefers_sliding(prefer)?)
-            .with_events_of(&mechanism);
-        if let Some(mode) = mode {
-            options = options.initial_of(mode, &mechanism).map_err(refused)?;
-        }
-        let watch = Watch::new(time_limit, progress)?;
-        motion::computed(py, (&mechanism, self.asked.clone()), (options, all_branches), &watch)
+        let limits = (max_steps, max_events, max_reaction);
+        let way = (mode, branches.unwrap_or_default(), prefer);
+        let motion = MotionQuestion { until, way, steps: (tolerance, longest_step), limits, all_branches };
+        motion.computed(py, self, &Watch::new(time_limit, progress)?)
     }
 
     #[doc = include_str!("../../docs/report.txt")]
@@ -458,18 +415,8 @@ impl Model {
         progress: Option<Py<PyAny>>,
         ranges: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let wanted = varied(ranges)?;
-        let findings =
-            self.ask(py, (time_limit, progress), |model, callback| Findings::of(model, wanted, callback))?;
-        let title = self.title().unwrap_or("model");
-        let origin = Origin {
-            command: "Model.report of slideway for Python",
-            name: title,
-            text: &self.asked.text,
-            settings: &self.asked.settings,
-        };
-        let page = py.detach(|| findings.to_html(&origin)).map_err(not_finite)?;
-        display(py)?.getattr("Page")?.call1((page, title))
+        let page = self.page(py, varied(ranges)?, (time_limit, progress))?;
+        display(py)?.getattr("Page")?.call1((page, self.title().unwrap_or(UNTITLED)))
     }
 
     #[doc = include_str!("../../docs/draw.txt")]
@@ -501,9 +448,8 @@ impl Model {
     fn __repr__(&self) -> String {
         let title = self.asked.model.title.clone().unwrap_or_else(|| "without a title".to_owned());
         let settings = self.settings();
-        let settings =
-            if settings.is_empty() { String::new() } else { format!(", with {}", settings.join(", ")) };
-        format!("<slideway.Model: {title}{settings}>")
+        let with = if settings.is_empty() { "" } else { ", with " };
+        format!("<slideway.Model: {title}{with}{}>", settings.join(", "))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -512,10 +458,7 @@ impl Model {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        self.asked.text.hash(&mut hasher);
-        for setting in self.asked.settings.entries() {
-            setting.text().hash(&mut hasher);
-        }
+        (&self.asked.text, self.setting_texts()).hash(&mut hasher);
         hasher.finish()
     }
 
@@ -530,11 +473,7 @@ impl Model {
 
     #[pyo3(signature = () -> "tuple[object, ...]")]
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let settings =
-            PyTuple::new(py, self.asked.settings.entries().iter().map(pickle::kept).collect::<Vec<_>>())?;
-        let units = self.units.map(Choice::word);
-        let restore = py.get_type::<Self>().getattr("_restore")?;
-        (restore, (&*self.asked.text, settings, units, &*self.file)).into_pyobject(py)
+        (py.get_type::<Self>().getattr("_restore")?, self.kept(py)?).into_pyobject(py)
     }
 
     /// The model that was pickled.
@@ -547,12 +486,8 @@ impl Model {
         units_name: Option<&str>,
         file: &str,
     ) -> PyResult<Self> {
-        let settings = pickle::settings(kept_settings)?;
-        let model = Self::new(py, text)?.in_file(file).changed(py, &settings)?;
-        match units_name {
-            Some(name) => Ok(model.in_system(choice("units", name)?)),
-            None => Ok(model),
-        }
+        let model = Self::new(py, text)?.in_file(file).changed(py, &pickle::settings(kept_settings)?)?;
+        model.in_units(units_name)
     }
 }
 

@@ -1,12 +1,26 @@
 //! Settings as what is pickled of them: kind, name and value of each.
 
+use super::Model;
 use crate::arguments::value;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use slideway::choice::Choice;
 use slideway::model::{Setting, SettingKind, Settings, Value};
 
 /// The words of the kinds of settings; other ones are parameters.
 const KINDS: [(SettingKind, &str); 3] =
     [(SettingKind::Position, "at"), (SettingKind::Rate, "rate"), (SettingKind::Time, "time")];
+
+/// Text, settings, units and file of a model.
+type Kept<'py, 'm> = (&'m str, Bound<'py, PyTuple>, Option<&'static str>, &'m str);
+
+impl Model {
+    /// What is pickled of it.
+    pub(super) fn kept<'py>(&self, py: Python<'py>) -> PyResult<Kept<'py, '_>> {
+        let settings: Vec<_> = self.asked.settings.entries().iter().map(kept).collect();
+        Ok((&self.asked.text, PyTuple::new(py, settings)?, self.units.map(Choice::word), &self.file))
+    }
+}
 
 /// A setting as what is pickled of it.
 pub(super) fn kept(setting: &Setting) -> (&'static str, String, KeptValue) {

@@ -1,8 +1,8 @@
 //! What a model holds, and how it is asked.
 
 use super::{Model, pickle};
-use crate::answer::{Answer, Asked};
-use crate::arguments::value;
+use crate::answer::{Answer, Asked, not_finite};
+use crate::arguments::{choice, value};
 use crate::fault::{Texts, file_error, in_file};
 use crate::work::Watch;
 use pyo3::prelude::*;
@@ -12,11 +12,14 @@ use slideway::limits::{Vary, rest_limits_with};
 use slideway::model::{Parameter, Setting, SettingKind, Settings};
 use slideway::progress::Callback;
 use slideway::{Faults, HoldOptions, UnitSystem};
+use slideway_pictures::page::{Findings, Origin};
 use std::path::Path;
 use std::sync::Arc;
 
 /// The file that command lines name for a text without one.
 const UNNAMED: &str = "model.toml";
+/// What pages call a model without a title.
+pub(super) const UNTITLED: &str = "model";
 
 impl Model {
     /// The model of a text.
@@ -73,13 +76,12 @@ impl Model {
         self
     }
 
-    pub(super) fn in_system(&self, system: UnitSystem) -> Self {
+    /// It in the system of units of this name, if there is one.
+    pub(super) fn in_units(self, name: Option<&str>) -> PyResult<Self> {
+        let Some(name) = name else { return Ok(self) };
+        let system = choice("units", name)?;
         let model = slideway::Model::clone(&self.asked.model).with_units(system);
-        Self {
-            asked: Asked { model: Arc::new(model), ..self.asked.clone() },
-            units: Some(system),
-            ..self.clone()
-        }
+        Ok(Self { asked: Asked { model: Arc::new(model), ..self.asked }, units: Some(system), ..self })
     }
 
     /// Everything that makes two models the same.
@@ -147,6 +149,23 @@ impl Model {
         let report =
             self.ask(py, watched, |model, callback| rest_limits_with(model, range, options, callback))?;
         Answer::object(py, "RestLimitsReport", report, Some(self.asked.clone()))
+    }
+
+    /// The report as a page.
+    pub(super) fn page(
+        &self,
+        py: Python<'_>,
+        ranges: Vec<Vary>,
+        watched: (Option<f64>, Option<Py<PyAny>>),
+    ) -> PyResult<String> {
+        let findings = self.ask(py, watched, |model, callback| Findings::of(model, ranges, callback))?;
+        let origin = Origin {
+            command: "Model.report of slideway for Python",
+            name: self.asked.model.title.as_deref().unwrap_or(UNTITLED),
+            text: &self.asked.text,
+            settings: &self.asked.settings,
+        };
+        py.detach(|| findings.to_html(&origin)).map_err(not_finite)
     }
 
     /// The parameters as texts: name, value, and the range between whose ends it is known, if it has one.

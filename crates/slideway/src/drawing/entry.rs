@@ -1,9 +1,10 @@
 //! Tables of a model file in the order in which they are written.
 
 use super::quantity::{Quantity, text};
+use serde::{Deserialize, Serialize};
 
 /// Keys and values. A key that is set again has the later value.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Table {
     values: Vec<(String, Quantity)>,
     inner: Vec<(String, Table)>,
@@ -56,7 +57,7 @@ impl Table {
 }
 
 /// The entries of a section: names and tables.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Entries(Vec<(String, Table)>);
 
 impl Entries {

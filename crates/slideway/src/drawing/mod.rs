@@ -43,6 +43,7 @@ use crate::ids::{BodyId, CoordinateId, DriveId, Frame, JointId};
 use crate::model::Model;
 pub(crate) use entry::written_key;
 use entry::{Entries, Table, line};
+use serde::{Deserialize, Serialize};
 
 /// The fixed frame, where a body is expected.
 pub const GROUND: Frame = Frame::Ground;
@@ -53,7 +54,9 @@ pub(crate) fn quoted(value: &str) -> String {
 }
 
 /// A mechanism that is being put together. See the [module](self) for an example.
-#[derive(Debug, Clone, Default)]
+///
+/// Serialized, it keeps the order in which things were added, so that handles stay valid; the layout is this version's.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Drawing {
     /// Title, gravity, time.
     head: Table,

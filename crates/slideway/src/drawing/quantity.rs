@@ -1,9 +1,10 @@
 //! Values as a model file writes them.
 
 use crate::printable::is_hidden;
+use serde::{Deserialize, Serialize};
 
 /// A number in SI units, or a text with a unit or an expression: `0.3`, `"25 mm"`, `"2*l*cos(alpha)"`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Quantity(String);
 
 impl Quantity {
