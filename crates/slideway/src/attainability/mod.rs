@@ -24,7 +24,7 @@ mod shared;
 mod spectrum;
 
 use crate::kinetics::KineticEquations;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Effort, Mechanism};
 use crate::modes::{ContactState, ModeProblem};
 use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 use fate::{End, FastMotion, Rest};
@@ -282,16 +282,24 @@ impl<'p> ElasticGuides<'p> {
     }
 }
 
-/// What is assumed of the drives, and what to change.
+/// Why the stability under drives is not decided, and how to measure a coordinate so that it is.
 fn reversed(mechanism: &Mechanism) -> String {
-    let name =
-        |drive: &crate::mechanism::Drive| mechanism.coordinates[drive.coordinate.index()].name.to_string();
-    let holds = mechanism.drives.iter().map(|drive| format!("{} holds {}", drive.name, name(drive)));
-    let holds = holds.collect::<Vec<_>>().join(", ");
-    let first = mechanism.drives.first().map_or_else(String::new, name);
+    let unstable = "the mechanism would be unstable with elastic guides even without friction";
+    let [drive] = mechanism.drives.as_slice() else {
+        return format!(
+            "coordinates are measured in other places or directions than their drives act. Held exactly there, {unstable}. \
+             Measure each where and as its drive acts"
+        );
+    };
+    let coordinate = &mechanism.coordinates[drive.coordinate.index()].name;
+    let measure = match drive.effort {
+        Effort::Force { at, .. } => format!("x = \"{}.POINT\"", mechanism.frame_name(at.frame)),
+        Effort::Torque { body, .. } => format!("rotation = \"{}\"", mechanism.frame_name(body)),
+    };
     format!(
-        "with elastic guides it would be unstable even without friction if {holds} exactly, from where the drive acts. Measure \
-         {first} where the drive acts: `x = \"BODY.POINT\"` in [coordinates.{first}]"
+        "{coordinate} is measured in another place or direction than {} acts. Held exactly there, {unstable}. Measure \
+         {coordinate} where it acts: `{measure}` in [coordinates.{coordinate}]",
+        drive.name
     )
 }
 

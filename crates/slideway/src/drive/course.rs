@@ -172,7 +172,7 @@ impl Tabulated<'_> {
         {
             return rows_of(
                 value,
-                state::efforts(&report, efforts.frictionless.clone(), &efforts.velocities),
+                state::efforts(&report, &efforts.velocities),
             );
         }
         let row = |pattern: String, verdict: Verdict, of: Vec<f64>| {

@@ -2,7 +2,7 @@
 //! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
 
 use super::course::{Guarantee, evenly, modes, nothing, rows_of, with_blow_ups};
-use super::efforts::{frictionless, grows, velocities};
+use super::efforts::{grows, velocities};
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, LockedRange, Sense};
 use super::state::{self, AllEfforts};
 use crate::fault::Faults;
@@ -83,7 +83,7 @@ impl Sampled<'_> {
         let stages = Stages::of_model(&model)?;
         never_turning(&stages.mechanism, &stages.configuration)?;
         let report = self.solved(&model, stages.rougher(factor))?;
-        Ok(state::efforts(&report, frictionless(&stages), &velocities(&stages)))
+        Ok(state::efforts(&report, &velocities(&stages)))
     }
 
     fn solved(&self, model: &Model, stages: RougherStages<'_>) -> Result<SolveReport, Faults> {

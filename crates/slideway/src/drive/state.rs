@@ -1,7 +1,7 @@
 //! The efforts in the state of the model.
 
 use super::continuum::effort_range;
-use super::efforts::{Efforts, efficiency, frictionless, growing, power, velocities};
+use super::efforts::{Efforts, efficiency, growing, power, velocities};
 use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, EffortRange, Frictionless, Sense};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -36,7 +36,7 @@ pub(super) fn direction(
     let report = solve_with(model, &options, &mut goes_on)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let AllEfforts { solutions, range, frictionless, .. } =
-        efforts(&report, frictionless(&stages), &velocities(&stages));
+        efforts(&report, &velocities(&stages));
     // What tips now, or just beyond the factor.
     let tips = match &report.margins {
         _ if !report.rejected.is_empty() => report.tipping_joints(),
@@ -78,7 +78,8 @@ pub(super) struct AllEfforts {
 }
 
 /// The efforts of all solutions, and those without friction.
-pub(super) fn efforts(report: &SolveReport, frictionless: Vec<f64>, velocities: &[f64]) -> AllEfforts {
+pub(super) fn efforts(report: &SolveReport, velocities: &[f64]) -> AllEfforts {
+    let frictionless: Vec<f64> = report.influence.drives.iter().map(|drive| drive.effort).collect();
     let solution = |solution: &Solution, preload_gap: bool| {
         let efforts: Vec<f64> = solution.drives.iter().map(|drive| drive.effort + 0.0).collect();
         DriveSolution {

@@ -1,4 +1,4 @@
-//! What a solution means for the speed of a motion.
+//! The speed of a motion, as a solution changes it.
 
 use serde::Serialize;
 
@@ -119,8 +119,7 @@ impl FromRest {
             Self::Neither => "it could neither stay so nor begin to move",
             Self::Undecided => "it is not decided whether these loads would move it again",
             Self::NotExamined => {
-                "these loads may move it again or not: of so many states of joints and contacts only `slideway hold` \
-                 examines all"
+                "these loads may move it again or not; ask `slideway hold`"
             }
         }
     }
