@@ -128,13 +128,13 @@ fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
     wrap(line.trim_start(), options).into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 
-/// The pieces between which a line may be broken: words, but "mu = 0.3" is one.
+/// The pieces between which a line may be broken: words, but "mu = 0.3" is one, and "55 %".
 fn words(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
     let mut pieces = Vec::new();
     let (mut start, mut end, mut is_joined) = (0, 0, true);
     for word in WordSeparator::AsciiSpace.find_words(line) {
         let is_equals = word.word == "=";
-        if !is_joined && !is_equals {
+        if !(is_joined || is_equals || word.word.starts_with('%')) {
             pieces.push(Word::from(&line[start..end]));
             start = end;
         }
@@ -155,7 +155,9 @@ mod tests {
         let mut page = Page::new(&(), Style { width: 12, ..Style::PLAIN });
         page.line("jams from mu = 0.5 on");
         page.line("  a x = y");
-        assert_eq!(page.text(), "jams from\nmu = 0.5 on\n  a x = y\n");
+        page.line("efficiency 55 %.");
+        page.line("share of 55 %");
+        assert_eq!(page.text(), "jams from\nmu = 0.5 on\n  a x = y\nefficiency\n55 %.\nshare of\n55 %\n");
     }
 
     #[test]
