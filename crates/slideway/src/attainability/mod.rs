@@ -73,8 +73,8 @@ pub struct ElasticGuides<'p> {
 
 impl<'p> ElasticGuides<'p> {
     /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of
-    /// the model if it gives them for every contact, else 1 N/m; of redundant guides they count where all that
-    /// share a load have one, the others having the mean of these.
+    /// the model if it gives them for every contact, else 1 N/m; of redundant guides they count where all
+    /// that share a load have one, the others having the mean of these.
     pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
         let contacts = &mechanism.contacts;
         let shared = SharedGaps::of(mechanism, equations);
@@ -109,8 +109,8 @@ impl<'p> ElasticGuides<'p> {
         all
     }
 
-    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose mode
-    /// problem has it.
+    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose
+    /// mode problem has it.
     pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
         let shared = self.shared.as_ref()?;
         let states = shared.closed(states);
@@ -138,8 +138,8 @@ impl<'p> ElasticGuides<'p> {
         }
     }
 
-    /// Whether a verdict says something about this state: contacts of determinate guides that are between their
-    /// faces have no elastic law.
+    /// Whether a verdict says something about this state: contacts of determinate guides that are between
+    /// their faces have no elastic law.
     fn has_law(&self, states: &[ContactState]) -> bool {
         self.shared.is_some() || !states.contains(&ContactState::Gap)
     }

@@ -103,8 +103,8 @@ pub(super) fn efforts(report: &SolveReport, velocities: &[f64]) -> AllEfforts {
     }
 }
 
-/// The factors of friction at which efforts grow without bound; none if there are too many modes, or friction in
-/// hinges.
+/// The factors of friction at which efforts grow without bound; none if there are too many modes, or friction
+/// in hinges.
 fn blow_ups(stages: &Stages, work: Work<'_>) -> Result<Option<Vec<BlowUp>>, Faults> {
     if stages.mechanism.rough_hinges().next().is_some() {
         return Ok(None);

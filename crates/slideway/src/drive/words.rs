@@ -28,8 +28,8 @@ pub(super) fn advice(report: &DriveReport) -> Option<String> {
     ranges.filter_map(|range| range.undetermined.advice()).map(str::to_owned).next()
 }
 
-/// The needs of one direction of motion, and whether it jams: "push needs 36.36 N (20 N without friction): efficiency
-/// 55 %.", "It would jam from mu = 0.6667 (2.222 times this friction)."
+/// The needs of one direction of motion, and whether it jams: "push needs 36.36 N (20 N without friction):
+/// efficiency 55 %.", "It would jam from mu = 0.6667 (2.222 times this friction)."
 pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec<String> {
     let whole = |clause: String| match direction.direction {
         Sense::Reversed => format!("Backwards {clause}"),
@@ -210,8 +210,8 @@ pub(super) fn is_stable(verdict: Verdict) -> &'static str {
     }
 }
 
-/// "the effort of push grows without limit"; with details also where: "(mode + -, below), with the normal forces of
-/// guide.front, guide.rear".
+/// "the effort of push grows without limit"; with details also where: "(mode + -, below), with the normal
+/// forces of guide.front, guide.rear".
 pub(super) fn without_limit(report: &DriveReport, blow_up: &BlowUp, details: bool) -> String {
     let growing = report.drives.iter().zip(&blow_up.efforts).filter(|(_, sign)| **sign != 0);
     let growing: Vec<&str> = growing.map(|(drive, _)| &*drive.name).collect();

@@ -31,8 +31,8 @@ impl SolveReport {
         }
     }
 
-    /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667 (2.222 times this friction)."
-    /// Empty where nothing is known, or nothing changes.
+    /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667 (2.222 times this
+    /// friction)." Empty where nothing is known, or nothing changes.
     pub fn safety_in_words(&self) -> Vec<String> {
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {

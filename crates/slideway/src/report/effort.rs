@@ -11,8 +11,8 @@ pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str) -> String
     }
 }
 
-/// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222 times this
-/// friction)".
+/// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222
+/// times this friction)".
 pub(crate) fn times_friction(factor: f64, mu: Option<f64>) -> String {
     let times = format!("{} times this friction", brief(factor));
     mu.map_or(times.clone(), |mu| format!("mu = {} ({times})", brief(mu)))

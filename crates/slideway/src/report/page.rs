@@ -10,7 +10,8 @@ use textwrap::{Options, WordSeparator, WordSplitter, wrap};
 /// A report, and what has been written of it.
 ///
 /// Colours come in here and nowhere else, and all other text becomes [`printable`] before: so whatever a
-/// model holds, the text has no escape sequences but those of its own style. Lines are wrapped here and nowhere else.
+/// model holds, the text has no escape sequences but those of its own style. Lines are wrapped here and
+/// nowhere else.
 pub(crate) struct Page<'r, R> {
     pub(crate) report: &'r R,
     style: Style,

@@ -48,8 +48,8 @@ impl SolveReport {
         joints
     }
 
-    /// The answer for all values of parameters that are known within bounds, in sentences: "1 solution for every value,
-    /// proven with 3 parts."; none without such parameters.
+    /// The answer for all values of parameters that are known within bounds, in sentences: "1 solution for
+    /// every value, proven with 3 parts."; none without such parameters.
     pub fn for_all_values(&self) -> Vec<String> {
         let Some(uncertainty) = &self.uncertainty else { return Vec::new() };
         let least = uncertainty.least_solutions;
@@ -77,8 +77,8 @@ impl SolveReport {
         self.undetermined.as_ref().map_or_else(Vec::new, |open| open.in_words(&self.model.units))
     }
 
-    /// The speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down, and would stop after
-    /// 0.1 s and 0.2 m if nothing changed." Then what the loads do once it is at rest.
+    /// The speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down, and
+    /// would stop after 0.1 s and 0.2 m if nothing changed." Then what the loads do once it is at rest.
     pub fn speeds_in_words(&self, solution: &Solution) -> Vec<String> {
         self.changes_in_words(solution).into_iter().chain(self.from_rest_in_words(solution)).collect()
     }
@@ -111,7 +111,8 @@ impl SolveReport {
         Some(format!("Once it is at rest, {}.", from_rest.in_words()))
     }
 
-    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to say.
+    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to
+    /// say.
     pub fn margins_in_words(&self) -> String {
         self.safety_in_words().join(" ")
     }

@@ -6,8 +6,8 @@ use super::report::{
 use super::text::{greatest, words};
 use crate::units::number::brief;
 
-/// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from mu_static =
-/// 0.1667 (now 0.2)."
+/// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from
+/// mu_static = 0.1667 (now 0.2)."
 pub(super) fn answer(report: &HoldReport) -> String {
     let Some(load) = &report.load else { return verdict(report) };
     let is_all = load.held == [Range { least: None, greatest: None }];
@@ -75,8 +75,8 @@ fn is_sure(report: &HoldReport) -> bool {
     !is_wedged || verdict && report.load.as_ref().is_some_and(|load| load.factor == 1.0)
 }
 
-/// The loads that it holds: "It holds with `cam` from 193 to 286.1 N.", "It holds -1.2 to 1.2 times `W`.", "It would hold
-/// with 3 times `W` or less." where it does not hold `W` itself.
+/// The loads that it holds: "It holds with `cam` from 193 to 286.1 N.", "It holds -1.2 to 1.2 times `W`.",
+/// "It would hold with 3 times `W` or less." where it does not hold `W` itself.
 fn held(report: &HoldReport, load: &LoadReport) -> String {
     let unit = report.units.of(load.unit);
     let name = &load.name;

@@ -95,7 +95,8 @@ impl Text<'_> {
         }
     }
 
-    /// Remarks on what the answer leaves open, and with details from which coefficients on it is self-locking.
+    /// Remarks on what the answer leaves open, and with details from which coefficients on it is
+    /// self-locking.
     fn remarks(&mut self) {
         let report = self.report;
         without_inertia(report).iter().for_each(|line| self.line(line));
