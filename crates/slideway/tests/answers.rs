@@ -83,7 +83,10 @@ fn drive_answers() {
 fn a_load_that_is_held_by_itself_alone_is_not_called_self_locking() {
     let boom = held("telescopic-boom", &[], Some("W"));
     assert!(boom.starts_with("It does not hold") && !boom.contains("elf-locking"), "{boom}");
-    assert!(boom.contains("It would hold with -") && boom.contains(" times `W` or more. By itself `W` is held, "), "{boom}");
+    assert!(
+        boom.contains("It would hold with -") && boom.contains(" times `W` or more. By itself `W` is held, "),
+        "{boom}"
+    );
 }
 
 /// Sees to it that all answers are the expected ones.
@@ -224,6 +227,23 @@ fn simulated(model: &Model, options: &SimulateOptions) -> String {
     let options = options.clone().with_events_of(&mechanism);
     let history = motion::simulate(model, &options).unwrap();
     motion::report(&history, &options).answer()
+}
+
+/// The paper's example begins with four ways to go on: their signs are details.
+#[test]
+fn other_ways_to_go_on_have_signs_among_the_details() {
+    let options = options(0.01);
+    let history = motion::simulate(&model("klepp-2002", &[]), &options).unwrap();
+    let report = motion::report(&history, &options);
+    let text = |verbose: bool| report.text(Style::PLAIN.width(200).verbose(verbose));
+    assert!(text(false).contains(
+        "branch 2: it could also go on in another contact mode, with a jump of the forces, stable"
+    ));
+    assert!(!text(false).contains("signs"));
+    assert!(
+        text(true)
+            .contains("branch 2: it could also go on in another contact mode, signs + - +, with a jump")
+    );
 }
 
 /// From 2 m/s the block stops after 2 / 2.5 = 0.8 s.

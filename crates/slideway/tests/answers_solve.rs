@@ -110,7 +110,8 @@ fn a_limit_is_one_sentence() {
 /// The block is at rest on the belt, and starts forwards with it; the peg slows down from mu = 5/24 on.
 #[test]
 fn limits_say_what_becomes_of_the_speed() {
-    let over = |model: &Model, vary: Vary| limits(model, &LimitsOptions::new(vary)).expect("an answer").answer();
+    let over =
+        |model: &Model, vary: Vary| limits(model, &LimitsOptions::new(vary)).expect("an answer").answer();
     assert_eq!(
         over(&model("stick-slip"), Vary::between("mu", 0.0, 0.4)),
         "mu from 0 to 0.4: it moves, and x starts forwards."

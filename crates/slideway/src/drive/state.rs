@@ -35,8 +35,7 @@ pub(super) fn direction(
     let options = SolveOptions::default();
     let report = solve_with(model, &options, &mut goes_on)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
-    let AllEfforts { solutions, range, frictionless, .. } =
-        efforts(&report, &velocities(&stages));
+    let AllEfforts { solutions, range, frictionless, .. } = efforts(&report, &velocities(&stages));
     // What tips now, or just beyond the factor.
     let tips = match &report.margins {
         _ if !report.rejected.is_empty() => report.tipping_joints(),

@@ -185,7 +185,13 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Pi
             (Some(one), Some(other)) if one == other => format!("{one} in both directions"),
             (Some(one), Some(other)) => format!("{one}; in the opposite direction {other}"),
         };
-        Some(Piece { from: pair[0], to: pair[1], verdict, is_motion: false, known: known.max(known_of_other) })
+        Some(Piece {
+            from: pair[0],
+            to: pair[1],
+            verdict,
+            is_motion: false,
+            known: known.max(known_of_other),
+        })
     };
     ends.windows(2).filter_map(piece).collect()
 }

@@ -1,10 +1,10 @@
 //! Limits as text for people.
 
-use super::rest::STEPS;
 use super::report::{
     CountLimits, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
     RangeWithoutProblem, RestLimitsReport, SpanOfRest, SpeedLimits,
 };
+use super::rest::STEPS;
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;

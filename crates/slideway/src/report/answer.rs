@@ -78,7 +78,9 @@ impl SolveReport {
     fn nothing_moves_it(&self) -> String {
         match self.influence.drives.as_slice() {
             [] => "friction locks it".to_owned(),
-            [drive] => format!("no {} of {} moves it", effort::kind(drive.unit).unwrap_or("effort"), drive.name),
+            [drive] => {
+                format!("no {} of {} moves it", effort::kind(drive.unit).unwrap_or("effort"), drive.name)
+            }
             _ => "no drive moves it".to_owned(),
         }
     }

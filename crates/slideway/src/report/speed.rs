@@ -120,9 +120,7 @@ impl FromRest {
             Self::Moves => "these loads would move it again",
             Self::Neither => "it could neither stay so nor begin to move",
             Self::Undecided => "it is not decided whether these loads would move it again",
-            Self::NotExamined => {
-                "these loads may move it again or not; ask `slideway hold`"
-            }
+            Self::NotExamined => "these loads may move it again or not; ask `slideway hold`",
         }
     }
 }

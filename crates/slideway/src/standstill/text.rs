@@ -314,9 +314,7 @@ pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
     let noise = 1e3 * scale;
     let number = |value: f64| unit.against(value, noise);
     match (range.least, range.greatest) {
-        (Some(least), Some(greatest))
-            if number(least) == number(greatest) || is_one_value(range, scale) =>
-        {
+        (Some(least), Some(greatest)) if number(least) == number(greatest) || is_one_value(range, scale) => {
             number(f64::midpoint(least, greatest))
         }
         (Some(least), Some(greatest)) => format!("{} to {}", number(least), number(greatest)),
