@@ -18,8 +18,8 @@ impl SolveReport {
                 tips(&self.tipping_joints()).map_or_else(String::new, |tips| format!("No answer: {tips}."))
             }
             Status::None => format!("It jams: {}.", self.nothing_moves_it()),
-            Status::One => self.moves_in_words() + &self.gaps_beside_in_words(),
-            Status::Several => self.ways_in_words() + &self.gaps_beside_in_words(),
+            Status::One => self.moves_in_words(),
+            Status::Several => self.ways_in_words(),
             Status::Continuum => self.open_in_words(),
             Status::PreloadGap => self.gap_in_words(),
             Status::Unknown if self.partial => {
@@ -59,10 +59,15 @@ impl SolveReport {
         sentences
     }
 
-    /// How the answer is known, in a clause: "Proven: the only solution."
+    /// How the answer is known, and which states there are beside solutions: "Proven: it is the only solution."
     pub(super) fn known_in_words(&self) -> String {
+        let gaps = match self.gap_state_count.as_str() {
+            states if states == "0" || self.solutions.is_empty() => String::new(),
+            "1" => " One more state is in a preload gap.".to_owned(),
+            several => format!(" {several} more states are in a preload gap."),
+        };
         if !self.open.is_empty() {
-            return format!("Not proven: {}.", self.open.join("; "));
+            return format!("Not proven: {}.{gaps}", self.open.join("; "));
         }
         let all = match self.status {
             Status::None => "there is no solution",
@@ -71,7 +76,7 @@ impl SolveReport {
             }
             _ => "there are no other solutions",
         };
-        format!("Proven: {all}.")
+        format!("Proven: {all}.{gaps}")
     }
 
     /// "no force of push moves it"
@@ -194,15 +199,6 @@ impl SolveReport {
             first.make_ascii_uppercase();
         }
         format!("{cause}{ranges}.{advice}")
-    }
-
-    /// " One more state is in a preload gap.", beside solutions.
-    fn gaps_beside_in_words(&self) -> String {
-        match self.gap_state_count.as_str() {
-            "0" => String::new(),
-            "1" => " One more state is in a preload gap.".to_owned(),
-            several => format!(" {several} more states are in a preload gap."),
-        }
     }
 
     /// "It moves in a preload gap, pin pressed by its preload alone: push needs 3 N (2 N without friction)."
