@@ -35,7 +35,7 @@ fn every_template_is_written_and_answers() {
         let file = format!("{}.toml", template.name);
         let written = fs::read_to_string(folder.path().join(&file)).unwrap();
         Model::parse(&written).unwrap();
-        assert!(run.stdout.starts_with(&format!("Wrote {file}, as in the template: ")), "{}", run.stdout);
+        assert!(run.stdout.starts_with(&format!("Wrote {file}. Kept from the template: ")), "{}", run.stdout);
         // So do its other commands.
         for command in template.commands() {
             let command = command.replace("FILE", &file).replace('"', "");

@@ -54,7 +54,7 @@ fn pages_have_all_parts_and_need_nothing_else() {
         "<h3>Margins of friction</h3>",
         "The number of solutions changes from 3.901 times this friction.",
         "<h3>At rest</h3>",
-        "Not attainable: threshold between sliding (solution 2) and jamming.",
+        "Not attainable: disturbed to one side, it jams; to the other, it goes over to solution 2.",
         "<svg ",
         "<table class=\"limits\">",
         "<img class=\"on-light\" src=\"data:image/svg+xml,",
@@ -85,7 +85,7 @@ fn efficiency_margins_and_rest_are_on_the_page() {
     for part in [
         "<h3>Efforts and efficiency</h3>",
         "efficiency 55 %",
-        "It would jam from mu = 0.6667, 2.222 times this friction.",
+        "It would jam from mu = 0.6667 (2.222 times this friction).",
         "<p>Without the drive push</p>\n<p>It does not hold: it starts to slide (x: -4 m/s^2).</p>",
     ] {
         assert!(html.contains(part), "{part}");

@@ -299,7 +299,7 @@ fn a_new_model_is_asked_for() {
         "a, distance of the push from the middle [150 mm]: 300 mm? [Enter: yes] mu, ",
         "mu, friction coefficient of the guide [0.3]: \n",
         "File [drawer.toml]: taken.toml exists. Overwrite it? [y/N] File [drawer.toml]: ",
-        "Wrote mine.toml, as in the template: L = 400 mm, mu = 0.3, width = 0 mm,",
+        "Wrote mine.toml. Kept from the template: L = 400 mm, mu = 0.3, width = 0 mm,",
         "$ slideway drive mine.toml",
         // P = Q/(1 - 2 mu a/L)
         "36.36",
@@ -312,7 +312,7 @@ fn a_new_model_is_asked_for() {
     // With a value on the command line nothing is asked.
     let (told, code) = on_terminal(&mut folder.command(&["new", "peg", "--mu", "0.1"]));
     assert_eq!(code, 0, "{told}");
-    assert!(told.starts_with("Wrote peg.toml, as in the template: h = 60 mm, l = 15 mm,"), "{told}");
+    assert!(told.starts_with("Wrote peg.toml. Kept from the template: h = 60 mm, l = 15 mm,"), "{told}");
 }
 
 /// On a terminal a picture or page would be of no use: it goes into a file, none that exists, and the program of the

@@ -106,6 +106,12 @@ impl Influence {
         DVector::from_iterator(self.normal.len(), self.normal.iter().map(|&index| unknowns[index]))
     }
 
+    /// The efforts of all drives among the unknowns.
+    pub(crate) fn efforts(&self, unknowns: &DVector<f64>) -> Vec<f64> {
+        // Adding zero turns -0 into 0.
+        self.layout.efforts().map(|effort| unknowns[effort] + 0.0).collect()
+    }
+
     /// All unknowns for given friction forces, eqs. (3)-(5), and these normal forces of the contacts, of which
     /// only those that are cut are needed.
     pub fn unknowns(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {

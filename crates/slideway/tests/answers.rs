@@ -40,11 +40,11 @@ fn drive_answers() {
         // P = Q / (1 - 2 mu a / L), which has no limit at mu = L / (2 a) = 2/3.
         (
             driven("drawer", &[]),
-            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam at 2.222 times this friction (mu = 0.6667). Backwards push needs 13.79 N (20 N without friction); the load pushes, and 68.97 % of its power arrives. Backwards it does not jam at any friction.",
+            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam from mu = 0.6667 (2.222 times this friction). Backwards push needs 13.79 N (20 N without friction); the load pushes, and 68.97 % of its power arrives. Backwards it does not jam at any friction.",
         ),
         (
             driven("drawer", &[("mu", "0.8")]),
-            "It jams: no force moves it. It moves below 0.8333 times this friction (mu = 0.6667). Backwards 2 states are possible: push needs 9.091 N, or -100 N (unstable).",
+            "It jams: no force moves it. It moves below mu = 0.6667 (0.8333 times this friction). Backwards 2 states are possible: push needs 9.091 N, or -100 N (unstable).",
         ),
         (
             driven("drawer", &[("mu", "2/3")]),
@@ -52,11 +52,11 @@ fn drive_answers() {
         ),
         (
             driven("wedge", &[]),
-            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam at 5.594 times this friction (mu = 0.8391). Backwards P needs -0.1239 kN (0.1763 kN without friction): friction holds the load, so it must be driven. Backwards beyond 26.67 times this friction (mu = 4) floor would tip; model it as a block slider to go on.",
+            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards P needs -0.1239 kN (0.1763 kN without friction): friction holds the load, so it must be driven. Backwards floor would tip from mu = 4 (26.67 times this friction); model it as a block slider to go on.",
         ),
         (
             driven("stick-slip", &[]),
-            "motor needs 2.453 N, all of it against friction. Beyond 4.8 times this friction (mu = 1.2) sole would tip; model it as a block slider to go on. Backwards motor needs -2.453 N, all of it against friction. Backwards beyond 4.8 times this friction (mu = 1.2) sole would tip; model it as a block slider to go on.",
+            "motor needs 2.453 N, all of it against friction. sole would tip from mu = 1.2 (4.8 times this friction); model it as a block slider to go on. Backwards motor needs -2.453 N, all of it against friction. Backwards sole would tip from mu = 1.2 (4.8 times this friction); model it as a block slider to go on.",
         ),
         (
             driven("bell-crank", &[]),
@@ -68,7 +68,7 @@ fn drive_answers() {
         ),
         (
             driven(TIPPING_PRESS, &[("mu", "1.3")]),
-            "bed tips; model it as a block slider to see whether it still moves. It does not tip below 0.9615 times this friction (mu = 1.25). Backwards bed tips; model it as a block slider to see whether it still moves. Backwards it does not tip below 0.9615 times this friction (mu = 1.25).",
+            "bed tips; model it as a block slider to see whether it still moves. It does not tip below mu = 1.25 (0.9615 times this friction). Backwards bed tips; model it as a block slider to see whether it still moves. Backwards it does not tip below mu = 1.25 (0.9615 times this friction).",
         ),
         (
             driven(&pushed, &[("P", "0 N")]),
@@ -76,6 +76,17 @@ fn drive_answers() {
         ),
     ];
     assert_answers(&told);
+}
+
+/// Of the boom the cylinders push the weight `W`, which friction holds by itself: that is not "self-locking".
+#[test]
+fn a_load_that_is_held_by_itself_alone_is_not_called_self_locking() {
+    let boom = held("telescopic-boom", &[], Some("W"));
+    assert!(boom.starts_with("It does not hold") && !boom.contains("elf-locking"), "{boom}");
+    assert!(
+        boom.contains("It would hold with -") && boom.contains(" times `W` or more. By itself `W` is held, "),
+        "{boom}"
+    );
 }
 
 /// Sees to it that all answers are the expected ones.
@@ -143,7 +154,7 @@ fn hold_answers() {
         ),
         (
             held(SLOPE, &[("angle", "20 deg")], Some("weight")),
-            "It does not hold: it starts to slide (s: -1.541 m/s^2). It holds no `weight`. Not self-locking: a great enough `weight` moves it. It is self-locking from mu_static = 0.364 (now 0.3).",
+            "It does not hold: it starts to slide (s: -1.541 m/s^2). It holds no `weight`. Not self-locking: a great enough `weight` moves it. It would be self-locking from mu_static = 0.364 (now 0.3).",
         ),
         (held("bracket-on-pole", &[], None), "It holds."),
         (
@@ -152,7 +163,7 @@ fn hold_answers() {
         ),
         (
             held("bracket-on-pole", &[("x", "0.2 m")], Some("W")),
-            "It does not hold. It holds no `W`. Not self-locking: a great enough `W` moves it. It is self-locking from mu_static = 0.381 (now 0.25).",
+            "It does not hold. It holds no `W`. Not self-locking: a great enough `W` moves it. It would be self-locking from mu_static = 0.381 (now 0.25).",
         ),
         (
             held(PIPE_CLAMP, &[], Some("screw")),
@@ -160,7 +171,7 @@ fn hold_answers() {
         ),
         (
             held("cam-follower", &[], Some("cam")),
-            "Without `cam` it does not hold: it starts to slide (lift: -400 m/s^2). It holds with `cam` from 193 to 286.1 N. Not self-locking: a great enough `cam` moves it. It is self-locking from mu_static = 0.814 (now 0.15).",
+            "Without `cam` it does not hold: it starts to slide (lift: -400 m/s^2). It holds with `cam` from 193 to 286.1 N. Not self-locking: a great enough `cam` moves it. It would be self-locking from mu_static = 0.814 (now 0.15).",
         ),
         (
             held("drawer", &[], Some("resistance")),
@@ -168,11 +179,11 @@ fn hold_answers() {
         ),
         (
             held(SASH, &[], Some("gravity")),
-            "It does not hold: it starts to slide (y: -3.433 m/s^2). It holds 0.275 to 0.725 times `gravity`. Not self-locking: a great enough `gravity` moves it. It is self-locking from mu_static = 0.6667 (now 0.3).",
+            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. Not self-locking: a great enough `gravity` moves it. It would be self-locking from mu_static = 0.6667 (now 0.3).",
         ),
         (
             held(SASH, &wedged, Some("gravity")),
-            "It may hold, or it may start to slide: do not rely on it. While wedged it holds any `gravity`, but `gravity` alone need not wedge it.",
+            "It may hold, or it may start to slide: do not rely on it. While wedged it holds any `gravity` from mu_static = 0.6667 (now 0.7), but `gravity` alone need not wedge it.",
         ),
         (
             held(GUIDED_TIPS, &[], None),
@@ -216,6 +227,23 @@ fn simulated(model: &Model, options: &SimulateOptions) -> String {
     let options = options.clone().with_events_of(&mechanism);
     let history = motion::simulate(model, &options).unwrap();
     motion::report(&history, &options).answer()
+}
+
+/// The paper's example begins with four ways to go on: their signs are details.
+#[test]
+fn other_ways_to_go_on_have_signs_among_the_details() {
+    let options = options(0.01);
+    let history = motion::simulate(&model("klepp-2002", &[]), &options).unwrap();
+    let report = motion::report(&history, &options);
+    let text = |verbose: bool| report.text(Style::PLAIN.width(200).verbose(verbose));
+    assert!(text(false).contains(
+        "branch 2: it could also go on in another contact mode, with a jump of the forces, stable"
+    ));
+    assert!(!text(false).contains("signs"));
+    assert!(
+        text(true)
+            .contains("branch 2: it could also go on in another contact mode, signs + - +, with a jump")
+    );
 }
 
 /// From 2 m/s the block stops after 2 / 2.5 = 0.8 s.

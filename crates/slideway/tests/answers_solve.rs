@@ -32,12 +32,12 @@ fn answer(model: &Model) -> String {
 fn a_drawer_moves_or_jams() {
     assert_eq!(
         answer(&model("drawer")),
-        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667, 2.222 times this friction. Safe \
+        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). Safe \
          for any load up to 2.222 times this friction."
     );
     assert_eq!(
         answer(&with("drawer", &[("mu", "0.7")])),
-        "It jams: no force of push moves it. It moves below mu = 0.6667, 0.9524 times this friction."
+        "It jams: no force of push moves it. It moves below mu = 0.6667 (0.9524 times this friction)."
     );
     assert_eq!(answer(&with("drawer", &[("mu", "0")])), "It moves: push needs 20 N, as without friction.");
 }
@@ -46,6 +46,11 @@ fn a_drawer_moves_or_jams() {
 fn several_solutions_are_so_many_ways() {
     assert!(
         answer(&model("klepp-2002")).starts_with("3 solutions: from this state it can go on in 3 ways. ")
+    );
+    let text = solve(&model("klepp-2002")).expect("an answer").text(Style::PLAIN);
+    assert!(
+        text.contains("Proven: there are no other solutions. One more state is in a preload gap.\n"),
+        "{text}"
     );
     let gap = with("klepp-2002", &[("mu_1", "0.24"), ("F_30", "0.5*m*g"), ("F_20", "0")]);
     assert_eq!(solve(&gap).expect("an answer").status, Status::PreloadGap);
@@ -104,6 +109,33 @@ fn a_limit_is_one_sentence() {
         over("drawer", Vary::between("L", 0.1, 0.5)),
         "It jams below L = 0.18 m (the model has 0.4 m)."
     );
+}
+
+/// The block is at rest on the belt, and starts forwards with it; the peg slows down from mu = 5/24 on.
+#[test]
+fn limits_say_what_becomes_of_the_speed() {
+    let over =
+        |model: &Model, vary: Vary| limits(model, &LimitsOptions::new(vary)).expect("an answer").answer();
+    assert_eq!(
+        over(&model("stick-slip"), Vary::between("mu", 0.0, 0.4)),
+        "mu from 0 to 0.4: it moves, and x starts forwards."
+    );
+    let peg = finding(include_str!("../../../docs/src/examples/peg-pushed-by-load.toml"));
+    assert_eq!(
+        over(&peg, Vary::between("mu", 0.0, 0.5)),
+        "mu from 0 to 0.20833333: it speeds up (one solution). mu from 0.20833333 to 0.5: it slows down (one solution)."
+    );
+}
+
+/// Of the speeds of an only solution the answer says all; the details have more digits.
+#[test]
+fn speeds_are_said_once() {
+    let boom = solve(&model("telescopic-boom")).expect("an answer");
+    let times = |verbose: bool, words: &str| {
+        boom.text(Style::PLAIN.verbose(verbose).width(1000)).matches(words).count()
+    };
+    assert_eq!(times(false, "s_2 speeds up"), 1);
+    assert_eq!(times(true, "s_2 speeds up"), 2);
 }
 
 #[test]

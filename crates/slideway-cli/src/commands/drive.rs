@@ -57,6 +57,6 @@ fn over_what(variables: &[Variable]) -> String {
     // A value stays on the line of its name.
     let one = |one: &Variable| format!("{} = {}", one.name, one.value).replace(' ', TOGETHER);
     let all: Vec<String> = variables.iter().map(one).collect();
-    let text = format!("Over one of these with `--vary NAME`: {}.", all.join(", "));
+    let text = format!("To see it over one of these, add `--vary NAME`: {}.", all.join(", "));
     format!("\n{}\n", printable::lines(&wrapped(&text, WIDTH).join("\n").replace(TOGETHER, " ")))
 }

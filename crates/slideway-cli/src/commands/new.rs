@@ -88,7 +88,7 @@ fn written(template: &Template, settings: &Settings, file: &str, width: usize) -
         .collect();
     let mut text = format!("Wrote {}", printable::line(file));
     if !others.is_empty() {
-        let _ = write!(text, ", as in the template: {}", others.join(", "));
+        let _ = write!(text, ". Kept from the template: {}", others.join(", "));
     }
     let _ = write!(text, ".\nRule: {}\nReturn: {}", template.rule(), template.way_back());
     let mut text: String =

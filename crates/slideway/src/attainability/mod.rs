@@ -24,7 +24,7 @@ mod shared;
 mod spectrum;
 
 use crate::kinetics::KineticEquations;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Effort, Mechanism};
 use crate::modes::{ContactState, ModeProblem};
 use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 use fate::{End, FastMotion, Rest};
@@ -73,8 +73,8 @@ pub struct ElasticGuides<'p> {
 
 impl<'p> ElasticGuides<'p> {
     /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of
-    /// the model if it gives them for every contact, else 1 N/m; of redundant guides they count where all that
-    /// share a load have one, the others having the mean of these.
+    /// the model if it gives them for every contact, else 1 N/m; of redundant guides they count where all
+    /// that share a load have one, the others having the mean of these.
     pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
         let contacts = &mechanism.contacts;
         let shared = SharedGaps::of(mechanism, equations);
@@ -109,8 +109,8 @@ impl<'p> ElasticGuides<'p> {
         all
     }
 
-    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose mode
-    /// problem has it.
+    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose
+    /// mode problem has it.
     pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
         let shared = self.shared.as_ref()?;
         let states = shared.closed(states);
@@ -138,8 +138,8 @@ impl<'p> ElasticGuides<'p> {
         }
     }
 
-    /// Whether a verdict says something about this state: contacts of determinate guides that are between their
-    /// faces have no elastic law.
+    /// Whether a verdict says something about this state: contacts of determinate guides that are between
+    /// their faces have no elastic law.
     fn has_law(&self, states: &[ContactState]) -> bool {
         self.shared.is_some() || !states.contains(&ContactState::Gap)
     }
@@ -282,16 +282,24 @@ impl<'p> ElasticGuides<'p> {
     }
 }
 
-/// What is assumed of the drives, and what to change.
+/// Why the stability under drives is not decided, and how to measure a coordinate so that it is.
 fn reversed(mechanism: &Mechanism) -> String {
-    let name =
-        |drive: &crate::mechanism::Drive| mechanism.coordinates[drive.coordinate.index()].name.to_string();
-    let holds = mechanism.drives.iter().map(|drive| format!("{} holds {}", drive.name, name(drive)));
-    let holds = holds.collect::<Vec<_>>().join(", ");
-    let first = mechanism.drives.first().map_or_else(String::new, name);
+    let unstable = "the mechanism would be unstable with elastic guides even without friction";
+    let [drive] = mechanism.drives.as_slice() else {
+        return format!(
+            "coordinates are measured in other places or directions than their drives act. Held exactly there, {unstable}. \
+             Measure each where and as its drive acts"
+        );
+    };
+    let coordinate = &mechanism.coordinates[drive.coordinate.index()].name;
+    let measure = match drive.effort {
+        Effort::Force { at, .. } => format!("x = \"{}.POINT\"", mechanism.frame_name(at.frame)),
+        Effort::Torque { body, .. } => format!("rotation = \"{}\"", mechanism.frame_name(body)),
+    };
     format!(
-        "with elastic guides it would be unstable even without friction if {holds} exactly, from where the drive acts. Measure \
-         {first} where the drive acts: `x = \"BODY.POINT\"` in [coordinates.{first}]"
+        "{coordinate} is measured in another place or direction than {} acts. Held exactly there, {unstable}. Measure \
+         {coordinate} where it acts: `{measure}` in [coordinates.{coordinate}]",
+        drive.name
     )
 }
 

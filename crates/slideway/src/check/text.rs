@@ -96,7 +96,7 @@ impl Text<'_> {
             (true, false) => AnsiColor::Yellow,
             _ => AnsiColor::Red,
         };
-        self.painted(colour.on_default().bold(), &report.answer(), "");
+        self.painted(colour.on_default().bold(), &report.answer());
         for (finding, questions) in report.hindrances() {
             let of_some = report.is_ready().then(|| format!("For {}: ", questions.join(", ")));
             self.line(&format!("  - {}{}", of_some.unwrap_or_default(), finding.message));
@@ -106,7 +106,7 @@ impl Text<'_> {
         }
         if !report.warnings.is_empty() {
             let warnings = count(report.warnings.len(), "warning", "warnings");
-            self.painted(AnsiColor::Yellow.on_default().bold(), &format!("{warnings}:"), "");
+            self.painted(AnsiColor::Yellow.on_default().bold(), &format!("{warnings}:"));
         }
         for warning in &report.warnings {
             self.line(&format!("  - {}", warning.message));

@@ -170,10 +170,7 @@ impl Tabulated<'_> {
             && let Ok(report) = self.varied.solved(value, self.work)
             && report.status != Status::Unknown
         {
-            return rows_of(
-                value,
-                state::efforts(&report, efforts.frictionless.clone(), &efforts.velocities),
-            );
+            return rows_of(value, state::efforts(&report, &efforts.velocities));
         }
         let row = |pattern: String, verdict: Verdict, of: Vec<f64>| {
             let (power, efficiency) = efforts.power(&of);

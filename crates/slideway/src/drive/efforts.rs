@@ -3,7 +3,6 @@
 use super::report::{Efficiency, EfficiencyKind};
 use super::state::PATTERNS;
 use crate::fault::Faults;
-use crate::ids::DriveId;
 use crate::kinetics::effort_forces;
 use crate::limits::Varied;
 use crate::mechanism::Mechanism;
@@ -44,7 +43,7 @@ impl Efforts {
             line: parts.line_to(&parts),
             drives: stages.mechanism.drives.len(),
             mechanism: stages.mechanism.clone(),
-            frictionless: frictionless(stages),
+            frictionless: stages.influence.efforts(&stages.influence.frictionless),
             velocities: velocities(stages),
         })
     }
@@ -70,7 +69,7 @@ impl Efforts {
         self.line.present(0.0, &OPTIONS, goes_on)
     }
 
-    /// Whether the solution of a pattern is on its boundary within rounding.
+    /// True if the solution of a pattern is on its boundary within rounding.
     pub(crate) fn is_on_boundary(&self, pattern: &[ContactState]) -> bool {
         self.line.cause_at(pattern, 0.0, &OPTIONS) != EndCause::Range
     }
@@ -85,14 +84,6 @@ impl Efforts {
     pub(crate) fn power(&self, efforts: &[f64]) -> (f64, Efficiency) {
         (power(efforts, &self.velocities), efficiency(efforts, &self.frictionless, &self.velocities))
     }
-}
-
-/// The efforts without friction.
-pub(super) fn frictionless(stages: &Stages) -> Vec<f64> {
-    let effort = |drive: usize| stages.influence.layout().effort(DriveId(drive));
-    // Adding zero turns -0 into 0.
-    let of_drive = |drive| stages.influence.frictionless[effort(drive)] + 0.0;
-    (0..stages.mechanism.drives.len()).map(of_drive).collect()
 }
 
 /// The velocity at which a unit effort of each drive works: force times velocity of its point, against its
@@ -140,7 +131,7 @@ pub(super) fn efficiency(efforts: &[f64], frictionless: &[f64], velocities: &[f6
     Efficiency { is, value }
 }
 
-/// What grows without bound in a mode towards an end.
+/// The efforts and contacts that grow without bound in a mode towards an end.
 pub(super) struct Growing {
     /// 1 or -1 for each drive whose effort does, with this sign, else 0.
     pub(super) efforts: Vec<i8>,
@@ -148,7 +139,7 @@ pub(super) struct Growing {
     pub(super) contacts: Vec<usize>,
 }
 
-/// What grows without bound in a mode towards `end`, whose other end is `other`; none if no effort does.
+/// All that grows without bound in a mode towards `end`, whose other end is `other`; none if no effort does.
 pub(super) fn growing(
     pattern: &[ContactState],
     [end, other]: [f64; 2],

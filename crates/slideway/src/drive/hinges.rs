@@ -1,8 +1,9 @@
-//! The efforts over a parameter or a coordinate with friction in hinges, or where contacts stand still while the rest moves: each row is solved by itself, and where the
-//! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
+//! The efforts over a parameter or a coordinate with friction in hinges, or where contacts stand still while the
+//! rest moves: each row is solved by itself, and where the number of solutions changes, as about a dead centre,
+//! is sought between evenly spaced values.
 
 use super::course::{Guarantee, evenly, modes, nothing, rows_of, with_blow_ups};
-use super::efforts::{frictionless, grows, velocities};
+use super::efforts::{grows, velocities};
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, LockedRange, Sense};
 use super::state::{self, AllEfforts};
 use crate::fault::Faults;
@@ -81,7 +82,7 @@ impl Sampled<'_> {
         let (model, factor) = self.varied.model_at(value)?;
         let stages = Stages::of_any_model(&model)?;
         let report = self.solved(&model, stages.rougher(factor))?;
-        Ok(state::efforts(&report, frictionless(&stages), &velocities(&stages)))
+        Ok(state::efforts(&report, &velocities(&stages)))
     }
 
     fn solved(&self, model: &Model, stages: RougherStages<'_>) -> Result<SolveReport, Faults> {

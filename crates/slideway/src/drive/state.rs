@@ -1,7 +1,7 @@
 //! The efforts in the state of the model.
 
 use super::continuum::effort_range;
-use super::efforts::{Efforts, efficiency, frictionless, growing, power, velocities};
+use super::efforts::{Efforts, efficiency, growing, power, velocities};
 use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, EffortRange, Frictionless, Sense};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -34,8 +34,7 @@ pub(super) fn direction(
     let options = SolveOptions::default();
     let report = solve_with(model, &options, &mut goes_on)?;
     let (stages, _) = Stages::with_standing(mechanism, configuration)?;
-    let AllEfforts { solutions, range, frictionless, .. } =
-        efforts(&report, frictionless(&stages), &velocities(&stages));
+    let AllEfforts { solutions, range, frictionless, .. } = efforts(&report, &velocities(&stages));
     let found = DriveDirection {
         tips: report.tipping_in_the_end(),
         direction,
@@ -71,7 +70,8 @@ pub(super) struct AllEfforts {
 }
 
 /// The efforts of all solutions, and those without friction.
-pub(super) fn efforts(report: &SolveReport, frictionless: Vec<f64>, velocities: &[f64]) -> AllEfforts {
+pub(super) fn efforts(report: &SolveReport, velocities: &[f64]) -> AllEfforts {
+    let frictionless: Vec<f64> = report.influence.drives.iter().map(|drive| drive.effort).collect();
     let solution = |solution: &Solution, preload_gap: bool| {
         let efforts: Vec<f64> = solution.drives.iter().map(|drive| drive.effort + 0.0).collect();
         DriveSolution {
@@ -95,8 +95,8 @@ pub(super) fn efforts(report: &SolveReport, frictionless: Vec<f64>, velocities: 
     }
 }
 
-/// The factors of friction at which efforts grow without bound; none if there are too many modes, friction in hinges, or
-/// contacts that stand still.
+/// The factors of friction at which efforts grow without bound; none if there are too many modes, friction in
+/// hinges, or contacts that stand still.
 fn blow_ups(stages: &Stages, work: Work<'_>) -> Result<Option<Vec<BlowUp>>, Faults> {
     if stages.mechanism.rough_hinges().next().is_some() || !stages.standing.is_empty() {
         return Ok(None);

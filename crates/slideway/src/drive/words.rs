@@ -1,12 +1,13 @@
-//! What driven motion comes to, in sentences.
+//! The sentences on driven motion.
 
 use super::report::{
     Approach, BlowUp, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency, EfficiencyKind,
     EffortRange, Sense,
 };
-use crate::report::{OpenRange, Status, Verdict, spaced};
+use crate::report::effort::{self, times_friction};
+use crate::report::{Status, Verdict, spaced};
 use crate::units::number::{brief, number};
-use crate::units::{Unit, precise};
+use crate::units::precise;
 
 /// Efforts of so many states are told in a sentence.
 const TOLD: usize = 4;
@@ -21,19 +22,19 @@ pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
         .collect()
 }
 
-/// What makes an undetermined effort determinate.
+/// The advice that makes an undetermined effort determinate.
 pub(super) fn advice(report: &DriveReport) -> Option<String> {
     let ranges = report.directions.iter().filter_map(|direction| direction.range.as_ref());
     ranges.filter_map(|range| range.undetermined.advice()).map(str::to_owned).next()
 }
 
-/// What one direction of motion needs, and whether it jams: "push needs 36.36 N (20 N without friction): efficiency
-/// 55 %.", "It would jam at 2.222 times this friction (mu = 0.6667)."
+/// The needs of one direction of motion, and whether it jams: "push needs 36.36 N (20 N without friction):
+/// efficiency 55 %.", "It would jam from mu = 0.6667 (2.222 times this friction)."
 pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec<String> {
     let whole = |clause: String| match direction.direction {
         Sense::Reversed => format!("Backwards {clause}"),
         // All but names of drives and joints.
-        Sense::Model if ["it ", "beyond ", "infinitely "].iter().any(|word| clause.starts_with(word)) => {
+        Sense::Model if ["it ", "infinitely "].iter().any(|word| clause.starts_with(word)) => {
             clause[..1].to_uppercase() + &clause[1..]
         }
         Sense::Model => clause,
@@ -66,11 +67,9 @@ fn stuck(report: &DriveReport, direction: &DriveDirection) -> String {
             as_block(direction)
         );
     }
-    let what = match report.drives.as_slice() {
-        drives if drives.iter().all(|drive| drive.unit == "N") => "force",
-        drives if drives.iter().all(|drive| drive.unit == "N m") => "torque",
-        _ => "effort",
-    };
+    let kinds: Vec<Option<&str>> = report.drives.iter().map(|drive| effort::kind(drive.unit)).collect();
+    let is_one = kinds.windows(2).all(|pair| pair[0] == pair[1]);
+    let what = kinds.first().copied().flatten().filter(|_| is_one).unwrap_or("effort");
     format!("it jams: no {what} moves it.")
 }
 
@@ -88,10 +87,13 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
+        let with = unit.brief(*with);
         // One drive that does no work without friction has no effort then.
-        let free =
-            if is_idle { String::new() } else { format!(" ({} without friction)", unit.brief(*without)) };
-        format!("{} needs {}{free}", drive.name, unit.brief(*with))
+        if is_idle {
+            format!("{} needs {with}", drive.name)
+        } else {
+            effort::needs(&drive.name, &with, &unit.brief(*without))
+        }
     };
     let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
     let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
@@ -127,7 +129,7 @@ fn needs_several(report: &DriveReport, several: &[DriveSolution]) -> String {
     format!("{count} states are possible: {} needs {}.", drive.name, efforts.join(", or "))
 }
 
-/// What is to be said of the only state if a mechanism does not settle on it.
+/// A remark on the only state if a mechanism does not settle on it.
 fn unsettled(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Unattainable => " This state is unstable: a real mechanism leaves it.",
@@ -140,13 +142,9 @@ fn unsettled(verdict: Verdict) -> &'static str {
 /// undetermined."
 fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &EffortRange) -> String {
     let efforts = range.undetermined.efforts.iter().zip(&direction.frictionless.efforts);
-    let needs = efforts.map(|(effort, without)| {
-        let without = report.units.of(effort.unit).brief(*without);
-        format!(
-            "{} needs {} ({without} without friction)",
-            effort.name,
-            between(effort, &report.units.of(effort.unit))
-        )
+    let needs = efforts.map(|(range, without)| {
+        let without = report.units.of(range.unit).brief(*without);
+        effort::needs(&range.name, &range.in_brief(&report.units), &without)
     });
     let mut parts: Vec<String> = needs.collect();
     parts.extend(range.efficiency.map(|ends| format!("efficiency {}", percents(ends))));
@@ -158,22 +156,11 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
     format!("{}; {}.{further}", parts.join(", "), range.undetermined.cause())
 }
 
-/// "25 to 50 N", "25 N or more", "any effort"
-fn between(effort: &OpenRange, unit: &Unit) -> String {
-    match (effort.from, effort.to) {
-        (Some(from), Some(to)) if from == to => unit.brief(from),
-        (Some(from), Some(to)) => format!("{} to {}", unit.brief_number(from), unit.brief(to)),
-        (Some(from), None) => format!("{} or more", unit.brief(from)),
-        (None, Some(to)) => format!("{} or less", unit.brief(to)),
-        (None, None) => "any effort".to_owned(),
-    }
-}
-
 /// When it would jam, or that it never does; none where that is not known.
 fn jam(direction: &DriveDirection) -> Option<String> {
     if let Some(below) = &direction.moves_below {
         let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
-        return Some(format!("{what} below {}.", friction(below.factor, below.mu)));
+        return Some(format!("{what} below {}.", times_friction(below.factor, below.mu)));
     }
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
@@ -181,22 +168,16 @@ fn jam(direction: &DriveDirection) -> Option<String> {
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
         return never.then(|| "it does not jam at any friction.".to_owned());
     };
-    let at = friction(factor, direction.mu.map(|mu| factor * mu));
+    let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {
         let tips = tip("would tip", "would tip", direction);
-        return Some(format!("beyond {at} {tips}; {} to go on.", as_block(direction)));
+        return Some(format!("{tips} from {at}; {} to go on.", as_block(direction)));
     }
     // A jam that no growing effort announces.
     let grows = |blow_ups: &Vec<BlowUp>| blow_ups.iter().any(|one| precise(one.at) == precise(factor));
     let is_sudden = direction.blow_ups.as_ref().is_some_and(|blow_ups| !grows(blow_ups));
     let warning = if is_sudden { ", and the effort gives no warning before" } else { "" };
-    Some(format!("it would jam at {at}{warning}."))
-}
-
-/// "2.222 times this friction (mu = 0.6667)"
-fn friction(factor: f64, mu: Option<f64>) -> String {
-    let mu = mu.map_or_else(String::new, |mu| format!(" (mu = {})", brief(mu)));
-    format!("{} times this friction{mu}", brief(factor))
+    Some(format!("it would jam from {at}{warning}."))
 }
 
 /// "40 to 80 %"
@@ -218,7 +199,7 @@ pub(super) fn share(efficiency: Efficiency) -> String {
     }
 }
 
-/// Whether a mechanism settles on a state, as a cell of a table.
+/// The verdict on stability, as a cell of a table.
 pub(super) fn is_stable(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Attainable => "yes",
@@ -229,8 +210,8 @@ pub(super) fn is_stable(verdict: Verdict) -> &'static str {
     }
 }
 
-/// "the effort of push grows without limit"; with details also where: "(mode + -, below), with the normal forces of
-/// guide.front, guide.rear".
+/// "the effort of push grows without limit"; with details also where: "(mode + -, below), with the normal
+/// forces of guide.front, guide.rear".
 pub(super) fn without_limit(report: &DriveReport, blow_up: &BlowUp, details: bool) -> String {
     let growing = report.drives.iter().zip(&blow_up.efforts).filter(|(_, sign)| **sign != 0);
     let growing: Vec<&str> = growing.map(|(drive, _)| &*drive.name).collect();

@@ -92,6 +92,11 @@ impl Layout {
         matches!(reaction, Reaction::Normal(contact) if self.cut.contains(&contact))
     }
 
+    /// Indices of the efforts of all drives.
+    pub(crate) fn efforts(&self) -> std::ops::Range<usize> {
+        self.len() - self.drives..self.len()
+    }
+
     /// Number of unknowns.
     pub fn len(&self) -> usize {
         3 * self.bodies + self.reactions.len() + self.drives

@@ -1,4 +1,4 @@
-//! What limits come to, in words.
+//! The conclusion of limits, in words.
 
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
@@ -9,7 +9,7 @@ const MOVES: &str = "it moves";
 /// That there is no solution, and no guided slider tips.
 const JAMS: &str = "it jams";
 
-/// What limits come to.
+/// The conclusion of limits.
 pub(super) struct Conclusion {
     /// The limit in one sentence, if there is one only: "It jams from mu = 0.6667 on (the model has 0.3)."
     pub(super) summary: Option<String>,
@@ -73,10 +73,10 @@ fn summary(pieces: &[Piece], varied: &Varied) -> Option<String> {
         [only] if only.verdict == MOVES => Some(format!("It moves {}.", all(only))),
         [only] if only.verdict == JAMS => Some(format!("It jams {}{now}.", all(only))),
         [one, other] if one.to != other.from => None,
-        [one, other] if one.is_motion() && other.verdict == JAMS => {
+        [one, other] if one.is_motion && other.verdict == JAMS => {
             Some(format!("It jams from {} on{now}.", at(other)))
         }
-        [one, other] if one.verdict == JAMS && other.is_motion() => {
+        [one, other] if one.verdict == JAMS && other.is_motion => {
             Some(format!("It jams below {}{now}.", at(other)))
         }
         _ => None,
@@ -91,6 +91,8 @@ struct Piece {
     from: f64,
     to: f64,
     verdict: String,
+    /// True if it moves in a single way.
+    is_motion: bool,
     /// The least that is known of it.
     known: Known,
 }
@@ -102,13 +104,8 @@ impl Piece {
             && (self.known == other.known || is_certain(self.known) && is_certain(other.known))
     }
 
-    /// Whether it moves in a single way.
-    fn is_motion(&self) -> bool {
-        self.verdict == MOVES || self.verdict.starts_with(ONE_SOLUTION)
-    }
-
     fn sentence(&self, varied: &Varied, method: Method) -> String {
-        let Self { from, to, ref verdict, known } = *self;
+        let Self { from, to, ref verdict, known, .. } = *self;
         let verdict = if known == Known::Undecided { "not decided" } else { verdict };
         let sampled = if known == Known::Sampled { " (sampled)" } else { "" };
         let same = if matches!(method, Method::Same { .. }) { ", the same in the whole range" } else { "" };
@@ -129,11 +126,10 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
             (3, _) => "three solutions",
             _ => "more than three solutions",
         };
-        let whole = Piece { from: count.from, to: count.to, verdict: verdict.to_owned(), known: count.known };
-        match count.solutions {
-            1 if !count.continuum => by_speed(whole, &direction.modes),
-            _ => vec![whole],
-        }
+        let is_motion = count.solutions == 1 && !count.continuum;
+        let verdict = verdict.to_owned();
+        let whole = Piece { from: count.from, to: count.to, verdict, is_motion, known: count.known };
+        if is_motion { by_speed(whole, &direction.modes) } else { vec![whole] }
     };
     direction.counts.iter().flat_map(pieces).collect()
 }
@@ -155,7 +151,11 @@ fn by_speed(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
     let piece = |((from, to), speed): ((&f64, f64), &SpeedLimits)| Piece {
         from: *from,
         to,
-        verdict: format!("{}: it {}", whole.verdict, speed.speed.in_words()),
+        verdict: match speed.speed.in_words() {
+            words if whole.verdict == MOVES => format!("{MOVES}, and {} {words}", speed.coordinate),
+            words => format!("it {words} ({ONE_SOLUTION})"),
+        },
+        is_motion: true,
         known: whole.known,
     };
     begins.iter().zip(ends).zip(speeds).map(piece).collect()
@@ -185,7 +185,13 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Pi
             (Some(one), Some(other)) if one == other => format!("{one} in both directions"),
             (Some(one), Some(other)) => format!("{one}; in the opposite direction {other}"),
         };
-        Some(Piece { from: pair[0], to: pair[1], verdict, known: known.max(known_of_other) })
+        Some(Piece {
+            from: pair[0],
+            to: pair[1],
+            verdict,
+            is_motion: false,
+            known: known.max(known_of_other),
+        })
     };
     ends.windows(2).filter_map(piece).collect()
 }

@@ -11,7 +11,6 @@ use crate::choice::Choice;
 use crate::configuration::Configuration;
 use crate::enclosure::TurningHinge;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::DriveId;
 use crate::influence::ContactFriction;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Effort, Mechanism};
@@ -273,11 +272,7 @@ impl OfState<'_> {
                 mechanism.forces_at_faces(pattern, friction.collect())
             }
             Quantity::Acceleration => equations.coordinate_accelerations(&all()),
-            Quantity::Effort => {
-                let unknowns = all();
-                let drives = (0..mechanism.drives.len()).map(DriveId);
-                drives.map(|drive| unknowns[influence.layout().effort(drive)]).collect()
-            }
+            Quantity::Effort => influence.efforts(&all()),
         }
     }
 }

@@ -253,7 +253,7 @@ impl CountLimits {
 }
 
 /// Version of the layout of a [`RestLimitsReport`]; changes whenever a field is renamed or removed.
-pub const REST_SCHEMA: &str = "slideway/rest-limits/1";
+pub const REST_SCHEMA: &str = "slideway/hold-limits/1";
 
 /// For which values a mechanism can stay at rest.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -16,11 +16,11 @@ use crate::report::finite;
 use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
 
 /// Evenly spaced values that are tried: a heuristic.
-const STEPS: usize = 100;
+pub(super) const STEPS: usize = 100;
 /// The most stretches of other answers between two neighbouring values that are looked for.
 const BETWEEN: usize = 3;
 
-/// What is known at a value: whether it can rest, if that was decided, or why there is no answer.
+/// The answer at a value: whether it can rest, if that was decided, or why there is no answer.
 type Found = Result<Option<bool>, Faults>;
 
 /// The stretches of a range in which a mechanism can stay at rest, and those in which it cannot.
@@ -144,7 +144,7 @@ fn span([from, to]: [f64; 2], found: &Found) -> SpanOfRest {
     SpanOfRest { from, to, holds, reason }
 }
 
-/// Whether two values have the same answer, or none for the same kind of reason.
+/// True if two values have the same answer, or none for the same kind of reason.
 fn is_same(one: &Found, other: &Found) -> bool {
     match (one, other) {
         (Ok(one), Ok(other)) => one == other,

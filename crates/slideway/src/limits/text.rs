@@ -4,6 +4,7 @@ use super::report::{
     CountLimits, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
     RangeWithoutProblem, RestLimitsReport, SpanOfRest, SpeedLimits,
 };
+use super::rest::STEPS;
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -16,7 +17,7 @@ impl Report for LimitsReport {
         self.summary.clone().unwrap_or_else(|| self.conclusion.join(" "))
     }
 
-    /// What it comes to, the modes, the numbers of solutions.
+    /// The conclusion, the modes, the numbers of solutions.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
         text.heading();
@@ -50,7 +51,12 @@ impl Report for RestLimitsReport {
         text.line(&format!("At rest{at}, {range} (in the model {value})"));
         text.line("");
         self.spans.iter().for_each(|span| text.headline(&self.in_words(span)));
-        text.line(&self.guarantee);
+        let narrower = unit.precise((vary.to - vary.from) / STEPS as f64);
+        if text.is_verbose() {
+            text.line(&self.guarantee);
+        } else {
+            text.line(&format!("Sampled: ranges narrower than {narrower} could be missed."));
+        }
         text.text()
     }
 }
@@ -176,7 +182,7 @@ pub(crate) fn no_answer([from, to]: [f64; 2], unit: &Unit, reason: &str) -> Stri
         [from, to] if from == to => format!("At {}", unit.with(&from)),
         [from, to] => format!("From {from} to {}", unit.with(&to)),
     };
-    format!("  {place} there is no answer, which does not count as locking: {reason}.")
+    format!("  {place} there is no answer, which is no jam: {reason}.")
 }
 
 fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {

@@ -1,10 +1,11 @@
-//! The plain answer of `solve`: what one would say of a state to a colleague.
+//! The plain answer of `solve`, as one would say it to a colleague.
 
+use super::effort::{self, times_friction};
 use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
 impl SolveReport {
-    /// What there is, in one sentence: "It moves: push needs 36.36 N (20 N without friction)."
+    /// The verdict in a sentence: "It moves: push needs 36.36 N (20 N without friction)."
     pub fn verdict_in_words(&self) -> String {
         if self.partial && matches!(self.status, Status::One | Status::Several | Status::PreloadGap) {
             let states = if self.count == "0" { &self.gap_state_count } else { &self.count };
@@ -29,18 +30,18 @@ impl SolveReport {
         }
     }
 
-    /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667, 2.222 times this friction."
-    /// Empty where nothing is known, or nothing changes.
+    /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667 (2.222 times this
+    /// friction)." Empty where nothing is known, or nothing changes.
     pub fn safety_in_words(&self) -> Vec<String> {
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
-            let below = margins.moves_below.map(|below| friction(below.mu, below.factor));
+            let below = margins.moves_below.map(|below| times_friction(below.factor, below.mu));
             return below
                 .map(|below| format!("It {} below {below}.", self.what_ends()))
                 .into_iter()
                 .collect();
         }
-        let at = |factor: f64| friction(margins.mu.map(|mu| factor * mu), factor);
+        let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
         let mut sentences = Vec::new();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
@@ -57,10 +58,15 @@ impl SolveReport {
         sentences
     }
 
-    /// How the answer is known, in a clause: "Proven: the only solution."
+    /// How the answer is known, and which states there are beside solutions: "Proven: it is the only solution."
     pub(super) fn known_in_words(&self) -> String {
+        let gaps = match self.gap_state_count.as_str() {
+            states if states == "0" || self.solutions.is_empty() => String::new(),
+            "1" => " One more state is in a preload gap.".to_owned(),
+            several => format!(" {several} more states are in a preload gap."),
+        };
         if !self.open.is_empty() {
-            return format!("Not proven: {}.", self.open.join("; "));
+            return format!("Not proven: {}.{gaps}", self.open.join("; "));
         }
         let all = match self.status {
             Status::None => "there is no solution",
@@ -69,19 +75,21 @@ impl SolveReport {
             }
             _ => "there are no other solutions",
         };
-        format!("Proven: {all}.")
+        format!("Proven: {all}.{gaps}")
     }
 
     /// "no force of push moves it"
     fn nothing_moves_it(&self) -> String {
         match self.influence.drives.as_slice() {
             [] => "friction locks it".to_owned(),
-            [drive] => format!("no {} of {} moves it", kind(drive.unit), drive.name),
+            [drive] => {
+                format!("no {} of {} moves it", effort::kind(drive.unit).unwrap_or("effort"), drive.name)
+            }
             _ => "no drive moves it".to_owned(),
         }
     }
 
-    /// What happens below the friction that is told: "moves".
+    /// The end of the jam or the tipping at less friction: "moves".
     fn what_ends(&self) -> &'static str {
         if self.tipping().is_none() { "moves" } else { "does not tip" }
     }
@@ -105,17 +113,12 @@ impl SolveReport {
     fn needs(&self, solution: &Solution) -> Vec<String> {
         let one = |(drive, without): (&Drive, &Drive)| {
             let unit = self.model.units.of(drive.unit);
-            let (with, without) = (unit.brief(drive.effort), unit.brief(without.effort));
-            if with == without {
-                format!("{} needs {with}, as without friction", drive.name)
-            } else {
-                format!("{} needs {with} ({without} without friction)", drive.name)
-            }
+            effort::needs(&drive.name, &unit.brief(drive.effort), &unit.brief(without.effort))
         };
         solution.drives.iter().zip(&self.influence.drives).map(one).collect()
     }
 
-    /// What becomes of the speeds: "slows down, and would stop after 0.1 s and 0.02 m", with names if there are several.
+    /// The speeds: "slows down, and would stop after 0.1 s and 0.02 m", with names if there are several.
     fn changes(&self, solution: &Solution) -> Vec<String> {
         let is_only = self.state.len() == 1;
         let with_speed = self.state.iter().zip(&solution.coordinates);
@@ -181,7 +184,7 @@ impl SolveReport {
         format!("{cause}{ranges}.{advice}")
     }
 
-    /// "It moves, pin between its faces: push needs 3 N (2 N without friction)."
+    /// "It moves in a preload gap, pin pressed by its preload alone: push needs 3 N (2 N without friction)."
     fn gap_in_words(&self) -> String {
         if self.partial || !self.undecided_modes.is_empty() {
             return "A state in a preload gap; whether it has another solution is not decided.".to_owned();
@@ -221,13 +224,13 @@ impl SolveReport {
     fn without_margins(&self) -> Vec<String> {
         let least = self
             .unique_at_least
-            .map(|factor| format!("Safe for any load up to {} times this friction at least.", brief(factor)));
+            .map(|factor| format!("Safe for any load up to at least {} times this friction.", brief(factor)));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()
     }
 
-    /// Whether friction acts anywhere: more of none is none.
+    /// True if friction acts anywhere: more of none is none.
     fn has_friction(&self) -> bool {
         let mut states = self.solutions.iter().chain(&self.preload_gap_states);
         states.any(|state| {
@@ -237,7 +240,7 @@ impl SolveReport {
     }
 }
 
-/// "It would jam from mu = 0.6667, 2.222 times this friction."
+/// "It would jam from mu = 0.6667 (2.222 times this friction)."
 fn end_in_words(margins: &Margins, at: &str) -> String {
     let again = margins.solutions_again;
     let again =
@@ -246,15 +249,4 @@ fn end_in_words(margins: &Margins, at: &str) -> String {
         [] => format!("It would jam from {at}{again}."),
         joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
     }
-}
-
-/// "mu = 0.6667, 2.222 times this friction", or the factor alone.
-fn friction(mu: Option<f64>, factor: f64) -> String {
-    let times = format!("{} times this friction", brief(factor));
-    mu.map_or(times.clone(), |mu| format!("mu = {}, {times}", brief(mu)))
-}
-
-/// The kind of an effort in this unit.
-fn kind(unit: &str) -> &'static str {
-    if unit == "N" { "force" } else { "torque" }
 }

@@ -130,19 +130,17 @@ impl Attainability {
         words + "."
     }
 
+    /// Whereto a disturbance leads from an unattainable solution.
     fn separates_in_words(&self) -> String {
-        match self.separates {
-            Some([Fate::Solution(one), Fate::Jamming] | [Fate::Jamming, Fate::Solution(one)]) => {
-                format!("threshold between sliding (solution {one}) and jamming")
-            }
-            Some([Fate::Solution(one), Fate::Solution(other)]) if one != other => {
-                format!("threshold between solutions {} and {}", one.min(other), one.max(other))
-            }
-            Some([Fate::Solution(one), Fate::Solution(_)]) => {
-                format!("a mechanism with slightly elastic guides leaves it for solution {one}")
-            }
-            Some([Fate::Jamming, Fate::Jamming]) => {
-                "a mechanism with slightly elastic guides leaves it and jams".to_owned()
+        let to = |fate: &Fate| match fate {
+            Fate::Solution(number) => Some(format!("goes over to solution {number}")),
+            Fate::Jamming => Some("jams".to_owned()),
+            Fate::NotComputed => None,
+        };
+        match self.separates.as_ref().map(|fates| fates.each_ref().map(to)) {
+            Some([Some(one), Some(other)]) if one == other => format!("disturbed, it {one}"),
+            Some([Some(one), Some(other)]) => {
+                format!("disturbed to one side, it {one}; to the other, it {other}")
             }
             _ => "a mechanism with slightly elastic guides leaves it".to_owned(),
         }

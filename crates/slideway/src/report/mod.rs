@@ -6,6 +6,7 @@
 mod answer;
 mod attainability;
 mod csv;
+pub(crate) mod effort;
 mod end;
 mod finite;
 mod json;

@@ -4,13 +4,14 @@ use super::table::table;
 use super::{Status, Style};
 use crate::printable;
 use anstyle::{AnsiColor, Style as Ansi};
-use std::fmt::Write;
-use textwrap::{Options, WordSplitter, wrap};
+use textwrap::core::Word;
+use textwrap::{Options, WordSeparator, WordSplitter, wrap};
 
 /// A report, and what has been written of it.
 ///
 /// Colours come in here and nowhere else, and all other text becomes [`printable`] before: so whatever a
-/// model holds, the text has no escape sequences but those of its own style. Lines are wrapped here and nowhere else.
+/// model holds, the text has no escape sequences but those of its own style. Lines are wrapped here and
+/// nowhere else.
 pub(crate) struct Page<'r, R> {
     pub(crate) report: &'r R,
     style: Style,
@@ -23,7 +24,7 @@ impl<'r, R> Page<'r, R> {
         Self { report, style, out: String::new() }
     }
 
-    /// Whether the details are asked for.
+    /// True if the details are asked for.
     pub(crate) fn is_verbose(&self) -> bool {
         self.style.verbose
     }
@@ -39,7 +40,13 @@ impl<'r, R> Page<'r, R> {
         let blanks = line.len() - line.trim_start().len();
         let indent = " ".repeat(blanks + first.chars().count());
         for line in wrapped(&line, &indent, self.style.width) {
-            self.out.push_str(line.trim_end());
+            self.push(&line);
+        }
+    }
+
+    /// Adds an empty line, unless there is one already.
+    pub(crate) fn gap(&mut self) {
+        if !self.out.ends_with("\n\n") {
             self.out.push('\n');
         }
     }
@@ -53,12 +60,20 @@ impl<'r, R> Page<'r, R> {
 
     /// Adds a line in the style of headings.
     pub(crate) fn headline(&mut self, line: &str) {
-        self.painted(Ansi::new().bold(), line, "");
+        self.painted(Ansi::new().bold(), line);
     }
 
-    /// Adds a line that begins with a heading.
+    /// Adds a line that begins with a heading, which is shorter than the page is wide.
     pub(crate) fn headed(&mut self, heading: &str, rest: &str) {
-        self.painted(Ansi::new().bold(), heading, rest);
+        let bold = Ansi::new().bold();
+        let heading = printable::line(heading);
+        let lines = wrapped(&format!("{heading}{}", printable::line(rest)), "", self.style.width);
+        for line in lines {
+            match line.strip_prefix(&*heading).filter(|_| self.style.colour) {
+                Some(rest) => self.push(&format!("{bold}{heading}{bold:#}{rest}")),
+                None => self.push(&line),
+            }
+        }
     }
 
     /// Adds a line in the colour of what was found.
@@ -68,25 +83,23 @@ impl<'r, R> Page<'r, R> {
             Status::None => AnsiColor::Red,
             _ => AnsiColor::Yellow,
         };
-        self.painted(colour.on_default().bold(), verdict, "");
+        self.painted(colour.on_default().bold(), verdict);
     }
 
-    /// Adds a line that begins in a style, wrapped.
-    pub(crate) fn painted(&mut self, ansi: Ansi, painted: &str, rest: &str) {
-        let (painted, rest) = (printable::line(painted), printable::line(rest));
-        let mut left = painted.chars().filter(|letter| !letter.is_whitespace()).count();
-        for line in wrapped(&format!("{painted}{rest}"), "", self.style.width) {
-            // As much of the line as is left of what is painted.
-            let end = line.char_indices().filter(|(_, letter)| !letter.is_whitespace()).nth(left);
-            let (bright, plain) = line.split_at(end.map_or(line.len(), |(at, _)| at));
-            let (bright, gap) = bright.split_at(bright.trim_end().len());
-            let _ = if self.style.colour && !bright.is_empty() {
-                writeln!(self.out, "{ansi}{bright}{ansi:#}{gap}{plain}")
-            } else {
-                writeln!(self.out, "{}", line.trim_end())
-            };
-            left -= bright.chars().filter(|letter| !letter.is_whitespace()).count();
+    /// Adds a line in a style, wrapped.
+    pub(crate) fn painted(&mut self, ansi: Ansi, line: &str) {
+        for line in wrapped(&printable::line(line), "", self.style.width) {
+            match self.style.colour && !line.is_empty() {
+                true => self.push(&format!("{ansi}{}{ansi:#}", line.trim_end())),
+                false => self.push(&line),
+            }
         }
+    }
+
+    /// Adds a line as it is.
+    fn push(&mut self, line: &str) {
+        self.out.push_str(line.trim_end());
+        self.out.push('\n');
     }
 
     /// Adds all of a page that was written by itself.
@@ -94,7 +107,7 @@ impl<'r, R> Page<'r, R> {
         self.out.push_str(&page.out);
     }
 
-    /// What has been written.
+    /// The text so far.
     pub(crate) fn text(self) -> String {
         self.out
     }
@@ -110,7 +123,52 @@ fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
         .initial_indent(&line[..blanks])
         .subsequent_indent(indent)
         .break_words(false)
+        .word_separator(WordSeparator::Custom(words))
         .word_splitter(WordSplitter::NoHyphenation)
         .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit);
     wrap(line.trim_start(), options).into_iter().map(std::borrow::Cow::into_owned).collect()
+}
+
+/// The pieces between which a line may be broken: words, but "mu = 0.3" is one, and "55 %".
+fn words(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
+    let mut pieces = Vec::new();
+    let (mut start, mut end, mut is_joined) = (0, 0, true);
+    for word in WordSeparator::AsciiSpace.find_words(line) {
+        let is_equals = word.word == "=";
+        if !(is_joined || is_equals || word.word.starts_with('%')) {
+            pieces.push(Word::from(&line[start..end]));
+            start = end;
+        }
+        end += word.word.len() + word.whitespace.len();
+        is_joined = is_equals;
+    }
+    pieces.push(Word::from(&line[start..end]));
+    Box::new(pieces.into_iter())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Page;
+    use crate::report::Style;
+
+    #[test]
+    fn a_value_stays_with_its_name() {
+        let mut page = Page::new(&(), Style { width: 12, ..Style::PLAIN });
+        page.line("jams from mu = 0.5 on");
+        page.line("  a x = y");
+        page.line("efficiency 55 %.");
+        page.line("share of 55 %");
+        assert_eq!(page.text(), "jams from\nmu = 0.5 on\n  a x = y\nefficiency\n55 %.\nshare of\n55 %\n");
+    }
+
+    #[test]
+    fn a_heading_is_bold_and_its_rest_is_not() {
+        let mut page = Page::new(&(), Style { colour: true, width: 12, ..Style::PLAIN });
+        page.headed("Solution 1", "   signs + -");
+        page.gap();
+        page.gap();
+        page.headline("two words, wrapped");
+        let expected = "\u{1b}[1mSolution 1\u{1b}[0m\nsigns + -\n\n\u{1b}[1mtwo words,\u{1b}[0m\n\u{1b}[1mwrapped\u{1b}[0m\n";
+        assert_eq!(page.text(), expected);
+    }
 }

@@ -1,4 +1,4 @@
-//! What a solution means for the speed of a motion.
+//! The speed of a motion, as a solution changes it.
 
 use serde::Serialize;
 
@@ -59,10 +59,12 @@ impl SpeedChange {
     }
 }
 
-/// Of a solution that slows down although the loads push it: that it is no jam, and how to ask whether it jams.
+/// Of a solution that slows down although the loads push it: that it is no jam, and how to ask whether it
+/// jams.
 pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
 
-/// Of limits where no drive prescribes the motion: that slowing down is no jam, and how to ask whether it jams.
+/// Of limits where no drive prescribes the motion: that slowing down is no jam, and how to ask whether it
+/// jams.
 pub(crate) const NO_DRIVE: &str = "Without a drive it slows down where friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
 
 /// When and where a coordinate stops if its acceleration stays as it is.
@@ -118,10 +120,7 @@ impl FromRest {
             Self::Moves => "these loads would move it again",
             Self::Neither => "it could neither stay so nor begin to move",
             Self::Undecided => "it is not decided whether these loads would move it again",
-            Self::NotExamined => {
-                "these loads may move it again or not: of so many states of joints and contacts only `slideway hold` \
-                 examines all"
-            }
+            Self::NotExamined => "these loads may move it again or not; ask `slideway hold`",
         }
     }
 }

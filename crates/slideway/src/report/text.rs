@@ -40,8 +40,8 @@ impl Report for SolveReport {
 }
 
 impl SolveReport {
-    /// What holds for all values of parameters that are known within bounds, in sentences: "1 solution for every value,
-    /// proven with 3 parts."; none without such parameters.
+    /// The answer for all values of parameters that are known within bounds, in sentences: "1 solution for
+    /// every value, proven with 3 parts."; none without such parameters.
     pub fn for_all_values(&self) -> Vec<String> {
         let Some(uncertainty) = &self.uncertainty else { return Vec::new() };
         let least = uncertainty.least_solutions;
@@ -58,22 +58,24 @@ impl SolveReport {
         std::iter::once(proven).chain(open).collect()
     }
 
-    /// That friction takes more than the loads give, and how to ask whether it jams; none where no solution slows
+    /// That friction exceeds the loads, and how to ask whether it jams; none where no solution slows
     /// down although the loads push it.
     pub fn remark(&self) -> Option<String> {
         self.solutions.iter().any(slows_though_pushed).then(|| FRICTION_EXCEEDS_LOADS.to_owned())
     }
 
-    /// Between which values infinitely many solutions lie, and what leaves one: a sentence for each kind of quantity.
+    /// The ranges in which infinitely many solutions lie: a sentence for each kind of quantity.
     pub fn undetermined_in_words(&self) -> Vec<String> {
-        let Some(undetermined) = &self.undetermined else { return Vec::new() };
-        let advice = undetermined.advice().map(str::to_owned);
-        undetermined.in_words(&self.model.units).into_iter().chain(advice).collect()
+        self.undetermined.as_ref().map_or_else(Vec::new, |open| open.in_words(&self.model.units))
     }
 
-    /// What becomes of the speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down,
-    /// and would stop after 0.1 s and 0.2 m if nothing changed."
+    /// The speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down, and
+    /// would stop after 0.1 s and 0.2 m if nothing changed." Then what the loads do once it is at rest.
     pub fn speeds_in_words(&self, solution: &Solution) -> Vec<String> {
+        self.changes_in_words(solution).into_iter().chain(self.from_rest_in_words(solution)).collect()
+    }
+
+    fn changes_in_words(&self, solution: &Solution) -> Vec<String> {
         let is_only = self.state.len() == 1;
         let mut sentences = Vec::new();
         for (state, coordinate) in self.state.iter().zip(&solution.coordinates) {
@@ -91,13 +93,18 @@ impl SolveReport {
             }
             sentences.push(line + ".");
         }
-        let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
-        let from_rest = self.from_rest.filter(|_| slows);
-        sentences.extend(from_rest.map(|from_rest| format!("Once it is at rest, {}.", from_rest.in_words())));
         sentences
     }
 
-    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to say.
+    /// "Once it is at rest, these loads would not move it again."
+    fn from_rest_in_words(&self, solution: &Solution) -> Option<String> {
+        let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
+        let from_rest = self.from_rest.filter(|_| slows)?;
+        Some(format!("Once it is at rest, {}.", from_rest.in_words()))
+    }
+
+    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to
+    /// say.
     pub fn margins_in_words(&self) -> String {
         self.safety_in_words().join(" ")
     }
@@ -152,10 +159,7 @@ impl Text<'_> {
         if self.is_verbose() {
             self.search();
         }
-        if let Some(undetermined) = &report.undetermined {
-            let lines = undetermined.in_words(&report.model.units);
-            lines.iter().for_each(|line| self.line(line));
-        }
+        report.undetermined_in_words().iter().for_each(|line| self.line(line));
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
             self.line(&format!("{listed} of them are listed."));
@@ -179,7 +183,7 @@ impl Text<'_> {
     }
 
     fn solution(&mut self, title: &str, solution: &Solution) {
-        self.line("");
+        self.gap();
         let report = self.report;
         let contacts = &solution.contacts;
         let is_only = report.solutions.len() + report.preload_gap_states.len() == 1;
@@ -190,24 +194,28 @@ impl Text<'_> {
         }
         self.modes(&solution.joints);
         self.boundary(solution);
-        let speeds = report.speeds_in_words(solution);
-        // Of the only solution the answer says what becomes of its speed.
-        let is_said = is_only && report.state.len() == 1 && report.rates_not_given.is_empty();
-        speeds.iter().skip(usize::from(is_said)).for_each(|line| self.line(&format!("  {line}")));
+        // Of the only solution the answer says what becomes of its speeds, unless drives are what matters.
+        let is_said = is_only && solution.drives.is_empty() && report.rates_not_given.is_empty();
+        let speeds = if is_said && !self.is_verbose() {
+            report.from_rest_in_words(solution).into_iter().collect()
+        } else {
+            report.speeds_in_words(solution)
+        };
+        speeds.iter().for_each(|line| self.line(&format!("  {line}")));
         if !is_only || self.is_verbose() || solution.attainability.verdict != Verdict::Attainable {
             self.line(&format!("  {}", solution.attainability.in_words()));
         }
         if let Some(margin) = solution.margin.as_ref().filter(|_| !is_only || self.is_verbose()) {
             self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
         }
-        self.line("");
         if !contacts.is_empty() {
             let (header, rows) = contact_table(contacts, &report.model.units);
+            self.gap();
             self.table(&header, &rows);
-            self.line("");
         }
         let rows = motion_rows(report, solution, self.is_verbose());
         if !rows.is_empty() {
+            self.gap();
             self.table(&["", "", "value", "unit"], &rows);
         }
         if self.is_verbose() {
@@ -215,7 +223,7 @@ impl Text<'_> {
         }
     }
 
-    /// What holds of a solution on the boundary of its mode, and of one that is not proven.
+    /// Remarks on a solution on the boundary of its mode, and on one that is not proven.
     fn boundary(&mut self, solution: &Solution) {
         let contacts = &solution.contacts;
         let pressed = contacts.iter().zip(solution.pattern.bytes()).filter(|(_, state)| *state != b'0');
@@ -266,7 +274,7 @@ impl Text<'_> {
         }
     }
 
-    /// What else is known of growing friction.
+    /// Details on growing friction.
     fn margins(&mut self) {
         let Some(margins) = self.report.margins.as_ref().filter(|_| self.is_verbose()) else { return };
         if let Some(critical) = &margins.critical_contact {
@@ -451,13 +459,13 @@ fn tried(counts: &PatternSummary, is_shared: bool) -> String {
     line
 }
 
-/// Whether it slows down although the loads push it.
+/// True if it slows down although the loads push it.
 fn slows_though_pushed(solution: &Solution) -> bool {
     let slows = |one: &CoordinateAcceleration| one.speed == Some(SpeedChange::SlowsDown);
     solution.friction_exceeds_loads && solution.coordinates.iter().any(slows)
 }
 
-/// "the mode ends at 1.1 times the friction: locking"
+/// "This contact mode ends at 1.1 times this friction: locking."
 fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let Some(factor) = margin.factor else {
         let but = if slows_though_pushed { ", but the motion slows down in it" } else { "" };
@@ -474,7 +482,7 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
         ModeEndCause::HingeUnloaded => "the force of a hinge vanishes".to_owned(),
         _ => "a guided slider tips".to_owned(),
     };
-    format!("It ends at {} times this friction: {end}.", number(factor))
+    format!("This contact mode ends at {} times this friction: {end}.", number(factor))
 }
 
 fn uncertain_row(report: &SolveReport, mode: &UncertainMode) -> Vec<String> {

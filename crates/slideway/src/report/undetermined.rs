@@ -1,5 +1,6 @@
 //! What infinitely many solutions leave open.
 
+use super::effort::kind;
 use crate::units::{Unit, Units};
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ impl OpenRange {
         self.from.is_some() && self.from == self.to
     }
 
-    /// "25 to 50 N", "25 N and more, without bound".
+    /// "25 to 50 N", "25 N or more", "any force".
     pub(crate) fn in_words(&self, units: &Units) -> String {
         let unit = units.of(self.unit);
         self.between(&unit, &|value| unit.number(value))
@@ -41,9 +42,9 @@ impl OpenRange {
         match (self.from, self.to) {
             (Some(from), Some(to)) if from == to => unit.with(&number(from)),
             (Some(from), Some(to)) => format!("{} to {}", number(from), unit.with(&number(to))),
-            (Some(from), None) => format!("{} and more, without bound", unit.with(&number(from))),
-            (None, Some(to)) => format!("{} and less, without bound", unit.with(&number(to))),
-            (None, None) => "of any value".to_owned(),
+            (Some(from), None) => format!("{} or more", unit.with(&number(from))),
+            (None, Some(to)) => format!("{} or less", unit.with(&number(to))),
+            (None, None) => format!("any {}", kind(self.unit).unwrap_or("value")),
         }
     }
 }
@@ -66,7 +67,7 @@ pub struct Undetermined {
 }
 
 impl Undetermined {
-    /// What is undetermined, in a few words: "how left, right share the load is undetermined".
+    /// The cause in a few words: "how left, right share the load is undetermined".
     pub(crate) fn cause(&self) -> String {
         match self.sharing.as_slice() {
             [] if !self.friction.is_empty() => self.standing_in_words(),
@@ -89,7 +90,7 @@ impl Undetermined {
         format!("{what} can have any value within its limits")
     }
 
-    /// What to do for one value; none if it is not known.
+    /// Advice that leads to one value; none if it is not known.
     pub(crate) fn advice(&self) -> Option<&'static str> {
         (!self.sharing.is_empty()).then_some("Give `stiffness` for one value.")
     }

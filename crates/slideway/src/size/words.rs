@@ -1,4 +1,4 @@
-//! What a design comes to, in words.
+//! The answer of `size`, in words.
 
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
@@ -14,7 +14,7 @@ const SAME: f64 = 1e-9;
 pub(super) struct Words<'r> {
     pub(super) report: &'r SizeReport,
     pub(super) places: &'r [Tried],
-    /// Whether a drive prescribes the motion.
+    /// True if a drive prescribes the motion.
     pub(super) driven: bool,
 }
 
@@ -84,13 +84,13 @@ impl Words<'_> {
         }
     }
 
-    /// "at least 0.36 m", "at most 30", "from a to b", "anything from a to b".
+    /// "at least 0.36 m", "at most 30", "from a to b", "can have any value from a to b".
     fn interval(&self, interval: &MetInterval) -> String {
         let report = self.report;
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
         let bare = report.vary.shown_in.precise_number(interval.from);
         match (interval.from_is, interval.to_is) {
-            (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
+            (MetEnd::Range, MetEnd::Range) => format!("can have any value from {bare} to {to}"),
             (MetEnd::NoPosition, MetEnd::Range) => {
                 format!("at least {from}, below which there is no answer (examined up to {to})")
             }
@@ -145,7 +145,7 @@ impl Words<'_> {
         format!("{model}: {told}.")
     }
 
-    /// What a safety factor means: "its safety factor is 2.222, which is enough".
+    /// The meaning of a safety factor: "its safety factor is 2.222, which is enough".
     fn factor(&self, margin: f64) -> String {
         let report = self.report;
         let load = report.load.as_deref().unwrap_or_default();
@@ -203,7 +203,7 @@ fn never(report: &SizeReport) -> String {
     }
 }
 
-/// What the numbers of the report are: "safety factor", "greatest effort of push".
+/// The name of the numbers of the report: "safety factor", "greatest effort of push".
 pub(super) fn subject(report: &SizeReport) -> String {
     let of = report.load.as_ref().map_or(String::new(), |name| format!(" of {name}"));
     match report.against {

@@ -12,7 +12,7 @@ use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedOutputs, Tipping, spin};
 use crate::fault::Faults;
-use crate::ids::{BodyId, ContactId, DriveId, JointId};
+use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Reaction};
@@ -539,12 +539,12 @@ impl<'a> Answer<'a> {
     }
 
     pub(super) fn drives(&self, unknowns: &DVector<f64>) -> Vec<report::Drive> {
-        let one = |(index, drive): (usize, &crate::mechanism::Drive)| report::Drive {
+        let one = |(drive, effort): (&crate::mechanism::Drive, f64)| report::Drive {
             name: drive.name.to_string(),
             unit: drive.effort.unit(),
-            effort: unknowns[self.influence.layout().effort(DriveId(index))],
+            effort,
         };
-        self.mechanism.drives.iter().enumerate().map(one).collect()
+        self.mechanism.drives.iter().zip(self.influence.efforts(unknowns)).map(one).collect()
     }
 
     fn locked_modes(&self, singular: &[SingularMode]) -> Vec<report::LockedMode> {

@@ -5,7 +5,6 @@ use super::margins::{AT_ONCE, locking_mode};
 use super::stages::Stages;
 use super::state::pattern;
 use crate::configuration::Configuration;
-use crate::ids::DriveId;
 use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem, Side};
@@ -89,7 +88,6 @@ fn balance(stages: &Stages, mode: &[ContactState], pressures: &DVector<f64>, fac
     };
     let friction: Vec<ContactFriction> = (0..mode.len()).map(friction).collect();
     let unknowns = influence.of_friction(&friction);
-    let drives = (0..mechanism.drives.len()).map(DriveId);
     let normal_forces: Vec<f64> =
         mode.iter().zip(pressures.iter()).map(|(state, size)| state.sign() * size).collect();
     #[expect(clippy::cast_possible_truncation, reason = "a sign")]
@@ -101,7 +99,7 @@ fn balance(stages: &Stages, mode: &[ContactState], pressures: &DVector<f64>, fac
         factor,
         normal_forces,
         friction_forces: friction.iter().map(|friction| friction.total()).collect(),
-        efforts: drives.map(|drive| unknowns[influence.layout().effort(drive)]).collect(),
+        efforts: influence.efforts(&unknowns),
         is_balance: mechanism.drives.len() >= mechanism.coordinates.len(),
     }
 }

@@ -1,17 +1,15 @@
-//! Whether it holds, in sentences.
+//! The answer of `hold`, in sentences.
 
 use super::report::{
     CoordinateRange, HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging,
 };
 use super::text::{greatest, words};
-use crate::report::count;
 use crate::units::number::brief;
 
-/// Whether it stays at rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from mu_static =
-/// 0.1667 (0.8333 times this static friction)."
+/// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from
+/// mu_static = 0.1667 (now 0.2)."
 pub(super) fn answer(report: &HoldReport) -> String {
     let Some(load) = &report.load else { return verdict(report) };
-    let locks = locks(report, load);
     let is_all = load.held == [Range { least: None, greatest: None }];
     let mut sentences = Vec::new();
     // That it holds is said by what it holds.
@@ -26,11 +24,11 @@ pub(super) fn answer(report: &HoldReport) -> String {
     if !is_all {
         sentences.push(held(report, load));
     }
-    sentences.extend(locks);
+    sentences.push(locks(report, load, is_all));
     sentences.join(" ")
 }
 
-/// Whether it stays at rest.
+/// The verdict on rest.
 fn verdict(report: &HoldReport) -> String {
     if report.undecided > 0 && !report.holds {
         return "Not decided: no state of rest was found, but not all could be examined.".to_owned();
@@ -70,23 +68,24 @@ fn moves(report: &HoldReport) -> String {
     }
 }
 
-/// Whether the load itself sees to it that it is held: no sliding is possible.
+/// True if the load itself sees to it that it is held: no sliding is possible.
 fn is_sure(report: &HoldReport) -> bool {
     let verdict = matches!(report.verdict, HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed);
     let is_wedged = report.at_rest.as_ref().is_some_and(|rest| !rest.wedging.is_empty());
     !is_wedged || verdict && report.load.as_ref().is_some_and(|load| load.factor == 1.0)
 }
 
-/// "It holds `cam` from 193 to 286.1 N.", "It holds up to 3 times `W`."
+/// The loads that it holds: "It holds with `cam` from 193 to 286.1 N.", "It holds -1.2 to 1.2 times `W`.",
+/// "It would hold with 3 times `W` or less." where it does not hold `W` itself.
 fn held(report: &HoldReport, load: &LoadReport) -> String {
     let unit = report.units.of(load.unit);
     let name = &load.name;
     let one = |range: &Range| match (range.least, range.greatest, load.unit) {
         (None, None, _) => format!("any `{name}`"),
-        (Some(least), None, "") => format!("at least {} times `{name}`", brief(least)),
-        (None, Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
+        (Some(least), None, "") => format!("{} times `{name}` or more", brief(least)),
+        (None, Some(greatest), "") => format!("{} times `{name}` or less", brief(greatest)),
         (Some(least), Some(greatest), "") if least == greatest => {
-            format!("only {} times `{name}`", brief(least))
+            format!("exactly {} times `{name}`", brief(least))
         }
         (Some(least), Some(greatest), "") => {
             format!("{} to {} times `{name}`", brief(least), brief(greatest))
@@ -100,17 +99,21 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
             format!("`{name}` from {} to {}", unit.brief_number(least), unit.brief(greatest))
         }
     };
-    let with = if load.unit.is_empty() { "" } else { "with " };
+    let holds = match (load.unit, report.holds) {
+        ("", true) => "holds",
+        ("", false) => "would hold with",
+        _ => "holds with",
+    };
     match load.held.as_slice() {
-        [] if load.unit.is_empty() => format!("It holds no multiple of `{name}`."),
+        [] if load.unit.is_empty() => format!("It does not hold with any multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
         [Range { least: Some(0.0), greatest: Some(0.0) }] => format!("It holds no `{name}`."),
-        ranges => format!("It holds {with}{}.", ranges.iter().map(one).collect::<Vec<_>>().join(", and ")),
+        ranges => format!("It {holds} {}.", ranges.iter().map(one).collect::<Vec<_>>().join(", or ")),
     }
 }
 
-/// Whether it is self-locking, and from which friction on it is.
-fn locks(report: &HoldReport, load: &LoadReport) -> Vec<String> {
+/// The friction from which on it is self-locking, and whether it is now.
+fn locks(report: &HoldReport, load: &LoadReport, holds_all: bool) -> String {
     let name = &load.name;
     let from = match load.threshold.value {
         None => None,
@@ -118,16 +121,21 @@ fn locks(report: &HoldReport, load: &LoadReport) -> Vec<String> {
         Some(value) => Some(format!("from {}", threshold(&load.threshold, value))),
     };
     match (load.self_locking, is_sure(report), from) {
-        (true, true, Some(from)) => vec![format!("Self-locking: it holds any `{name}` {from}.")],
+        // Together with the other loads it does not hold every multiple of this one.
+        (true, true, Some(from)) if !holds_all => {
+            format!("By itself `{name}` is held, however great, {from}.")
+        }
+        (true, true, Some(from)) => format!("Self-locking: it holds any `{name}` {from}."),
         (true, true, None) => {
-            vec![format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load.")]
+            format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load.")
         }
-        (true, false, _) => {
-            vec![format!("While wedged it holds any `{name}`, but `{name}` alone need not wedge it.")]
+        (true, false, from) => {
+            let from = from.map_or_else(String::new, |from| format!(" {from}"));
+            format!("While wedged it holds any `{name}`{from}, but `{name}` alone need not wedge it.")
         }
-        (false, _, None) => vec![format!("Not self-locking: no {} makes it so.", load.threshold.varied)],
+        (false, _, None) => format!("Not self-locking: no {} makes it so.", load.threshold.varied),
         (false, _, Some(from)) => {
-            vec![format!("Not self-locking: a great enough `{name}` moves it. It is self-locking {from}.")]
+            format!("Not self-locking: a great enough `{name}` moves it. It would be self-locking {from}.")
         }
     }
 }
@@ -171,10 +179,9 @@ fn threshold(threshold: &Threshold, value: f64) -> String {
     }
 }
 
-/// What is not known since some motions have no inertia.
+/// That motions without inertia leave the start of the motion open.
 pub(super) fn without_inertia(report: &HoldReport) -> Option<String> {
-    let motions = report.motions_without_inertia.len();
-    let what = if report.holds { "whether it could also start to move" } else { "how it starts to move" };
-    let bodies = count(motions, "motion has no mass", "motions have no mass");
-    (motions > 0).then(|| format!("Not decided: {what} ({bodies})."))
+    let start = if report.holds { "Whether it could also start to move" } else { "How it starts to move" };
+    let is_open = !report.motions_without_inertia.is_empty();
+    is_open.then(|| format!("{start} is not computed: what moves has no mass."))
 }

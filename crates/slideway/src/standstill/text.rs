@@ -10,7 +10,7 @@ use anstyle::AnsiColor;
 use std::fmt::Write;
 
 impl Report for HoldReport {
-    /// Whether it stays at rest, and which loads it holds: "It holds."
+    /// The verdict on rest, and which loads it holds: "It holds."
     fn answer(&self) -> String {
         answer::answer(self)
     }
@@ -82,7 +82,7 @@ impl Text<'_> {
             HoldVerdict::HoldsOrSlips => AnsiColor::Yellow,
             HoldVerdict::Moves | HoldVerdict::Neither | HoldVerdict::DoesNotHold => AnsiColor::Red,
         };
-        self.painted(colour.on_default().bold(), &self.report.answer(), "");
+        self.painted(colour.on_default().bold(), &self.report.answer());
         self.what_holds();
     }
 
@@ -95,7 +95,8 @@ impl Text<'_> {
         }
     }
 
-    /// What the answer leaves open, and with details from which coefficients on it is self-locking.
+    /// Remarks on what the answer leaves open, and with details from which coefficients on it is
+    /// self-locking.
     fn remarks(&mut self) {
         let report = self.report;
         without_inertia(report).iter().for_each(|line| self.line(line));
@@ -109,7 +110,7 @@ impl Text<'_> {
         }
     }
 
-    /// What holds it, if that is not the friction which its loads cause.
+    /// The cause of rest, if that is not the friction which its loads cause.
     fn what_holds(&mut self) {
         let Some(rest) = &self.report.at_rest else { return };
         if rest.without_preloads == Some(false) {
@@ -131,7 +132,9 @@ impl Text<'_> {
         self.headline(&format!("Reactions at rest{factor}"));
         self.signs(&rest.patterns);
         self.reactions(&rest.reactions);
-        if self.report.sharing.is_some() {
+        let ranges = rest.reactions.ranges();
+        let scale = greatest(&ranges);
+        if ranges.iter().any(|range| !is_one_value(*range, scale)) {
             self.line("  Which of these values it has depends on how it came to rest.");
         }
     }
@@ -300,15 +303,18 @@ pub(super) fn greatest(ranges: &[Range]) -> f64 {
     ends.map(f64::abs).fold(0.0, f64::max)
 }
 
+/// True if both ends are the same but for what the linear programs leave over.
+fn is_one_value(range: Range, scale: f64) -> bool {
+    range.least.zip(range.greatest).is_some_and(|(least, greatest)| greatest - least <= 1e-10 * scale)
+}
+
 /// "3", "1 to 3", "from 1 on", "up to 3" or "any".
 pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
     // What is left over by the linear programs is no range.
     let noise = 1e3 * scale;
     let number = |value: f64| unit.against(value, noise);
     match (range.least, range.greatest) {
-        (Some(least), Some(greatest))
-            if number(least) == number(greatest) || greatest - least <= 1e-10 * scale =>
-        {
+        (Some(least), Some(greatest)) if number(least) == number(greatest) || is_one_value(range, scale) => {
             number(f64::midpoint(least, greatest))
         }
         (Some(least), Some(greatest)) => format!("{} to {}", number(least), number(greatest)),

@@ -121,7 +121,7 @@ fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     let options = HoldOptions::default().load("Q");
     let pins = held(&lever("mu = 0.3\nradius = 0.1", BELL_CRANK), &options).text(Style::PLAIN.verbose(true));
     assert!(
-        pins.contains("It is self-locking from 2.5 times this static friction.")
+        pins.contains("It would be self-locking from 2.5 times this static friction.")
             && !pins.contains("mu_static"),
         "{pins}"
     );

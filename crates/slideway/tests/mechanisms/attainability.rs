@@ -240,7 +240,11 @@ fn the_coordinate_that_a_drive_holds_decides_and_is_told() {
     let undecided = attainability(&in_the_bearings);
     assert_eq!(undecided.verdict, Verdict::Undecided);
     let words = undecided.in_words();
-    assert!(words.contains("if pull holds x exactly") && words.contains("`x = \"BODY.POINT\"`"), "{words}");
+    assert!(
+        words.contains("in another place or direction than pull acts")
+            && words.contains("`x = \"carriage.POINT\"` in [coordinates.x]"),
+        "{words}"
+    );
     // (c - a) c > -J / m: the carriage as the template has it does not mind.
     assert_eq!(
         attainability(&template.text.replace("x = \"carriage.belt\"", "slide = \"bearings\"")).verdict,

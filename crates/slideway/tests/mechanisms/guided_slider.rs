@@ -263,7 +263,7 @@ fn is_no_lock(text: &str) {
 fn a_slider_that_tips_is_not_told_as_locked() {
     let model = with_mu(PRESS, 1.3);
     let solved = solve(&model).expect("an answer").text(Style::PLAIN.width(200));
-    let below = "It does not tip below mu = 1.25, 0.9615 times this friction.";
+    let below = "It does not tip below mu = 1.25 (0.9615 times this friction).";
     assert!(solved.contains(below), "{solved}");
     is_no_lock(&solved);
     let driven = drive(&model, &DriveOptions::default()).expect("an answer");
@@ -272,7 +272,7 @@ fn a_slider_that_tips_is_not_told_as_locked() {
         driven.conclusion[..2],
         [
             "bed tips; model it as a block slider to see whether it still moves.",
-            "It does not tip below 0.9615 times this friction (mu = 1.25)."
+            "It does not tip below mu = 1.25 (0.9615 times this friction)."
         ]
     );
     is_no_lock(&driven.text(Style::PLAIN));
@@ -318,7 +318,7 @@ fn a_margin_that_tipping_ends_says_so() {
     let driven = drive(&model, &DriveOptions::default()).expect("an answer");
     assert_eq!(driven.directions[0].tips, ["floor"]);
     let beyond =
-        "Beyond 11.39 times this friction (mu = 3.418) floor would tip; model it as a block slider to go on.";
+        "floor would tip from mu = 3.418 (11.39 times this friction); model it as a block slider to go on.";
     assert!(driven.conclusion.iter().any(|sentence| sentence == beyond), "{:?}", driven.conclusion);
     is_no_lock(&driven.conclusion.join(" "));
     assert_eq!(

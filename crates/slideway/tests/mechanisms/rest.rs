@@ -150,11 +150,11 @@ fn what_is_wedged_is_not_called_self_locking() {
     for sentence in [
         "It can wedge: sleeve.front, sleeve.rear can press against each other without any load, however hard.",
         "While wedged it holds any `W`, but `W` alone need not wedge it.",
-        "Not decided: whether it could also start to move",
+        "Whether it could also start to move is not computed",
     ] {
         assert!(text.contains(sentence), "{sentence}\n{text}");
     }
-    assert!(!text.contains("Self-locking: ") && !text.contains("how it starts to move"), "{text}");
+    assert!(!text.contains("Self-locking: ") && !text.contains("How it starts to move"), "{text}");
     // Far out the load itself presses: x = 0.4 m > B/(2 mu_static) at mu_static = 0.25.
     let (holds, wedging, text) = told("0.25", "0.4 m");
     assert_eq!((holds, wedging.as_deref()), (true, Some("")));

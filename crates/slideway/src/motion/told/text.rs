@@ -187,10 +187,12 @@ impl Page<'_, SimulateReport> {
         let mut line = |text: &str| self.hung(&format!("  {below}{text}"), "");
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
             let jump = if branch.continues { "" } else { ", with a jump of the forces" };
+            let sticks = branch.mode.chars().all(|sign| sign == '=');
+            let otherwise = if sticks { "stick" } else { "go on in another contact mode" };
+            let signs = if details { format!(", signs {}", spaced(&branch.mode)) } else { String::new() };
             line(&format!(
-                "branch {}: it could also go on with the signs {}{jump}{}",
+                "branch {}: it could also {otherwise}{signs}{jump}{}",
                 branch.number,
-                spaced(&branch.mode),
                 verdict(branch.attainable),
             ));
         }

@@ -1,0 +1,28 @@
+//! The words for efforts, and for how much friction there may be.
+
+use crate::units::brief;
+
+/// The effort of a drive, with friction and without: "push needs 36.36 N (20 N without friction)".
+pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str) -> String {
+    if effort == without_friction {
+        format!("{drive} needs {effort}, as without friction")
+    } else {
+        format!("{drive} needs {effort} ({without_friction} without friction)")
+    }
+}
+
+/// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222
+/// times this friction)".
+pub(crate) fn times_friction(factor: f64, mu: Option<f64>) -> String {
+    let times = format!("{} times this friction", brief(factor));
+    mu.map_or(times.clone(), |mu| format!("mu = {} ({times})", brief(mu)))
+}
+
+/// The kind of an effort in this SI unit: "force", "torque"; none of other quantities.
+pub(crate) fn kind(unit: &str) -> Option<&'static str> {
+    match unit {
+        "N" => Some("force"),
+        "N m" => Some("torque"),
+        _ => None,
+    }
+}
