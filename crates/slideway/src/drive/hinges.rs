@@ -99,7 +99,7 @@ impl Sampled<'_> {
     /// How many solutions there are at a value; none where there is no answer.
     fn number(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<usize> {
         let (model, factor) = self.varied.model_at(value).ok()?;
-        let stages = Stages::along_with_standing(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
+        let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
         if stages.standing.is_empty() && !model.has_guided_sliders() {
             let mut goes_on = |_: &Progress| self.work.flow();
             let rougher = stages.with_friction(factor);

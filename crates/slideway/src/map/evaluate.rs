@@ -144,7 +144,7 @@ impl Source {
         } else {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
             let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
-            let stages = Stages::along_with_standing(&mut before.trail, mechanism)?;
+            let stages = Stages::along(&mut before.trail, mechanism)?;
             if !stages.standing.is_empty() {
                 let model = || Ok(model_at(&self.model, axes, values)?.0);
                 // Margins of what stands still are not computed.

@@ -81,21 +81,12 @@ impl Stages {
         Self::following_with_standing(&mut Follower::default(), Mechanism::new(model)?)
     }
 
-    /// The same with the equations, too, from the states of the last ones if these are near.
+    /// Those of a mechanism, from the states of the last ones if these are near; contacts may stand still while the
+    /// rest moves.
     ///
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
-        let stages = Self::along_with_standing(trail, mechanism)?;
-        stages.check_moving()?;
-        Ok(stages)
-    }
-
-    /// [`Stages::along`], in which contacts may stand still while the rest moves.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn along_with_standing(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
         mechanism.check_size()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         Self::of(mechanism, configuration, influences)
