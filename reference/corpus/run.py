@@ -42,8 +42,11 @@ def make(options):
         folders[command.folder or command.name].append(command)
     # Commands of one folder may need those before them.
     wanted = [commands for commands in folders.values() if any(re.search(options.only, command.name) for command in commands)]
-    with ThreadPoolExecutor(options.jobs) as pool:
-        results = [result for part in pool.map(lambda commands: run_in_folder(program, commands), wanted) for result in part]
+    with ThreadPoolExecutor(options.jobs) as pool, tempfile.TemporaryDirectory(prefix="slideway-corpus-") as place:
+        # Helps print the name by which the program was called.
+        named = Path(place, "slideway")
+        named.symlink_to(program)
+        results = [result for part in pool.map(lambda commands: run_in_folder(named, commands), wanted) for result in part]
     results.sort(key=lambda result: result["command"])
     options.store.write_text("".join(json.dumps(result) + "\n" for result in results))
     late = sum(result["exit"] == "over its limit" for result in results)

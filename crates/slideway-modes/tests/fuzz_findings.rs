@@ -3,9 +3,8 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use slideway_modes::certificate::{Decision, decide};
-use slideway_modes::{Arguments, Completeness, ContactState, ModeProblem, SearchOptions, StateKind, search};
+use nalgebra::{DMatrix, dmatrix, dvector};
+use slideway_modes::{Arguments, Completeness, ModeProblem, SearchOptions, StateKind, search};
 
 /// `2^53 y = 3` or `2^-1022 y = 3`: both have a finite solution. The ratio of the two columns is below the
 /// range of floating point.
