@@ -226,11 +226,7 @@ fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() 
         (ColourBy::Solutions, number.clone(), ClassMeaning::Tips),
         (ColourBy::Modes, ClassMeaning::Modes { patterns: vec!["0".to_owned()] }, ClassMeaning::Tips),
         (ColourBy::Margin, number, ClassMeaning::Tips),
-        (
-            ColourBy::Jam,
-            moves(true, false),
-            moves(false, true),
-        ),
+        (ColourBy::Jam, moves(true, false), moves(false, true)),
     ];
     let size = [9, 7];
     // The mode problem is bilinear in moment and preload, but not in the height.

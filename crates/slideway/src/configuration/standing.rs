@@ -62,7 +62,8 @@ impl Prescribed {
         let (equations, curvature) =
             JointEquations::with_curvature(mechanism, &configuration.poses, &configuration.coordinates);
         let size = mechanism.size;
-        let of_body = |velocity: &Velocity| [velocity.linear.x / size, velocity.linear.y / size, velocity.angular];
+        let of_body =
+            |velocity: &Velocity| [velocity.linear.x / size, velocity.linear.y / size, velocity.angular];
         let velocities = DVector::from_iterator(
             3 * mechanism.bodies.len(),
             configuration.velocities.iter().flat_map(of_body),
@@ -78,12 +79,13 @@ impl Prescribed {
             let acceleration = configuration.quantity(mechanism, drive.acceleration)?;
             wanted[joints + coordinate] += acceleration * unit(coordinate);
         }
-        let unit_vector = |row: usize| DVector::from_fn(wanted.len(), |other, _| f64::from(u8::from(other == row)));
+        let unit_vector =
+            |row: usize| DVector::from_fn(wanted.len(), |other, _| f64::from(u8::from(other == row)));
         let factors = equations.jacobian.lu();
         let free = (0..mechanism.coordinates.len()).filter(|&coordinate| mechanism.is_free(coordinate));
-        let free: Option<Vec<_>> = free.map(|coordinate| factors.solve(&unit_vector(joints + coordinate))).collect();
+        let free: Option<Vec<_>> =
+            free.map(|coordinate| factors.solve(&unit_vector(joints + coordinate))).collect();
         let accelerations = factors.solve(&wanted);
         Ok(accelerations.zip(free).map(|(accelerations, free)| Self { velocities, accelerations, free }))
     }
 }
-

@@ -1,5 +1,6 @@
-//! The efforts over a parameter or a coordinate with friction in hinges, or where contacts stand still while the rest moves: each row is solved by itself, and where the
-//! number of solutions changes, as about a dead centre, is sought between evenly spaced values.
+//! The efforts over a parameter or a coordinate with friction in hinges, or where contacts stand still while the rest moves:
+//! each row is solved by itself, and where the number of solutions changes, as about a dead centre, is sought between evenly
+//! spaced values.
 
 use super::course::{Guarantee, evenly, modes, nothing, rows_of, with_blow_ups};
 use super::efforts::{frictionless, grows, velocities};

@@ -32,7 +32,8 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
     for stretch in places.chunk_by(|one, next| is_like(&one.1, &next.1)) {
         let (Some(first), Some(last)) = (stretch.first(), stretch.last()) else { continue };
         let next = places.iter().find(|place| place.0 > last.0);
-        let end = next.map_or(last.0, |next| bisect(last.0, next.0, |at| is_like(&counting.at(at), &last.1)).0);
+        let end =
+            next.map_or(last.0, |next| bisect(last.0, next.0, |at| is_like(&counting.at(at), &last.1)).0);
         match &first.1 {
             Ok(numbers) if same_ends.are_two(begin, end) => {
                 counts.push(CountInterval { from: begin, to: end, ..*numbers });

@@ -275,7 +275,9 @@ fn words(meaning: &ClassMeaning) -> String {
         ClassMeaning::Margin { from, to: None } => {
             format!("one solution; friction may grow more than {} times", precise(*from))
         }
-        ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => "can move in both directions".to_owned(),
+        ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => {
+            "can move in both directions".to_owned()
+        }
         ClassMeaning::Moves { as_in_model: true, opposite: false, tips_opposite, .. } => {
             format!("can only move as in the model; in the opposite direction {}", without(*tips_opposite))
         }

@@ -3,8 +3,8 @@
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
 use crate::limits::no_answer;
-use crate::report::{NO_DRIVE, Tipping, without_solution};
 use crate::report::number::precise;
+use crate::report::{NO_DRIVE, Tipping, without_solution};
 use crate::units::{Unit, brief};
 
 /// Margins closer than this, relative to the greater one, are the same.

@@ -107,12 +107,14 @@ impl Answer<'_> {
             let unit = if coordinate.kind.is_angle() { "rad/s^2" } else { "m/s^2" };
             (coordinate.name.to_string(), unit)
         };
-        let held: Vec<(String, &'static str)> = continua
-            .first()
-            .map_or_else(Vec::new, |one| one.held.iter().map(|held| (held.name.clone(), held.unit)).collect());
+        let held: Vec<(String, &'static str)> = continua.first().map_or_else(Vec::new, |one| {
+            one.held.iter().map(|held| (held.name.clone(), held.unit)).collect()
+        });
         Some(Undetermined {
             sharing,
-            friction: ranges(held, &|one, index| one.held[index].at.clone(), &|one, index| one.held[index].along.clone()),
+            friction: ranges(held, &|one, index| one.held[index].at.clone(), &|one, index| {
+                one.held[index].along.clone()
+            }),
             efforts: ranges(
                 self.mechanism
                     .drives

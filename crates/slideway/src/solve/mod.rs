@@ -59,9 +59,9 @@ pub(crate) use mode_problem::{
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::load_sharing;
-pub(crate) use standing::check_standing;
 pub use stages::exact_mode_problem;
 pub(crate) use stages::{ProblemData, RougherStages, Stages, rougher};
+pub(crate) use standing::check_standing;
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;

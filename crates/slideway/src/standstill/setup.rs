@@ -6,7 +6,9 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, ConstraintRow, Reaction};
-use crate::mechanism::{Attachment, Contact, CoordinateKind, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
+use crate::mechanism::{
+    Attachment, Contact, CoordinateKind, Effort, FrictionCircle, JointKind, Mechanism, Quantity,
+};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};

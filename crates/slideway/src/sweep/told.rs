@@ -104,7 +104,9 @@ impl Telling<'_> {
             let columns = &self.plan.columns;
             for held in &continuum.held {
                 let contacts = self.plan.mechanism.contacts.iter();
-                if let Some(contact) = contacts.map(|contact| &*contact.name).position(|name| name == held.name) {
+                if let Some(contact) =
+                    contacts.map(|contact| &*contact.name).position(|name| name == held.name)
+                {
                     self.rows.numbers[first + columns.varied + columns.contacts + contact] = held.at[index];
                 }
             }

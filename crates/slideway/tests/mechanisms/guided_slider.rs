@@ -298,7 +298,10 @@ fn a_slider_that_tips_is_not_told_as_locked() {
     let words: Vec<&str> = mapped.classes.iter().map(|class| class.words.as_str()).collect();
     assert_eq!(words, ["no solution: a guided slider tips (model it as a block slider)"]);
     let plane = plane.colour_by(ColourBy::Jam);
-    assert_eq!(map(&model, &plane).expect("an answer").classes[0].words, "a guided slider tips in both directions");
+    assert_eq!(
+        map(&model, &plane).expect("an answer").classes[0].words,
+        "a guided slider tips in both directions"
+    );
     assert_eq!(
         solve(&with_mu(&PRESS.replace("guided", "block"), 1.3)).expect("an answer").status,
         Status::One

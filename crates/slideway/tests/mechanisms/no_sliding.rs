@@ -67,7 +67,8 @@ mu = 0.2
     let effort = |report: &SolveReport| report.solutions[0].drives[0].effort;
     assert_close(effort(&report), effort(&smooth), 1.0, 1e-12);
     // Pressed by 10 N it may carry up to 2 N, which no other joint feels but the hinge.
-    let pressed = format!("{text}\n[loads.press]\ntype = \"force\"\nat = \"flap.latch\"\ncomponents = [0, 10]\n");
+    let pressed =
+        format!("{text}\n[loads.press]\ntype = \"force\"\nat = \"flap.latch\"\ncomponents = [0, 10]\n");
     let report = try_report_on(&pressed).unwrap();
     let open = report.undetermined.unwrap();
     let [friction] = open.friction.as_slice() else { panic!("one slot") };

@@ -109,7 +109,8 @@ fn several_slots_that_stand_have_a_polygon_of_forces() {
         &SLED[start..start + SLED[start..].find(to).unwrap()]
     };
     let rename = |text: &str| {
-        let names = [(".load]", ".other]"), ("\"load\"", "\"other\""), ("\"load.", "\"other."), ("lift", "lift_2")];
+        let names =
+            [(".load]", ".other]"), ("\"load\"", "\"other\""), ("\"load.", "\"other."), ("lift", "lift_2")];
         let names = names.into_iter().chain([("hold", "hold_2"), ("\"y\"", "\"z\"")]);
         names.fold(text.to_owned(), |text, (from, to)| text.replace(from, to))
     };
@@ -156,7 +157,10 @@ fn a_platform_on_two_straight_lines_has_a_range_of_efforts() {
         assert_range(&range.undetermined.efforts[1], [load, load + row.at / 0.2 * most]);
     }
     let words = driven.conclusion.join(" ");
-    assert!(words.contains("friction at top, which does not slide, can have any value within its limits"), "{words}");
+    assert!(
+        words.contains("friction at top, which does not slide, can have any value within its limits"),
+        "{words}"
+    );
 }
 
 /// Whatever the friction of the slot, if it has any.
@@ -201,7 +205,10 @@ fn a_slot_without_friction_leaves_nothing_open() {
 fn what_may_begin_to_slide_does_not_stand() {
     let start = SLED.find("[drives.hold]").unwrap();
     let end = SLED.find("[coordinates.x]").unwrap();
-    let free = format!("{}{}", &SLED[..start], &SLED[end..]).replace("[bodies.load]", "[bodies.load]\nmass = \"5 kg\"\nmoment_of_inertia = \"1 kg m^2\"\ncentre_of_mass = \"lift\"");
+    let free = format!("{}{}", &SLED[..start], &SLED[end..]).replace(
+        "[bodies.load]",
+        "[bodies.load]\nmass = \"5 kg\"\nmoment_of_inertia = \"1 kg m^2\"\ncentre_of_mass = \"lift\"",
+    );
     let free = free.replacen("massless = true\n[joints.rail]", "[joints.rail]", 1);
     let accelerated = SLED.replace("coordinate = \"y\"", "coordinate = \"y\"\nacceleration = \"1 m/s^2\"");
     for text in [free, accelerated] {

@@ -81,7 +81,8 @@ pub(super) fn of_hinge(
     hinge: TurningHinge,
 ) -> Result<SolveReport, Faults> {
     none_stands(&stages.mechanism, &stages.standing)?;
-    Standing { answer: Answer::determinate(stages, equations), stages, free: vec![Free::Hinge(hinge)] }.report()
+    Standing { answer: Answer::determinate(stages, equations), stages, free: vec![Free::Hinge(hinge)] }
+        .report()
 }
 
 /// A mechanism of which something stands still.
@@ -123,7 +124,8 @@ impl Standing<'_> {
         }
         let mut tipped = Tipped::default();
         let parts = self.parts(&regular, &mut tipped);
-        let is_point = |part: &&Part<'_>| part.extremes.corners.len() == 1 && part.extremes.growths.is_empty();
+        let is_point =
+            |part: &&Part<'_>| part.extremes.corners.len() == 1 && part.extremes.growths.is_empty();
         let (points, ranges): (Vec<&Part<'_>>, Vec<&Part<'_>>) = parts.iter().partition(is_point);
         let solutions = points.into_iter().filter_map(|part| {
             let point = self.point(part.mode, part.extremes.corners.first()?);
@@ -190,7 +192,9 @@ impl Standing<'_> {
             [Free::Hinge(_)] => {
                 format!("the ranges of the couple of {names}, which never turns, are computed, not proven")
             }
-            _ => format!("the ranges of the friction of {names}, at rest while the rest moves, are computed, not proven"),
+            _ => format!(
+                "the ranges of the friction of {names}, at rest while the rest moves, are computed, not proven"
+            ),
         }
     }
 
@@ -207,7 +211,8 @@ impl Standing<'_> {
         let contacts = mode.sides.len();
         let forces = mode.forces(free);
         let each = || self.free.iter().zip(free);
-        let of_hinge = |force: &f64, free: &Free| free.hinge([forces[contacts], forces[contacts + 1]], *force);
+        let of_hinge =
+            |force: &f64, free: &Free| free.hinge([forces[contacts], forces[contacts + 1]], *force);
         Point {
             pattern: states(&mode.sides),
             normal_force: forces.rows(0, contacts).into_owned(),
@@ -232,9 +237,13 @@ impl Standing<'_> {
         Continuum {
             pattern: pattern(&states(&mode.sides)),
             vertices: corners.iter().map(|corner| list(mode.forces(corner))).collect(),
-            directions: growths.iter().map(|growth| list(mode.forces(growth) - mode.forces(&nothing))).collect(),
+            directions: growths
+                .iter()
+                .map(|growth| list(mode.forces(growth) - mode.forces(&nothing)))
+                .collect(),
             motion: corners.iter().map(|corner| self.answer.driven_motion(&unknowns(corner))).collect(),
-            motion_along: start.map_or_else(Vec::new, |start| growths.iter().map(|growth| along(start, growth)).collect()),
+            motion_along: start
+                .map_or_else(Vec::new, |start| growths.iter().map(|growth| along(start, growth)).collect()),
             tipping: Vec::new(),
             couple: match self.free.as_slice() {
                 [Free::Hinge(_)] => Some(CoupleRange {
@@ -256,7 +265,9 @@ impl Standing<'_> {
                 Free::Hinge(hinge) => (&mechanism.joints[hinge.joint.index()].name, "N m"),
                 Free::Face(k) | Free::Middle(k) => (&mechanism.contacts[k].name, "N"),
             };
-            let part = |forces: &[DVector<f64>]| -> Vec<f64> { forces.iter().map(|force| force[index] + 0.0).collect() };
+            let part = |forces: &[DVector<f64>]| -> Vec<f64> {
+                forces.iter().map(|force| force[index] + 0.0).collect()
+            };
             let (at, along) = (part(corners), part(growths));
             match all.last_mut().filter(|last| *last.name == **name) {
                 // At the face and in the middle.
@@ -275,7 +286,9 @@ impl Part<'_> {
     /// Whether another part has all of its states.
     fn is_part_of(&self, other: &Self) -> bool {
         let nothing = DVector::zeros(self.extremes.corners.first().map_or(0, DVector::len));
-        let agree_at = |free: &DVector<f64>| agree(self.mode.forces(free).as_slice(), other.mode.forces(free).as_slice());
+        let agree_at = |free: &DVector<f64>| {
+            agree(self.mode.forces(free).as_slice(), other.mode.forces(free).as_slice())
+        };
         let grows = |mode: &Mode, growth: &DVector<f64>| mode.forces(growth) - mode.forces(&nothing);
         let agree_along = |growth: &DVector<f64>| {
             agree(grows(self.mode, growth).as_slice(), grows(other.mode, growth).as_slice())

@@ -71,7 +71,8 @@ impl<'a> Modes<'a> {
             places,
             bounds,
         };
-        let sides = [&modes.response, &modes.jumps].into_iter().flat_map(|both| [&both.positive, &both.negative]);
+        let sides =
+            [&modes.response, &modes.jumps].into_iter().flat_map(|both| [&both.positive, &both.negative]);
         let entries = sides.flat_map(|matrix| matrix.iter()).chain(&modes.load);
         let is_finite = entries.into_iter().all(|entry| entry.is_finite());
         is_finite.then_some(modes).ok_or_else(overflow)
@@ -130,9 +131,8 @@ impl<'a> Modes<'a> {
                 }
             }
         }
-        let row = |row: usize| {
-            DVector::from_fn(rows.len(), |part, _| rows[part][row] * units[part] / of_row(row))
-        };
+        let row =
+            |row: usize| DVector::from_fn(rows.len(), |part, _| rows[part][row] * units[part] / of_row(row));
         let own = |part: usize, value: f64| {
             DVector::from_fn(rows.len(), |other, _| if other == part { value } else { 0.0 })
         };
@@ -165,9 +165,7 @@ impl Mode {
         match free {
             [Free::Hinge(hinge)] => {
                 let radius = stages.mechanism.friction_circles[hinge.circle].static_radius;
-                let force = |part: &DVector<f64>| {
-                    [0, 1].map(|axis| part[self.sides.len() + axis] * radius)
-                };
+                let force = |part: &DVector<f64>| [0, 1].map(|axis| part[self.sides.len() + axis] * radius);
                 let within = within_circle(force(&self.rows[0]), force(&self.rows[1]));
                 within.into_iter().filter_map(|range| cut(&extremes, range)).collect()
             }
@@ -178,7 +176,10 @@ impl Mode {
 
     /// Normal forces, and the force of a hinge that stands, with these free forces.
     pub(super) fn forces(&self, free: &DVector<f64>) -> DVector<f64> {
-        let at = free.iter().zip(&self.rows[1..]).fold(self.rows[0].clone(), |sum, (force, row)| sum + row * *force);
+        let at = free
+            .iter()
+            .zip(&self.rows[1..])
+            .fold(self.rows[0].clone(), |sum, (force, row)| sum + row * *force);
         at.rows(0, self.unknowns).into_owned()
     }
 
