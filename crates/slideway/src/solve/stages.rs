@@ -36,7 +36,7 @@ pub(crate) struct Stages {
     pub(crate) configuration: Configuration,
     pub(crate) influence: Influence,
     pub(crate) velocity_signs: DVector<f64>,
-    /// The contacts with friction that stand still while the rest moves; none but in [`Stages::with_standing`].
+    /// The contacts with friction that stand still while the rest moves; none unless a constructor says that there may be.
     pub(crate) standing: Vec<ContactId>,
     pub(crate) accuracy: Accuracy,
 }
@@ -81,17 +81,7 @@ impl Stages {
         Self::following_with_standing(&mut Follower::default(), Mechanism::new(model)?)
     }
 
-    /// The same with the equations, too, from the states of the last ones if these are near.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
-        let stages = Self::along_with_standing(trail, mechanism)?;
-        stages.check_moving()?;
-        Ok(stages)
-    }
-
-    /// [`Stages::along`], in which contacts may stand still while the rest moves.
+    /// The same from the states of the last ones if these are near, in which contacts may stand still while the rest moves.
     ///
     /// # Errors
     /// Whatever `solve` refuses.
