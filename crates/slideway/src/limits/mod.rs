@@ -23,7 +23,7 @@
 //! `closed_form.rs` has `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs`
 //! asks the certified search for the numbers of solutions over whole intervals, and `find.rs` scans anew
 //! where these contradict; `branches.rs` does so with friction in hinges; `degenerate.rs` counts solutions
-//! where modes are on their boundaries throughout; `between_faces.rs` counts the states of guided sliders between their faces, which
+//! where modes are on their boundaries throughout, `standing.rs` where contacts stand still while the rest moves; `between_faces.rs` counts the states of guided sliders between their faces, which
 //! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `speeds.rs` tells
 //! where motion along a mode speeds up and slows down; `guarantee.rs` and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
 //! quantities along the modes that were found, for plots. `rest.rs` asks `standstill` over a range.

@@ -36,7 +36,7 @@ pub(crate) struct Stages {
     pub(crate) configuration: Configuration,
     pub(crate) influence: Influence,
     pub(crate) velocity_signs: DVector<f64>,
-    /// The contacts with friction that stand still while the rest moves; none but in [`Stages::with_standing`].
+    /// The contacts with friction that stand still while the rest moves; none unless a constructor says that there may be.
     pub(crate) standing: Vec<ContactId>,
     pub(crate) accuracy: Accuracy,
 }
