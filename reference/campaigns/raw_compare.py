@@ -139,14 +139,14 @@ def solution_fault(problem, point, solution, total):
     return None
 
 
-def distance(problem, point, solution):
-    """How far a solution is from a point, number by number relative to their size; then, as one may be about zero, in sum."""
-    far, total, texts = Fraction(0), Fraction(0), beyond(problem, solution)
+def distances(problem, point, solution):
+    """How far the numbers of a solution are from those of a point, relative to their size, the farthest first."""
+    texts, far = beyond(problem, solution), []
     for item, value, x in zip(names(problem)[0], flat(problem, solution), reported(problem, point)):
         value = Fraction(value) if value is not None else nearest(texts[item]) if item in texts else None
         if value is not None and (value or x):
-            far, total = max(far, abs(value - x) / max(abs(x), abs(value))), total + abs(value - x)
-    return far, total
+            far.append(abs(value - x) / max(abs(x), abs(value)))
+    return sorted(far, reverse=True)
 
 
 def points_fault(problem, points, listed, total, all_of_them=True):
@@ -154,7 +154,7 @@ def points_fault(problem, points, listed, total, all_of_them=True):
     for solution in listed:
         if not rest:
             return f"invented: {flat(problem, solution)}"
-        near = min(rest, key=lambda p: distance(problem, p, solution))
+        near = min(rest, key=lambda p: distances(problem, p, solution))
         rest.remove(near)
         fault = solution_fault(problem, near, solution, total)
         if fault:
@@ -306,12 +306,22 @@ def same(true, comes, scale):
             return abs(exact) > GREATEST or 0 < abs(exact) < LEAST
         return abs(exact - Fraction(x)) <= RELATIVE * abs(exact) + scale / 10 ** 12
 
-    rest = list(true)
-    for v in comes:
-        near = next((t for t in rest if all(map(close, t, v))), None)
-        if near is None:
+    taken = {}              # which of the numbers that come each true one is
+
+    def place(at, seen):
+        """Whether there is a true one for these, if those before may move."""
+        for i, t in enumerate(true):
+            if i not in seen and all(map(close, t, comes[at])):
+                seen.add(i)
+                if i not in taken or place(taken[i], seen):
+                    taken[i] = at
+                    return True
+        return False
+
+    for at, v in enumerate(comes):
+        if not place(at, set()):
             return f"{[x and float_or_text(x) for x in v]} is none of the {len(true)}"
-        rest.remove(near)
+    rest = [t for i, t in enumerate(true) if i not in taken]
     return f"without {[[float_or_text(x) for x in v] for v in rest]}" if rest else None
 
 

@@ -107,21 +107,20 @@ mod tests {
     #[test]
     fn nodes_are_decided_without_free_contacts() {
         let (mut excluded, mut feasible) = (0, 0);
-        for seed in 0..100 {
-            let mut numbers = Numbers::new(seed);
-            let is_free: Vec<bool> =
-                (0..5).map(|contact| contact == seed as usize % 5 || contact == 3).collect();
+        for seed in 0..100_usize {
+            let mut numbers = Numbers::new(seed as u64);
+            let is_free: Vec<bool> = (0..5).map(|contact| contact == seed % 5 || contact == 3).collect();
             let problem = with_free(&mut numbers, &is_free);
             let admitted = admitted(&problem);
             let system = Arc::new(LiftedSystem::new((&problem).into()));
             let others =
                 WithoutFree::new(&system, &is_free).others(&mut || true).expect("independent columns");
             let reduced = ReducedRelaxation::new(&others, &is_free);
-            for pattern in 0..1 << is_free.len() {
+            for pattern in 0..1_usize << is_free.len() {
                 let mut states = all_states(&ScaledProblem::new(&problem));
                 for contact in (0..is_free.len()).filter(|&contact| !is_free[contact]) {
                     states[contact] =
-                        StateSet::only(crate::problem::ContactState::PRESSED[pattern >> contact & 1]);
+                        StateSet::only(crate::problem::ContactState::PRESSED[(pattern >> contact) & 1]);
                 }
                 let first = reduced.of_others().first_basis();
                 let has_any = admitted.iter().any(|(pattern, _)| holds(&states, pattern));
