@@ -110,10 +110,11 @@ fn inserted(text: &str, coordinate: &Coordinate, entry: &str) -> Edit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use slideway::model::Settings;
 
     fn saved(text: &str, settings: &[(SettingKind, &str, &str)]) -> String {
         let entries = settings.iter().map(|(kind, name, value)| Setting::new(*kind, name, *value));
-        let settings = entries.fold(slideway::model::Settings::default(), |all, setting| all.with(setting));
+        let settings = entries.fold(Settings::default(), Settings::with);
         super::saved(&Asked { text: text.to_owned(), settings }).expect("no faults")
     }
 

@@ -1,4 +1,4 @@
-//! Outlines of the regions of a raster: polygons whose boundaries are shared by neighbours and straightened
+//! Outlines of the regions of a raster: polygons whose boundaries are shared by neighbours, straightened and rounded
 //! alike.
 
 use crate::plot::clip::simplified;
@@ -8,6 +8,9 @@ use std::fmt::Write;
 /// Boundaries keep to this distance of the middles of the edges of pixels (pixels), which lie within half a
 /// pixel of them.
 const TOLERANCE: f64 = 0.9;
+/// How far rounding takes a corner of a boundary (pixels), and the greatest turn of what takes its place (rad).
+const ROUNDING: f64 = 0.5;
+const TURN: f64 = 0.07;
 
 /// A corner of a pixel: column and row, from the lower left.
 type Corner = [usize; 2];
@@ -18,9 +21,13 @@ pub(super) fn regions(classes: &[usize], width: usize, place: &dyn Fn([f64; 2]) 
     let count = classes.iter().max().map_or(0, |greatest| greatest + 1);
     let mut paths = vec![String::new(); count];
     for (class, outline) in raster.outlines() {
-        let smooth = raster.straightened(&outline);
-        for (index, corner) in smooth.iter().enumerate() {
-            let [x, y] = place(*corner).map(coordinate);
+        let mut places: Vec<_> = rounded(&raster.straightened(&outline))
+            .into_iter()
+            .map(|corner| place(corner).map(coordinate))
+            .collect();
+        // Arcs that meet half way between their corners.
+        places.dedup();
+        for (index, [x, y]) in places.iter().enumerate() {
             let letter = if index == 0 { 'M' } else { 'L' };
             let _ = write!(paths[class], "{letter}{x} {y}");
         }
@@ -114,8 +121,9 @@ impl Raster<'_> {
         boundaries.count() > 2
     }
 
-    /// An outline whose stretches between fixed corners are straightened, in the same way from either side.
-    fn straightened(&self, outline: &[Corner]) -> Vec<[f64; 2]> {
+    /// An outline whose stretches between fixed corners are straightened, in the same way from either side; and whether each
+    /// of its corners is fixed.
+    fn straightened(&self, outline: &[Corner]) -> Vec<([f64; 2], bool)> {
         let fixed = outline.iter().position(|&corner| self.is_fixed(corner));
         // A ring is cut at its least corner and at the one opposite.
         let least = || (0..outline.len()).min_by_key(|&index| outline[index]).unwrap_or(0);
@@ -139,10 +147,45 @@ impl Raster<'_> {
                 stretch.reverse();
             }
             points.pop();
-            smooth.extend(points);
+            let ends_here = |index: usize| index == 0 && fixed.is_some();
+            smooth.extend(points.into_iter().enumerate().map(|(index, point)| (point, ends_here(index))));
         }
         smooth
     }
+}
+
+/// A closed outline whose corners are rounded, but for those that are fixed. A boundary of two regions is rounded alike from
+/// either side: at each corner by itself.
+fn rounded(corners: &[([f64; 2], bool)]) -> Vec<[f64; 2]> {
+    let count = corners.len();
+    let places = |index: usize| {
+        let (corner, is_fixed) = corners[index];
+        let around = [(index + count - 1) % count, (index + 1) % count].map(|other| corners[other].0);
+        if is_fixed { vec![corner] } else { arc(corner, around) }
+    };
+    (0..count).flat_map(places).collect()
+}
+
+/// The arc in the place of a corner between two others: a parabola that touches both sides, at most half way to the others,
+/// and comes as near to the corner as `ROUNDING`. Its middle is `(u + v) d / 4` from the corner, where `u` and `v` are the
+/// directions of the sides and `d` is how far along them it begins and ends.
+fn arc(corner: [f64; 2], around: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let sides = around.map(|[x, y]| [x - corner[0], y - corner[1]]);
+    let lengths = sides.map(|[x, y]| x.hypot(y));
+    let [u, v] = [0, 1].map(|side| sides[side].map(|part| part / lengths[side]));
+    let sum = (u[0] + v[0]).hypot(u[1] + v[1]);
+    let reach = (4.0 * ROUNDING / sum).min(0.5 * lengths[0].min(lengths[1]));
+    if !(reach.is_finite() && sum > 0.0) {
+        return vec![corner];
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a turn of at most pi")]
+    let pieces = (2.0 * (0.5 * sum).min(1.0).asin() / TURN).ceil() as usize;
+    let place = |piece: usize| {
+        let part = piece as f64 / pieces as f64;
+        let [before, after] = [reach * (1.0 - part).powi(2), reach * part.powi(2)];
+        [0, 1].map(|axis| corner[axis] + before * u[axis] + after * v[axis])
+    };
+    (0..=pieces).map(place).collect()
 }
 
 /// The ends of a stretch of corners, and between them the middles of its steps.
@@ -190,5 +233,35 @@ mod tests {
         let found = paths(&["0000000", "0000000", "0011100", "0011100", "0011100", "0000000", "0000000"]);
         assert_eq!(found[0].matches('Z').count(), 2);
         assert_eq!(found[1].matches('Z').count(), 1);
+    }
+
+    /// A disc of radius 20: a polygon of straightened boundaries would turn by 30 degrees at each of its corners.
+    #[test]
+    fn a_disc_has_no_kinks() {
+        let radius: f64 = 20.0;
+        let inside = |pixel: usize| {
+            let middle = |index: usize| index as f64 + 0.5 - 24.0;
+            usize::from(middle(pixel % 48).hypot(middle(pixel / 48)) < radius)
+        };
+        let classes: Vec<usize> = (0..48 * 48).map(inside).collect();
+        let path = regions(&classes, 48, &|corner| corner).swap_remove(1);
+        let places: Vec<[f64; 2]> = path
+            .trim_matches(['M', 'Z'])
+            .split('L')
+            .map(|place| {
+                let (x, y) = place.split_once(' ').expect("two coordinates");
+                [x, y].map(|text| text.parse::<f64>().expect("a number") - 24.0)
+            })
+            .collect();
+        // The middles of edges of pixels lie within half a diagonal of the circle.
+        let bound = 0.5_f64.sqrt() + TOLERANCE + ROUNDING;
+        assert!(places.iter().all(|[x, y]| (x.hypot(*y) - radius).abs() < bound), "{path}");
+        for index in 0..places.len() {
+            let [one, two, three] = [0, 1, 2].map(|step| places[(index + step) % places.len()]);
+            let [[a, b], [c, d]] =
+                [[one, two], [two, three]].map(|[from, to]| [to[0] - from[0], to[1] - from[1]]);
+            let turn = (a * d - b * c).atan2(a * c + b * d).abs();
+            assert!(turn < 2.0 * TURN, "{turn} at {two:?}");
+        }
     }
 }
