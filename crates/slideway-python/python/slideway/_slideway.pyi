@@ -1133,6 +1133,8 @@ class Model:
         ------
         ModelError
             The mode does not exist, or `until` is before the time of the model.
+        TimeoutError
+            The time was up before the position of the bodies was known.
 
         Examples
         --------
@@ -1225,6 +1227,8 @@ class Model:
         ------
         ModelError
             There is no unique state to be solved, such as with a velocity of zero in a joint with friction.
+        TimeoutError
+            The time was up before the position of the bodies was known.
 
         Examples
         --------
