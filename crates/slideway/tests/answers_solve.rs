@@ -121,10 +121,9 @@ fn limits_say_what_becomes_of_the_speed() {
         "mu from 0 to 0.4: it moves, and x starts forwards."
     );
     let peg = finding(include_str!("../../../docs/src/examples/peg-pushed-by-load.toml"));
-    assert_eq!(
-        over(&peg, Vary::between("mu", 0.0, 0.5)),
-        "mu from 0 to 0.20833333: it speeds up (one solution). mu from 0.20833333 to 0.5: it slows down (one solution)."
-    );
+    let peg = over(&peg, Vary::between("mu", 0.0, 0.5));
+    let speeds = "mu from 0 to 0.20833333: it speeds up (one solution). mu from 0.20833333 to 0.5: it slows down (one solution).";
+    assert!(peg.starts_with(speeds), "{peg}");
 }
 
 /// Of the speeds of an only solution the answer says all; the details have more digits.

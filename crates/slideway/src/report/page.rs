@@ -89,9 +89,10 @@ impl<'r, R> Page<'r, R> {
     /// Adds a line in a style, wrapped.
     pub(crate) fn painted(&mut self, ansi: Ansi, line: &str) {
         for line in wrapped(&printable::line(line), "", self.style.width) {
-            match self.style.colour && !line.is_empty() {
-                true => self.push(&format!("{ansi}{}{ansi:#}", line.trim_end())),
-                false => self.push(&line),
+            if self.style.colour && !line.is_empty() {
+                self.push(&format!("{ansi}{}{ansi:#}", line.trim_end()));
+            } else {
+                self.push(&line);
             }
         }
     }

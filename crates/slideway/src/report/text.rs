@@ -72,7 +72,7 @@ impl SolveReport {
     /// The speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down, and
     /// would stop after 0.1 s and 0.2 m if nothing changed." Then what the loads do once it is at rest.
     pub fn speeds_in_words(&self, solution: &Solution) -> Vec<String> {
-        self.changes_in_words(solution).into_iter().chain(self.from_rest_in_words(solution)).collect()
+        self.changes_in_words(solution).into_iter().chain(self.rest_in_words(solution)).collect()
     }
 
     fn changes_in_words(&self, solution: &Solution) -> Vec<String> {
@@ -97,7 +97,7 @@ impl SolveReport {
     }
 
     /// "Once it is at rest, these loads would not move it again."
-    fn from_rest_in_words(&self, solution: &Solution) -> Option<String> {
+    fn rest_in_words(&self, solution: &Solution) -> Option<String> {
         let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
         let from_rest = self.from_rest.filter(|_| slows)?;
         Some(format!("Once it is at rest, {}.", from_rest.in_words()))
@@ -197,7 +197,7 @@ impl Text<'_> {
         // Of the only solution the answer says what becomes of its speeds, unless drives are what matters.
         let is_said = is_only && solution.drives.is_empty() && report.rates_not_given.is_empty();
         let speeds = if is_said && !self.is_verbose() {
-            report.from_rest_in_words(solution).into_iter().collect()
+            report.rest_in_words(solution).into_iter().collect()
         } else {
             report.speeds_in_words(solution)
         };

@@ -186,7 +186,7 @@ fn of_many_states_of_rest_it_is_told_that_they_are_not_examined() {
     let boom = crate::answers::report("telescopic-boom", &[("F", "0 N")]);
     assert_eq!(boom.from_rest, Some(FromRest::NotExamined));
     let text = boom.text(Style::PLAIN);
-    assert!(text.contains("only `slideway hold` examines all."), "{text}");
+    assert!(text.contains("may move it again or not; ask `slideway hold`."), "{text}");
 }
 
 /// Moving down at mu = 0.6 > tan(30 deg) its weight pushes it, and friction takes more.
