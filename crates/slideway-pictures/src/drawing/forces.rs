@@ -66,6 +66,12 @@ impl Painter<'_> {
             return;
         }
         let face = self.pressed(slide, contact, forces);
+        let middle = self.face(slide, contact, forces.normal);
+        let [from, to] = slide.block_reach;
+        if slide.kind == SliderKind::Guided && (face - middle).norm() > 0.5 * (to - from) {
+            // Beyond the ends of the block.
+            self.line(Class::Leader, vec![middle, face]);
+        }
         let direction = slide.guide.across * (forces.normal.signum() * slide.action());
         let length = forces.normal.abs() * scale;
         // It presses from outside what it acts on if that is the inner part, else from inside.

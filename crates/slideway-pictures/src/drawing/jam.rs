@@ -19,7 +19,7 @@ const BEYOND: f64 = 45.0;
 const FARTHEST: f64 = 700.0;
 
 /// Radius of the mark of a corner that presses.
-const CORNER: f64 = 5.0;
+pub(super) const CORNER: f64 = 5.0;
 
 /// A contact that presses.
 struct Cone {

@@ -1,6 +1,7 @@
 //! Springs and dampers, loads, weights and the efforts of drives.
 
 use super::Painter;
+use super::jam::CORNER;
 use super::looks::Look;
 use super::outline::{turned, unit};
 use super::scene::{Class, Element, Point, Shape};
@@ -369,12 +370,15 @@ pub(super) fn load_force(
     Some(wrenches.first()?.force)
 }
 
-/// What a class looks like in a key, so long from a place on: an arrow, or a sign on one.
-pub(crate) fn sample(class: Class, from: Point, length: f64) -> impl Iterator<Item = Shape> {
-    let is_sign = class == Class::Break;
+/// What a class looks like in a key, so long from a place on: an arrow, or a sign.
+pub(crate) fn sample(class: Class, from: Point, length: f64) -> Vec<Shape> {
     let to = from + Point::new(length, 0.0);
-    let signs = broken(from.lerp(&to, 0.45), Point::x()).filter(move |_| is_sign);
-    (!is_sign).then_some(Shape::Arrow { from, to }).into_iter().chain(signs)
+    let middle = from.lerp(&to, 0.45);
+    match class {
+        Class::Break => broken(middle, Point::x()).collect(),
+        Class::JammedCorner => vec![Shape::Circle(middle, CORNER)],
+        _ => vec![Shape::Arrow { from, to }],
+    }
 }
 
 /// Two strokes across an arrow that is too short for its scale.

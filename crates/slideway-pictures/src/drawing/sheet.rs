@@ -351,6 +351,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::Reaction, format!("normal reaction on {forces_on}")),
         (Class::Friction, format!("friction on {forces_on}")),
         (Class::ContactForce, format!("force on {forces_on}, within its friction cone")),
+        (Class::JammedCorner, "corner that presses".to_owned()),
         (Class::PinForce, "force of a pin, tangent to its friction circle".to_owned()),
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
@@ -367,7 +368,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         if corner.x > 0.0 && corner.x + total > most {
             corner = Point::new(0.0, corner.y + LINE * VALUE_SIZE);
         }
-        sample(*class, corner, 28.0).for_each(|shape| scene.add(*class, shape));
+        sample(*class, corner, 28.0).into_iter().for_each(|shape| scene.add(*class, shape));
         let end = beside(scene, corner + Point::new(26.0, 0.0), text.clone());
         corner.x = end + 26.0;
     }

@@ -249,7 +249,7 @@ fn title_and_key(animation: &Animation, foot: &Foot, out: &mut String) {
 
 /// What a class looks like, in a key.
 pub(super) fn samples(class: Class, place: Point) -> String {
-    sample(class, place, SAMPLE).map(|shape| markup(&Element { class, shape })).collect()
+    sample(class, place, SAMPLE).into_iter().map(|shape| markup(&Element { class, shape })).collect()
 }
 
 /// An arrow of a round force in the lower left corner of the drawing; nothing without forces.

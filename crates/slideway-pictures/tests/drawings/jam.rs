@@ -101,11 +101,12 @@ fn only_what_friction_locks_has_the_picture() {
 /// Every contact that presses has its cone, its force in it and a mark; those that are open have none.
 #[test]
 fn redundant_guides_have_the_picture_with_their_open_contacts() {
-    let sheet = drawn("drawer-on-two-rails", &[("mu", "3")]);
+    let plays = [("mu", "0.9"), ("play_left", "0.6 mm"), ("play_right", "0.2 mm")];
+    let sheet = drawn("drawer-on-two-rails", &plays);
     let heading = sheet.description.split("Why it jams:  ").nth(1).unwrap();
     let pressed = heading.chars().take(7).filter(|sign| "+\u{2212}".contains(*sign)).count();
     assert!(pressed >= 2, "{heading}");
-    assert_eq!(shapes(&sheet, Class::JammedCorner).len(), pressed);
+    assert_eq!(shapes(&sheet, Class::JammedCorner).len(), pressed + 1, "and one in the key");
     assert_eq!(areas(&sheet, Class::Cone).len(), pressed);
 }
 
