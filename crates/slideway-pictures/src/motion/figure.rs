@@ -449,7 +449,8 @@ fn bands(history: &History, first: usize) -> Vec<Band> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Curve, End, range_of_what_lasts};
+    use super::{Curve, range_of_what_lasts};
+    use crate::plot::End;
 
     /// Two forces of 0.5 N and -0.5 N that end with a peak in a hundredth of the time.
     fn curves(peak: f64) -> Vec<Curve> {

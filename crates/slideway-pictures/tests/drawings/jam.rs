@@ -141,6 +141,6 @@ fn a_block_that_tips_has_its_reaction_beyond_its_end() {
     assert!((rejection.friction_forces[0].abs() - 4.0).abs() < 1e-9, "{rejection:?}");
     let sheet = sheet(&case.mechanism, &case.configuration, Some(report), Shown::All).unwrap();
     assert!(sheet.description.contains("Why it tips:  +"), "{}", sheet.description);
-    let said = "would have to act 0.124 m from its middle; it ends at 0.05 m";
+    let said = "would have to act 124 mm from its middle; it ends at 50 mm";
     assert!(sheet.description.contains(said), "{}", sheet.description);
 }

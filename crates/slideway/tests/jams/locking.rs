@@ -48,6 +48,7 @@ fn an_oblique_push_locks_with_unequal_forces() {
     let rail = d.block_slider("rail", drawer, GROUND).at([0.0, 0.0]).length(L).mu(2.0).id();
     let x = d.slide("x", rail).rate(0.1).id();
     d.drive_by_force("push", x, (drawer, [along, aside], angle));
+    d.force("resistance", drawer).at([0.0, 0.0]).components([-10.0, 0.0]);
     let (locking, _) = locked(&d.build().unwrap());
     let locking = locking.unwrap();
     let (sine, cosine) = angle.sin_cos();
