@@ -204,6 +204,16 @@ fn what_coincides_is_one_line_with_both_names() {
         let told = format!("\"floor is flat on the lower guide, sliding {direction}\"");
         assert_eq!(words.matches(&told).count(), 1, "{words}");
     }
+    // Its key names the colour of each kind of arrow that occurs.
+    let key =
+        page.split("<ul class=\"key\"").nth(1).and_then(|rest| rest.split("</ul>").next()).expect("a key");
+    let meanings: Vec<&str> =
+        key.split("</svg> ").skip(1).filter_map(|rest| rest.split('<').next()).collect();
+    assert_eq!(
+        meanings,
+        ["normal reaction on the block", "friction on the block", "load, weight or drive"],
+        "{key}"
+    );
     // 4.905 N are 80 px long, so that 3.68 N would be 60 px, the longest that the scale may be.
     assert!(page.contains(">2 N</text></svg>") || page.contains(">2 N</text>\n</svg>"), "a scale of forces");
 }

@@ -115,7 +115,12 @@ impl Influence {
     /// All unknowns for given friction forces, eqs. (3)-(5), and these normal forces of the contacts, of which
     /// only those that are cut are needed.
     pub fn unknowns(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {
-        let mut unknowns = &self.frictionless + self.of_friction(friction);
+        &self.frictionless + self.of_forces(friction, normal_forces)
+    }
+
+    /// The same without any load: what these forces of the contacts alone do.
+    pub fn of_forces(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {
+        let mut unknowns = self.of_friction(friction);
         for (contact, self_stress) in self.layout.cut().iter().zip(&self.self_stresses) {
             unknowns.axpy(normal_forces[contact.index()], self_stress, 1.0);
         }

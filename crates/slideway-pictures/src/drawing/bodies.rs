@@ -1,6 +1,7 @@
 //! Bodies, hinges and centres of mass.
 
 use super::Painter;
+use super::hidden::Bar;
 use super::looks::{self, Look, sliders};
 use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
@@ -12,7 +13,7 @@ use slideway::model::SliderKind;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Half the width of a bar of no particular width.
-const BAR: f64 = 5.0;
+pub(super) const BAR: f64 = 5.0;
 /// Height of a pedestal.
 pub(super) const SUPPORT: f64 = 17.0;
 /// Radius of a hinge.
@@ -34,10 +35,9 @@ impl Painter<'_> {
         self.ground_of_slides();
         let depths = self.depths();
         order.sort_by_key(|body| (depths[body.index()], !self.has_block(*body), body.index()));
-        for body in order {
-            self.links(body);
-        }
+        let bars: Vec<Bar> = order.into_iter().flat_map(|body| self.links(body)).collect();
         wedges.into_iter().for_each(|body| self.plates(body));
+        self.hidden_edges(&bars);
         self.pads();
         self.supports();
         self.centres_of_mass();
@@ -70,8 +70,8 @@ impl Painter<'_> {
         plate.iter().any(|corner| (corner - face).dot(&slide.guide.across).abs() < 1.0)
     }
 
-    /// Blocks, rods, sleeves and bars of a body.
-    fn links(&mut self, body: BodyId) {
+    /// Blocks, rods, sleeves and bars of a body; the bars, which something else may hide.
+    fn links(&mut self, body: BodyId) -> Vec<Bar> {
         let frame = Frame::Body(body);
         let has_plate = self.plate(body).is_some();
         let mut parts = Vec::new();
@@ -87,6 +87,7 @@ impl Painter<'_> {
         if !has_plate {
             parts.extend(self.housings(body));
         }
+        let other_parts = parts.len();
         parts.extend(self.bars(body));
         self.union(&parts);
         if !has_plate {
@@ -99,6 +100,13 @@ impl Painter<'_> {
                 self.marks(&belt, slider);
             }
         }
+        let before = self.scene.elements.len();
+        let bar = |index: usize| {
+            let mut others = parts.clone();
+            let outline = others.remove(index);
+            Bar { outline, others, before }
+        };
+        (other_parts..parts.len()).map(bar).collect()
     }
 
     /// One area made of several.

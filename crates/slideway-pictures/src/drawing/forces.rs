@@ -65,16 +65,27 @@ impl Painter<'_> {
         if forces.normal == 0.0 {
             return;
         }
-        let face = self.face(slide, contact, forces.normal);
-        // The resultant of the pressure: C = x N about the middle of the face.
-        let lever = if slide.kind == SliderKind::Guided { forces.couple / forces.normal } else { 0.0 };
-        let face = face + slide.guide.along * (lever * self.view.scale);
+        let face = self.pressed(slide, contact, forces);
+        let middle = self.face(slide, contact, forces.normal);
+        let [from, to] = slide.block_reach;
+        if slide.kind == SliderKind::Guided && (face - middle).norm() > 0.5 * (to - from) {
+            // Beyond the ends of the block.
+            self.line(Class::Leader, vec![middle, face]);
+        }
         let direction = slide.guide.across * (forces.normal.signum() * slide.action());
         let length = forces.normal.abs() * scale;
         // It presses from outside what it acts on if that is the inner part, else from inside.
         let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
         let text = self.shown(forces.normal.abs(), "N");
         self.arrow_of_force(Class::Reaction, (face, is_on_inner), direction * length, text);
+    }
+
+    /// Where the resultant of the pressure of a contact acts, whose normal force is not zero: `C = x N` about the middle of
+    /// the face.
+    pub(super) fn pressed(&self, slide: &Slide, contact: ContactId, forces: ContactForces) -> Point {
+        let face = self.face(slide, contact, forces.normal);
+        let lever = if slide.kind == SliderKind::Guided { forces.couple / forces.normal } else { 0.0 };
+        face + slide.guide.along * (lever * self.view.scale)
     }
 
     fn friction(&mut self, slide: &Slide, contact: ContactId, side: f64, forces: ContactForces, scale: f64) {

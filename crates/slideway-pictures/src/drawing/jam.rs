@@ -18,6 +18,9 @@ const BEYOND: f64 = 45.0;
 /// The greatest distance of that place from a contact with which it is drawn.
 const FARTHEST: f64 = 700.0;
 
+/// Radius of the mark of a corner that presses.
+pub(super) const CORNER: f64 = 5.0;
+
 /// A contact that presses.
 struct Cone {
     /// Where the force acts on the pressed face.
@@ -99,7 +102,7 @@ impl Painter<'_> {
         let Slide { guide, .. } = &slide;
         let force = (guide.across * forces.normal - guide.along * forces.friction) * slide.action();
         Some(Cone {
-            apex: self.face(&slide, contact, forces.normal),
+            apex: self.pressed(&slide, contact, forces),
             normal: guide.across * (forces.normal.signum() * slide.action()),
             along: guide.along,
             mu: self.mechanism.contacts[index].mu[usize::from(forces.normal < 0.0)],
@@ -150,6 +153,7 @@ impl Painter<'_> {
         let length = length.max(super::loads::LEAST_ARROW);
         let from = if cone.is_outside { cone.apex - direction * length } else { cone.apex };
         self.scene.add(Class::ContactForce, Shape::Arrow { from, to: from + direction * length });
+        self.circle(Class::JammedCorner, cone.apex, CORNER);
     }
 }
 

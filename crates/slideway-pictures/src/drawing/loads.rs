@@ -1,6 +1,7 @@
 //! Springs and dampers, loads, weights and the efforts of drives.
 
 use super::Painter;
+use super::jam::CORNER;
 use super::looks::Look;
 use super::outline::{turned, unit};
 use super::scene::{Class, Element, Point, Shape};
@@ -234,7 +235,27 @@ impl Painter<'_> {
         let to_scale = self.options.force_scale.filter(|_| is_known).map(|scale| scale * force.norm());
         let length = to_scale.unwrap_or(ARROW);
         let pushes = (centre - place).dot(&direction) > 1.0;
+        // A force may be drawn anywhere on its line. In moving pictures, which have no values, it does not jump.
+        let covered = |pushes: bool| self.covered(place, direction * if pushes { -length } else { length });
+        let pushes = pushes != (self.options.values && covered(!pushes) < covered(pushes));
         self.arrow_of_force(class, (place, pushes), direction * length, text);
+    }
+
+    /// For how long an arrow from a place, or to it, lies on other arrows.
+    fn covered(&self, place: Point, arrow: Point) -> f64 {
+        const NEAR: f64 = 5.0;
+        let along = unit(arrow, Point::x());
+        let longest = arrow.norm().min(self.options.longest_arrow);
+        let overlap = |element: &Element| {
+            let Shape::Arrow { from, to } = element.shape else { return 0.0 };
+            let ends = [from, to].map(|end| end - place);
+            if ends.iter().any(|end| end.perp(&along).abs() > NEAR) {
+                return 0.0;
+            }
+            let [one, other] = ends.map(|end| end.dot(&along));
+            (one.max(other).min(longest) - one.min(other).max(0.0)).max(0.0)
+        };
+        self.scene.elements.iter().map(overlap).sum()
     }
 
     /// The arrow of a force that ends or begins at a place, and its value; broken where it would be too long.
@@ -349,8 +370,19 @@ pub(super) fn load_force(
     Some(wrenches.first()?.force)
 }
 
+/// What a class looks like in a key, so long from a place on: an arrow, or a sign.
+pub(crate) fn sample(class: Class, from: Point, length: f64) -> Vec<Shape> {
+    let to = from + Point::new(length, 0.0);
+    let middle = from.lerp(&to, 0.45);
+    match class {
+        Class::Break => broken(middle, Point::x()).collect(),
+        Class::JammedCorner => vec![Shape::Circle(middle, CORNER)],
+        _ => vec![Shape::Arrow { from, to }],
+    }
+}
+
 /// Two strokes across an arrow that is too short for its scale.
-pub(super) fn broken(middle: Point, direction: Point) -> impl Iterator<Item = Shape> {
+fn broken(middle: Point, direction: Point) -> impl Iterator<Item = Shape> {
     let stroke = (turned(direction) - direction * 0.5) * 6.0;
     let centres = [-2.5, 2.5].map(|shift| middle + direction * shift);
     centres.into_iter().map(move |centre| Shape::Line(vec![centre - stroke, centre + stroke]))

@@ -12,6 +12,7 @@ mod bodies;
 mod dimensions;
 mod faces;
 mod forces;
+mod hidden;
 mod hinges;
 mod jam;
 mod labels;
@@ -19,6 +20,7 @@ mod loads;
 mod looks;
 mod obstacles;
 mod outline;
+mod panels;
 mod paragraph;
 mod play;
 mod scene;
@@ -30,12 +32,15 @@ mod units;
 mod view;
 
 pub use hinges::PinForce;
+pub use panels::{Caption, Panel, Shown};
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
-pub use sheet::{Caption, Held, Panel, Sheet, Shown, pieces, sheet, title};
+pub use sheet::{Held, Sheet, pieces, sheet, title};
 pub use view::View;
 
 pub(crate) use forces::forces_on;
-pub(crate) use sheet::{EXAGGERATED, answer, nice, scale_of_circles};
+pub(crate) use loads::sample;
+pub(crate) use panels::{EXAGGERATED, scale_of_circles};
+pub(crate) use sheet::{answer, nice};
 
 use labels::Label;
 use looks::{Look, looks};
@@ -44,7 +49,7 @@ use sliders::Slide;
 use slideway::configuration::Configuration;
 use slideway::ids::JointId;
 use slideway::mechanism::Mechanism;
-use slideway::report::Solution;
+use slideway::report::{Rejection, Solution};
 use slideway::solve::Locking;
 use slideway::units::Unit;
 
@@ -112,18 +117,30 @@ impl ContactStates {
 
     /// What locks a mechanism: forces of which only the proportions are known.
     pub fn locked(locking: &Locking) -> Self {
-        let forces = locking.normal_forces.iter().zip(&locking.friction_forces);
-        let state = |(normal, friction): (&f64, &f64)| ContactState {
-            side: if *normal == 0.0 { 0.0 } else { normal.signum() },
-            forces: Some(ContactForces { normal: *normal, friction: *friction, couple: 0.0 }),
-            ..ContactState::default()
-        };
-        Self { contacts: forces.map(state).collect(), efforts: locking.efforts.clone(), pins: Vec::new() }
+        let Locking { normal_forces, friction_forces, couples, efforts, .. } = locking;
+        let contacts = contacts([normal_forces, friction_forces, couples]).collect();
+        Self { contacts, efforts: efforts.clone(), pins: Vec::new() }
+    }
+
+    /// A solution of the equations in which a guided slider would tip.
+    pub fn tipping(rejection: &Rejection) -> Self {
+        let Rejection { normal_forces, friction_forces, couples, efforts, .. } = rejection;
+        let contacts = contacts([normal_forces, friction_forces, couples]).collect();
+        Self { contacts, efforts: efforts.clone(), pins: Vec::new() }
     }
 
     fn side(&self, contact: usize) -> f64 {
         self.contacts.get(contact).map_or(0.0, |state| state.side.clamp(-1.0, 1.0))
     }
+}
+
+/// Contacts with these normal forces, friction forces and couples.
+fn contacts([normal, friction, couples]: [&Vec<f64>; 3]) -> impl Iterator<Item = ContactState> {
+    normal.iter().zip(friction).zip(couples).map(|((&normal, &friction), &couple)| ContactState {
+        side: if normal == 0.0 { 0.0 } else { normal.signum() },
+        forces: Some(ContactForces { normal, friction, couple }),
+        ..ContactState::default()
+    })
 }
 
 /// What a scene shows beside the mechanism itself.
@@ -199,7 +216,6 @@ pub fn scene(
     painter.bodies();
     painter.joints();
     painter.connections();
-    painter.loads();
     if options.locking {
         painter.jam();
     } else if options.force_scale.is_some() {
@@ -207,6 +223,7 @@ pub fn scene(
         painter.pin_forces();
         painter.open_contacts();
     }
+    painter.loads();
     if options.dimensions {
         painter.dimensions();
     }
@@ -313,13 +330,21 @@ impl Painter<'_> {
         const DEPTH: f64 = 7.0;
         let along = outline::unit(to - from, Point::x());
         let out = Point::new(along.y, -along.x);
-        let length = (to - from).norm();
-        let count = (length / SPACING).floor().clamp(1.0, 400.0);
-        let mut index = 0.5;
-        while index < count {
-            let foot = from + along * (length * index / count);
-            self.line(Class::Hatch, vec![foot, foot + (out - along) * DEPTH]);
-            index += 1.0;
+        // Feet are at places of the drawing, whatever line they belong to: where lines overlap they are the same.
+        let [start, end] = [from, to].map(|place| place.dot(&along) / SPACING);
+        let first = (start - 0.5).ceil() + 0.5;
+        let count = (end - first).floor().clamp(-1.0, 400.0) + 1.0;
+        let mut feet: Vec<f64> = std::iter::successors(Some(0.0), |index| Some(index + 1.0))
+            .take_while(|index| *index < count)
+            .map(|index| (first + index - start) * SPACING)
+            .collect();
+        if feet.is_empty() {
+            feet.push(0.5 * (to - from).norm());
+        }
+        for foot in feet {
+            let foot = from + along * foot;
+            let line = Shape::Line(vec![foot, foot + (out - along) * DEPTH]);
+            self.scene.add(Class::Hatch, line);
         }
     }
 

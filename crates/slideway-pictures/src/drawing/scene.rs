@@ -11,7 +11,7 @@ pub type Point = Vector2<f64>;
 pub enum Class {
     /// A wall of a guide that belongs to ground.
     Wall,
-    /// A wall behind a body.
+    /// A wall or a bar behind a body.
     HiddenWall,
     /// Hatching of ground.
     Hatch,
@@ -57,6 +57,8 @@ pub enum Class {
     Overlap,
     /// The whole force of a contact, normal force and friction together.
     ContactForce,
+    /// A corner that presses where a mechanism jams.
+    JammedCorner,
     /// The line of a push.
     PushLine,
     /// A load, a weight, or the effort of a drive.

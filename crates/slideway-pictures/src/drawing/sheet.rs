@@ -1,21 +1,19 @@
 //! A sheet: the mechanism, and beside it each of its solutions.
 
 use super::forces::forces_on;
-use super::loads::broken;
+use super::loads::sample;
+use super::panels::{Drawn, LONGEST_FORCE, MOST, Panel, Shown};
 use super::paragraph::{LINE, beside, paragraph};
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
-use super::units::{in_units_of, known_forces};
-use super::{
-    ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, number, quantity, scene, signs,
-};
+use super::units::in_units_of;
+use super::{NAME_SIZE, VALUE_SIZE, View, dimensions, quantity};
 use crate::plot::figure::changes;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{CoordinateState, JointMode, Solution, SolveReport};
-use slideway::solve::{Locking, locking};
+use slideway::report::{CoordinateState, SolveReport};
 use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
@@ -26,90 +24,9 @@ const CONTACTS: f64 = 4.0;
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels does not exceed if it has several.
 const ROW: f64 = 1300.0;
-/// The most solutions that are drawn.
-const MOST: usize = 24;
-/// Length of the longest arrow of a force, and to which it may grow at a scale that is held.
-const LONGEST_FORCE: f64 = 76.0;
-const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
 /// Space between panels, and around the sheet.
 const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
-
-/// What is said of a picture whose guides have play that can be seen.
-pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
-
-/// By how much play and what else is small are magnified in a drawing, in words.
-fn scale_of_play(scene: &Scene) -> Option<String> {
-    let Some(magnification) = scene.magnification else {
-        return scene.is_exaggerated.then(|| EXAGGERATED.to_owned());
-    };
-    let times = number(magnification);
-    let others = if scene.is_exaggerated { "; the play of the other guides is exaggerated" } else { "" };
-    Some(format!("Play, misalignment and deflections are drawn {times} times as large as they are{others}."))
-}
-
-/// How large friction circles are drawn, in words.
-pub(crate) fn scale_of_circles(magnification: f64) -> String {
-    if magnification == 1.0 {
-        return "Friction circles are to scale.".to_owned();
-    }
-    format!("Friction circles are drawn {} times as large as they are.", number(magnification))
-}
-
-/// A table of the pins with friction, a row for each: its name, its force, its friction couple, and on what both act.
-fn pins(solution: &Solution, mechanism: &Mechanism) -> Vec<[String; 4]> {
-    let [force, moment] = ["N", "N m"].map(|unit| mechanism.units.of(unit));
-    let one = |hinge: &slideway::report::Hinge| {
-        let friction = hinge.friction?;
-        let size = quantity(hinge.force[0].hypot(hinge.force[1]), &force);
-        let couple = quantity(friction.couple.abs(), &moment);
-        Some([hinge.name.clone(), size, couple, hinge.on.clone()])
-    };
-    let pins: Vec<[String; 4]> = solution.hinges.iter().filter_map(one).collect();
-    let heading = ["pin", "force", "friction couple", "on"].map(str::to_owned);
-    let heading = Some(heading).filter(|_| !pins.is_empty());
-    heading.into_iter().chain(pins).collect()
-}
-
-/// "guide tipped: lower right, upper left"
-fn joint_modes(joints: &[JointMode]) -> impl Iterator<Item = String> {
-    joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode))
-}
-
-/// Which solutions are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shown {
-    /// All, beside the mechanism itself.
-    All,
-    /// None: the mechanism alone.
-    Mechanism,
-    /// The solution of this number, counted from 1, alone.
-    Solution(usize),
-    /// The state of a preload gap of this number, counted from 1, alone.
-    GapState(usize),
-}
-
-/// What is written below a panel.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Caption {
-    /// Its first line.
-    pub heading: String,
-    /// What follows.
-    pub lines: Vec<String>,
-    /// A table below: a row for each pin with friction, after one of headings.
-    pub table: Vec<[String; 4]>,
-}
-
-/// One drawing of a sheet.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Panel {
-    /// The drawing.
-    pub scene: Scene,
-    /// What is written below it.
-    pub caption: Caption,
-    /// Drawing units for a newton, if its forces are to scale.
-    pub force_scale: Option<f64>,
-}
 
 /// A sheet of drawings.
 #[derive(Debug, Clone, PartialEq)]
@@ -255,143 +172,6 @@ pub fn title(mechanism: &Mechanism) -> String {
     mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned())
 }
 
-struct Drawn<'a> {
-    mechanism: &'a Mechanism,
-    configuration: &'a Configuration,
-    report: Option<&'a SolveReport>,
-    view: &'a View,
-    /// The force whose arrow is the longest; without it, the greatest of each drawing.
-    longest_force: Option<f64>,
-}
-
-impl Drawn<'_> {
-    fn panels(&self, shown: Shown) -> Option<Vec<Panel>> {
-        let solutions = self.report.map_or(&[][..], |report| &report.solutions);
-        let gaps = self.report.map_or(&[][..], |report| &report.preload_gap_states);
-        let count = solutions.len();
-        match shown {
-            Shown::Mechanism => Some(vec![self.overview()]),
-            Shown::Solution(number) => {
-                let solution = solutions.get(number.checked_sub(1)?)?;
-                let heading = format!("Solution {number} of {count}");
-                Some(vec![self.solution(solution, heading, true)])
-            }
-            Shown::GapState(number) => {
-                let state = gaps.get(number.checked_sub(1)?)?;
-                let heading = format!("Preload gap {number} of {}", gaps.len());
-                Some(vec![self.solution(state, heading, true)])
-            }
-            Shown::All => {
-                let mut panels = vec![self.overview()];
-                panels.extend(self.jam());
-                let numbered = solutions.iter().enumerate().map(|(index, solution)| {
-                    self.solution(solution, format!("Solution {} of {count}", index + 1), false)
-                });
-                let numbered_gaps = gaps.iter().enumerate().map(|(index, state)| {
-                    self.solution(state, format!("Preload gap {} of {}", index + 1, gaps.len()), false)
-                });
-                panels.extend(numbered.chain(numbered_gaps).take(MOST));
-                Some(panels)
-            }
-        }
-    }
-
-    fn overview(&self) -> Panel {
-        let greatest = self.greatest_load();
-        let force_scale = (greatest > 0.0).then_some(LONGEST_FORCE / greatest);
-        let options = SceneOptions { force_scale, ..SceneOptions::overview() };
-        let states = ContactStates::default();
-        let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let caption = Caption { heading: "The mechanism, to scale".to_owned(), ..Caption::default() };
-        Panel { scene, caption, force_scale }
-    }
-
-    /// Why a mechanism without solution jams, if it is friction that locks it and that is known.
-    fn jam(&self) -> Option<Panel> {
-        let locking = locking(self.report?, self.mechanism, self.configuration)?;
-        let states = ContactStates::locked(&locking);
-        let forces = locking.normal_forces.iter().zip(&locking.friction_forces);
-        let greatest = forces.map(|(normal, friction)| normal.hypot(*friction)).fold(0.0, f64::max);
-        let options = SceneOptions::locking(LONGEST_FORCE / greatest);
-        let with_play = |play: bool| {
-            let options = SceneOptions { play, ..options };
-            scene(self.mechanism, self.configuration, &states, self.view, &options)
-        };
-        // The play that is drawn moves the push against the cones: it is left out where that hides their overlap.
-        let [tipped, to_scale] = [true, false].map(with_play);
-        let scene = if to_scale.has_overlap && !tipped.has_overlap { to_scale } else { tipped };
-        let mut lines = vec![self.why(&locking, scene.has_overlap)];
-        lines.extend(joint_modes(&locking.joints));
-        lines.push("The arrows show proportions, not sizes.".to_owned());
-        lines.extend(scale_of_play(&scene));
-        let heading = format!("Why it jams:  {}", signs(&locking.pattern));
-        let caption = Caption { heading, lines, ..Caption::default() };
-        Some(Panel { scene, caption, force_scale: None })
-    }
-
-    /// Why the forces of a mode lock a mechanism.
-    fn why(&self, locking: &Locking, has_overlap: bool) -> String {
-        let names: Vec<&str> = self.mechanism.drives.iter().map(|drive| &*drive.name).collect();
-        match &names[..] {
-            [push] if has_overlap => format!(
-                "The line of {push} passes through the overlap of both friction cones: however hard it pushes, friction holds it."
-            ),
-            [push] if locking.is_balance => {
-                format!(
-                    "However great {push} is, these contact forces, within their friction cones, balance it."
-                )
-            }
-            _ if locking.is_balance => format!(
-                "However great {} are in this proportion, these contact forces, within their friction cones, balance them.",
-                names.join(", ")
-            ),
-            _ => format!(
-                "Friction itself presses these contacts together: at {} times this friction it makes all of its own normal force.",
-                number(locking.factor)
-            ),
-        }
-    }
-
-    fn solution(&self, solution: &Solution, heading: String, names: bool) -> Panel {
-        let greatest = self.greatest_force(solution);
-        let longest = self.longest_force.unwrap_or(greatest);
-        let force_scale = if longest > 0.0 { LONGEST_FORCE / longest } else { 1.0 };
-        let mode = SceneOptions::contact_mode(force_scale);
-        let longest_arrow = self.longest_force.map_or(mode.longest_arrow, |_| LONGEST_HELD);
-        // Beside the mechanism itself, which shows them, velocities would only be repeated.
-        let options = SceneOptions { names, velocities: names, longest_arrow, ..mode };
-        let states = ContactStates::of(solution);
-        let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let signs = signs(&solution.pattern);
-        let mut lines: Vec<String> = joint_modes(&solution.joints).collect();
-        lines.push(solution.attainability.in_words());
-        lines.extend(scale_of_play(&scene));
-        lines.extend(scene.friction_circles.map(scale_of_circles));
-        let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
-        let force_scale = (greatest > 0.0).then_some(force_scale);
-        let table = pins(solution, self.mechanism);
-        Panel { scene, caption: Caption { heading, lines, table }, force_scale }
-    }
-
-    /// The greatest force of a contact or of a hinge with friction (N), or of a load if none has any.
-    fn greatest_force(&self, solution: &Solution) -> f64 {
-        let contacts =
-            solution.contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
-        let rough = solution.hinges.iter().filter(|hinge| hinge.friction.is_some());
-        let pins = rough.map(|hinge| hinge.force[0].hypot(hinge.force[1]));
-        let greatest = contacts.map(f64::abs).chain(pins).fold(0.0, f64::max);
-        if greatest > 0.0 {
-            return greatest;
-        }
-        self.greatest_load()
-    }
-
-    /// The greatest of the known loads and weights (N).
-    fn greatest_load(&self) -> f64 {
-        known_forces(self.mechanism, self.configuration).into_iter().fold(0.0, f64::max)
-    }
-}
-
 /// "q = 0 m, rate 1 m/s"
 fn state_line(state: &[CoordinateState], units: &Units) -> String {
     let coordinates = state.iter().map(|coordinate| {
@@ -416,16 +196,6 @@ pub(crate) fn answer(report: &SolveReport) -> String {
 fn described(lines: &[String], panels: &[Panel]) -> String {
     let captions = panels.iter().map(|panel| panel.caption.in_words());
     lines.iter().cloned().chain(captions).collect::<Vec<_>>().join(" ")
-}
-
-impl Caption {
-    fn in_words(&self) -> String {
-        let Self { heading, lines, table } = self;
-        let rows: Vec<String> = table.iter().map(|row| row.join(", ")).collect();
-        let sentences =
-            std::iter::once(heading).chain(lines).chain(&rows).map(|line| line.trim_end_matches('.'));
-        format!("{}.", sentences.collect::<Vec<_>>().join(". "))
-    }
 }
 
 struct Layout<'a> {
@@ -581,6 +351,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::Reaction, format!("normal reaction on {forces_on}")),
         (Class::Friction, format!("friction on {forces_on}")),
         (Class::ContactForce, format!("force on {forces_on}, within its friction cone")),
+        (Class::JammedCorner, "corner that presses".to_owned()),
         (Class::PinForce, "force of a pin, tangent to its friction circle".to_owned()),
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
@@ -597,12 +368,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         if corner.x > 0.0 && corner.x + total > most {
             corner = Point::new(0.0, corner.y + LINE * VALUE_SIZE);
         }
-        let to = corner + Point::new(28.0, 0.0);
-        if *class == Class::Break {
-            broken(corner.lerp(&to, 0.45), Point::x()).for_each(|line| scene.add(*class, line));
-        } else {
-            scene.add(*class, Shape::Arrow { from: corner, to });
-        }
+        sample(*class, corner, 28.0).into_iter().for_each(|shape| scene.add(*class, shape));
         let end = beside(scene, corner + Point::new(26.0, 0.0), text.clone());
         corner.x = end + 26.0;
     }

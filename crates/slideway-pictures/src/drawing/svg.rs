@@ -168,6 +168,7 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Cone => "s-cone",
         Class::Overlap => "s-overlap",
         Class::ContactForce => "s-contact-force",
+        Class::JammedCorner => "s-jammed-corner",
         Class::PushLine => "s-push-line",
         Class::Load => "s-load",
         Class::Break => "s-break",
@@ -198,6 +199,8 @@ pub struct Colour {
     pub load: String,
     /// Velocities.
     pub velocity: String,
+    /// What jams.
+    pub warning: String,
 }
 
 impl Colour {
@@ -212,6 +215,7 @@ impl Colour {
             friction: theme.friction.to_owned(),
             load: theme.series[3].to_owned(),
             velocity: theme.series[2].to_owned(),
+            warning: theme.warning.to_owned(),
         }
     }
 
@@ -227,13 +231,14 @@ impl Colour {
             friction: variable("friction"),
             load: variable("load"),
             velocity: variable("velocity"),
+            warning: variable("warning"),
         }
     }
 }
 
 /// The rules of all classes with some colours.
 pub fn rules(colour: &Colour) -> String {
-    let Colour { background, ink, muted, body, reaction, friction, load, velocity } = colour;
+    let Colour { background, ink, muted, body, reaction, friction, load, velocity, warning } = colour;
     let mut out = String::new();
     let mut rule = |selector: &str, declarations: String| {
         let _ = writeln!(out, "{selector} {{ {declarations} }}");
@@ -274,6 +279,7 @@ pub fn rules(colour: &Colour) -> String {
         ".s-overlap",
         format!("fill: {friction}; fill-opacity: 0.3; stroke: {friction}; stroke-width: 1.2;"),
     );
+    rule(".s-jammed-corner", format!("fill: {warning}; {}", pen(background, 1.2)));
     rule(".s-break", format!("fill: none; {}", pen(ink, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));

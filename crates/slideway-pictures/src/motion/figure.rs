@@ -230,11 +230,10 @@ fn range_of_what_lasts(curves: &[Curve]) -> Option<[f64; 2]> {
     let (least, greatest) = (beyond(RARE / 2.0)?.min(0.0), beyond(1.0 - RARE / 2.0)?.max(0.0));
     let all = extent(curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]))?;
     let size = greatest - least;
-    if all[1] - all[0] <= MANY * size || size == 0.0 {
-        return None;
-    }
     let shown = [(least - size).max(all[0]), (greatest + size).min(all[1])];
-    Some(range_that_shows(shown, all))
+    // To cut is worth it where what is shown gains as much.
+    let is_cut = size > 0.0 && all[1] - all[0] > MANY * (shown[1] - shown[0]);
+    is_cut.then(|| range_that_shows(shown, all))
 }
 
 /// Colours that have been used are told apart by dashes.
@@ -446,4 +445,29 @@ fn bands(history: &History, first: usize) -> Vec<Band> {
         }
     }
     bands
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Curve, range_of_what_lasts};
+    use crate::plot::End;
+
+    /// Two forces of 0.5 N and -0.5 N that end with a peak in a hundredth of the time.
+    fn curves(peak: f64) -> Vec<Curve> {
+        let curve = |sign: f64| {
+            let points = (0..=1000).map(|step| [f64::from(step), sign * if step > 990 { peak } else { 0.5 }]);
+            Curve { branch: 0, quantity: 0, points: points.collect(), ends: <[End; 2]>::default() }
+        };
+        vec![curve(1.0), curve(-1.0)]
+    }
+
+    /// What lasts reaches over 1 N, so that a cut shows 3 N: of 3.2 N or 10 N it would hide more than it shows better, of 60 N
+    /// not.
+    #[test]
+    fn only_what_is_many_times_as_large_is_cut() {
+        assert_eq!(range_of_what_lasts(&curves(1.6)), None);
+        assert_eq!(range_of_what_lasts(&curves(5.0)), None);
+        let [least, greatest] = range_of_what_lasts(&curves(30.0)).expect("a cut");
+        assert!(least < -1.0 && greatest > 1.0 && greatest < 3.0, "{least} {greatest}");
+    }
 }

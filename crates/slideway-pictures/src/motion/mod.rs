@@ -2,7 +2,7 @@
 //!
 //! # Files
 //! In `slideway-pictures` `motion/` makes figures (`figure.rs`) and moving pictures (`animation.rs` collects
-//! the shapes of all frames, `page.rs` writes HTML and SVG, `film.rs` has the frames as data, `gif.rs` a GIF with
+//! the shapes of all frames, `page.rs` writes SVG, `html.rs` a page, `film.rs` has the frames as data, `gif.rs` a GIF with
 //! the colours of `palette.rs`) of a history.
 
 mod animation;
@@ -10,6 +10,7 @@ mod figure;
 mod film;
 #[cfg(feature = "png")]
 mod gif;
+mod html;
 mod page;
 #[cfg(feature = "png")]
 mod palette;

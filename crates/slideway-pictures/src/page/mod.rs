@@ -135,9 +135,10 @@ fn text(text: &str) -> String {
 
 /// The colours of a theme as CSS variables.
 fn variables(theme: &Theme) -> String {
-    let Colour { background, ink, muted, body, reaction, friction, load, velocity } = Colour::of_theme(theme);
+    let Colour { background, ink, muted, body, reaction, friction, load, velocity, warning } =
+        Colour::of_theme(theme);
     format!(
         "--background: {background}; --ink: {ink}; --muted: {muted}; --body: {body}; --reaction: {reaction}; \
-         --friction: {friction}; --load: {load}; --velocity: {velocity};"
+         --friction: {friction}; --load: {load}; --velocity: {velocity}; --warning: {warning};"
     )
 }

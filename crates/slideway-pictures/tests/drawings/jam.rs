@@ -97,3 +97,50 @@ fn only_what_friction_locks_has_the_picture() {
     assert!(!sheet.description.contains("Why it jams"));
     assert_eq!(drawn("drawer", &[("mu", "0.7")]).description.matches("It jams: no force").count(), 1);
 }
+
+/// Every contact that presses has its cone, its force in it and a mark; those that are open have none.
+#[test]
+fn redundant_guides_have_the_picture_with_their_open_contacts() {
+    let plays = [("mu", "0.9"), ("play_left", "0.6 mm"), ("play_right", "0.2 mm")];
+    let sheet = drawn("drawer-on-two-rails", &plays);
+    let heading = sheet.description.split("Why it jams:  ").nth(1).unwrap();
+    let pressed = heading.chars().take(7).filter(|sign| "+\u{2212}".contains(*sign)).count();
+    assert!(pressed >= 2, "{heading}");
+    assert_eq!(shapes(&sheet, Class::JammedCorner).len(), pressed + 1, "and one in the key");
+    assert_eq!(areas(&sheet, Class::Cone).len(), pressed);
+}
+
+/// With friction in hinges the mode that locks is not known: the drawing says so, and shows none.
+#[test]
+fn why_there_is_no_picture_is_said() {
+    let with_pendulum = slideway::gallery::find("drawer").unwrap().text.replace(
+        "[points]",
+        "[bodies.bob]\npoints = [\"O\"]\nmass = 1\ncentre_of_mass = [0.5, 1]\nmoment_of_inertia = 0.1\n\
+         [joints.O]\ntype = \"hinge\"\nbetween = [\"bob.O\", \"ground.O\"]\nfriction_radius = 0.001\n\
+         [coordinates.phi]\nrotation = \"bob\"\nrate = 1\n[points]\nO = [0, 1]",
+    );
+    let case = Case::new(&with_pendulum, &Settings::default().parameter("mu", "0.7"));
+    let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    assert!(sheet.description.contains("It jams"), "{}", sheet.description);
+    let said =
+        "Why it jams is not drawn: the forces that lock it are not followed where hinges have friction";
+    assert!(sheet.description.contains(said), "{}", sheet.description);
+    assert!(!sheet.description.contains("Why it jams:"));
+}
+
+/// The push of 30 N acts 80 mm above the centre of mass, and friction, 0.2 times 20 N, 20 mm below it: both turn the block
+/// clockwise as it goes to the right. So the reaction of 20 N would act (30 * 80 + 4 * 20) / 20 = 124 mm before the middle;
+/// the block ends at 50 mm.
+#[test]
+fn a_block_that_tips_has_its_reaction_beyond_its_end() {
+    let text = include_str!("../../../../docs/src/examples/guided-tips.toml");
+    let case = Case::new(text, &Settings::default());
+    let report = case.report.as_ref().unwrap();
+    let [rejection] = &report.rejected[..] else { panic!("one: {report:?}") };
+    assert!((rejection.couple.abs() - 2.48).abs() < 1e-9, "{rejection:?}");
+    assert!((rejection.friction_forces[0].abs() - 4.0).abs() < 1e-9, "{rejection:?}");
+    let sheet = sheet(&case.mechanism, &case.configuration, Some(report), Shown::All).unwrap();
+    assert!(sheet.description.contains("Why it tips:  +"), "{}", sheet.description);
+    let said = "would have to act 124 mm from its middle; it ends at 50 mm";
+    assert!(sheet.description.contains(said), "{}", sheet.description);
+}

@@ -12,6 +12,7 @@ mod gallery;
 mod held;
 mod jam;
 mod looks;
+mod overlaps;
 mod random;
 mod raster;
 mod redundant;

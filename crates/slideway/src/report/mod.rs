@@ -438,7 +438,7 @@ pub struct Margins {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moves_below: Option<Unlocking>,
     /// Where there is no solution: the mode that locks last as all friction grows to the present one; absent where none
-    /// does, and of redundant guides.
+    /// does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub locking: Option<LockedMode>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.
@@ -729,6 +729,8 @@ pub struct CoupleRange {
 pub struct LockedMode {
     /// Its pattern.
     pub pattern: String,
+    /// The part of the friction of the model at which its determinant vanishes, at most 1.
+    pub factor: f64,
     /// The contact mode of each sliding joint.
     pub joints: Vec<JointMode>,
 }
@@ -747,6 +749,12 @@ pub struct Rejection {
     pub limit: f64,
     /// Normal forces of all contacts (N).
     pub normal_forces: Vec<f64>,
+    /// Friction forces of all contacts, positive against positive sliding (N).
+    pub friction_forces: Vec<f64>,
+    /// Couples of all contacts about the middle of the pressed face, 0 of those that have none (N m).
+    pub couples: Vec<f64>,
+    /// Efforts of all drives (N or N m).
+    pub efforts: Vec<f64>,
 }
 
 /// A mode without a solution, close to locking.

@@ -6,6 +6,7 @@ use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
 use super::found::SearchFound;
 use super::friction::friction;
+use super::parts::contact_couples;
 use super::stages::Stages;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::joint_mode_in_words;
@@ -329,6 +330,9 @@ impl<'a> Answer<'a> {
                 couple,
                 limit,
                 normal_forces: state.normal_force.iter().copied().collect(),
+                friction_forces: self.friction(state).iter().map(|friction| friction.total()).collect(),
+                couples: contact_couples(self.mechanism, self.influence, unknowns),
+                efforts: self.drives(unknowns).iter().map(|drive| drive.effort).collect(),
             })
         })
     }
@@ -556,6 +560,7 @@ impl<'a> Answer<'a> {
             .map(|mode| report::LockedMode {
                 pattern: pattern(&mode.pattern),
                 joints: self.joint_modes(&signs(&mode.pattern)),
+                factor: 1.0,
             })
             .collect()
     }

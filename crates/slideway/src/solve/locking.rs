@@ -1,14 +1,15 @@
 //! How friction locks a mechanism that has no solution: the forces that keep each other in balance.
 
 use super::answer::joint_modes;
+use super::friction::friction;
 use super::margins::{AT_ONCE, locking_mode};
-use super::stages::Stages;
-use super::state::pattern;
+use super::parts::contact_couples;
+use super::stages::{ProblemData, Stages, rougher};
+use super::state::{pattern, signs, states};
 use crate::configuration::Configuration;
-use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem, Side};
-use crate::report::{JointMode, SolveReport, Status};
+use crate::report::{JointMode, LockedMode, SolveReport, Status};
 use nalgebra::{DMatrix, DVector};
 
 /// The contact mode that locks a mechanism, with forces that are in balance without any load.
@@ -20,7 +21,8 @@ use nalgebra::{DMatrix, DVector};
 /// ```
 ///
 /// which remains one when it is multiplied by any positive number: only the proportions of its forces are
-/// determined. No other mode locks between that friction and the present one.
+/// determined. No other mode locks between that friction and the present one. Where guides share a load, contacts that
+/// touch neither face have no forces.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Locking {
@@ -34,72 +36,81 @@ pub struct Locking {
     pub normal_forces: Vec<f64>,
     /// Friction forces of all contacts, positive against positive sliding, as multiples of the greatest normal force.
     pub friction_forces: Vec<f64>,
+    /// Couples of all contacts about the middle of the pressed face, 0 of those that have none, as multiples of the
+    /// greatest normal force times 1 m.
+    pub couples: Vec<f64>,
     /// Efforts of all drives, as multiples of the greatest normal force (torques: times 1 m).
     pub efforts: Vec<f64>,
     /// Whether drives prescribe the whole motion: then nothing but these forces is in the balance, no inertia.
     pub is_balance: bool,
 }
 
-/// The mode that locks a mechanism for which a report says that there is no solution.
+/// The mode that locks a mechanism for which a report says that there is no solution; that of the report, if its margins
+/// were asked for.
 ///
-/// None where friction is not the reason (a guided slider tips), and where it is not known: with friction in hinges, in
-/// redundant guides, with more than 256 patterns.
+/// None where friction is not the reason (a guided slider tips), and where it is not known: with friction in hinges, and
+/// with more than 256 patterns.
 pub fn locking(
     report: &SolveReport,
     mechanism: &Mechanism,
     configuration: &Configuration,
 ) -> Option<Locking> {
-    let is_known = mechanism.rough_hinges().next().is_none() && mechanism.excess.is_empty();
-    if report.status != Status::None || !report.rejected.is_empty() || !is_known {
+    let has_rough_hinges = mechanism.rough_hinges().next().is_some();
+    if report.status != Status::None || !report.rejected.is_empty() || has_rough_hinges {
         return None;
     }
     let (stages, _) = Stages::with_equations(mechanism.clone(), configuration.clone()).ok()?;
-    let (mode, factor) = locking_mode(stages.data())?;
-    let sides: Vec<Side> = mode.iter().map(|state| state.side()).collect::<Option<_>>()?;
-    let pressures = pressures(&stages.data().problem().ok()?, &sides, factor)?;
-    Some(balance(&stages, &mode, &pressures, factor))
+    let followed = |locked: &LockedMode| Some((states(&locked.pattern)?, locked.factor));
+    let (mode, factor) = match &report.margins {
+        Some(margins) => margins.locking.as_ref().and_then(followed),
+        None => locking_mode(stages.data()),
+    }?;
+    balance(&stages, &mode, factor)
 }
 
-/// The `y = |N| >= 0` with `(S + factor C) y = 0`, its greatest entry 1.
-fn pressures(problem: &ModeProblem, sides: &[Side], factor: f64) -> Option<DVector<f64>> {
-    let count = sides.len();
-    let matrix = DMatrix::from_fn(count, count, |j, k| {
-        let sign = if j == k { sides[k].sign() } else { 0.0 };
-        sign + factor * problem.columns(sides[k])[(j, k)]
+/// The normal forces without any load in a mode whose determinant vanishes, the greatest of them 1 or -1; none if they
+/// contradict the mode.
+fn normal_forces(problem: &ModeProblem, mode: &[ContactState]) -> Option<DVector<f64>> {
+    let columns = mode.iter().enumerate().map(|(k, state)| match state.side() {
+        Some(side) => problem.columns(side).column(k).into_owned(),
+        // An open contact, or one in its preload gap, moves from one face to the other.
+        None => problem.jumps(Side::Negative).column(k) - problem.jumps(Side::Positive).column(k),
     });
-    let rows = matrix.try_svd(false, true, f64::EPSILON, 0)?;
-    let (last, _) = rows.singular_values.argmin();
-    let vector = rows.v_t?.row(last).transpose();
-    let greatest = vector[vector.icamax()];
+    let columns: Vec<DVector<f64>> = columns.collect();
+    let sizes: Vec<f64> = columns.iter().map(DVector::norm).collect();
+    // Columns differ in their units: so each is taken in its own size.
+    let entry = |row: usize, k: usize| columns[k][row] / sizes[k];
+    let svd = DMatrix::from_fn(mode.len(), mode.len(), entry).try_svd(false, true, f64::EPSILON, 0)?;
+    let (last, _) = svd.singular_values.argmin();
+    let shares = svd.v_t?.row(last).transpose();
+    let pressures = DVector::from_fn(mode.len(), |k, _| mode[k].sign().abs() * shares[k] / sizes[k]);
+    let greatest = pressures[pressures.icamax()];
     // Contacts without force have none but for rounding.
-    let scaled = (vector / greatest).map(|y: f64| if y.abs() <= AT_ONCE { 0.0 } else { y });
-    scaled.iter().all(|y| *y >= 0.0).then_some(scaled)
+    let scaled = (pressures / greatest).map(|y: f64| if y.abs() <= AT_ONCE { 0.0 } else { y });
+    let presses = scaled.iter().all(|y| *y >= 0.0);
+    presses.then(|| DVector::from_fn(mode.len(), |k, _| mode[k].sign() * scaled[k]))
 }
 
-fn balance(stages: &Stages, mode: &[ContactState], pressures: &DVector<f64>, factor: f64) -> Locking {
+fn balance(stages: &Stages, mode: &[ContactState], factor: f64) -> Option<Locking> {
     let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
-    let friction = |k: usize| {
-        let [positive, negative] = mechanism.contacts[k].mu;
-        let force = |mu: f64| factor * mu * pressures[k] * velocity_signs[k];
-        match mode[k] {
-            ContactState::Positive => ContactFriction { positive_face: force(positive), negative_face: 0.0 },
-            _ => ContactFriction { positive_face: 0.0, negative_face: force(negative) },
-        }
-    };
-    let friction: Vec<ContactFriction> = (0..mode.len()).map(friction).collect();
-    let unknowns = influence.of_friction(&friction);
-    let normal_forces: Vec<f64> =
-        mode.iter().zip(pressures.iter()).map(|(state, size)| state.sign() * size).collect();
-    #[expect(clippy::cast_possible_truncation, reason = "a sign")]
+    let mut rough = rougher(mechanism, &|_| factor);
+    let problem = ProblemData { mechanism: &rough, ..stages.data() }.problem().ok()?;
+    let forces = normal_forces(&problem, mode)?;
+    // Preloads are loads.
+    rough.contacts.iter_mut().for_each(|contact| contact.preload = [0.0; 2]);
+    let friction = friction(&rough, velocity_signs, mode, &forces, &vec![None; mode.len()]);
+    let unknowns = influence.of_forces(&friction, &forces);
     let signs: Vec<i8> =
-        normal_forces.iter().map(|force| if *force == 0.0 { 0 } else { force.signum() as i8 }).collect();
-    Locking {
+        signs(mode).iter().zip(&forces).map(|(sign, force)| if *force == 0.0 { 0 } else { *sign }).collect();
+    let at_faces = |forces: Vec<f64>| mechanism.forces_at_faces(mode, forces);
+    Some(Locking {
         pattern: pattern(mode),
         joints: joint_modes(mechanism, configuration, &signs),
         factor,
-        normal_forces,
-        friction_forces: friction.iter().map(|friction| friction.total()).collect(),
+        friction_forces: at_faces(friction.iter().map(|friction| friction.total()).collect()),
+        couples: contact_couples(mechanism, influence, &unknowns),
+        normal_forces: at_faces(forces.iter().copied().collect()),
         efforts: influence.efforts(&unknowns),
         is_balance: mechanism.drives.len() >= mechanism.coordinates.len(),
-    }
+    })
 }

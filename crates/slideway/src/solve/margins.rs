@@ -2,7 +2,7 @@
 
 use super::mode_problem::determinate_problem;
 use super::stages::ProblemData;
-use super::state::pattern;
+use super::state::{pattern, signs};
 use crate::enclosure::EnclosedModeProblem;
 use crate::fault::Faults;
 use crate::interval::Interval;
@@ -82,9 +82,8 @@ pub(super) fn add(
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
         moves_below: falling.as_ref().and_then(|falling| falling.moves_below(mechanism)),
         locking: falling
-            .filter(|_| mechanism.excess.is_empty())
             .and_then(Growth::locking_mode)
-            .map(|(mode, _)| locking_in_words(&mode, joints)),
+            .map(|(mode, factor)| locking_in_words(&mode, factor, joints)),
         critical_contact: critical_contact(data),
     });
 }
@@ -150,12 +149,10 @@ pub(crate) fn common_coefficient(mechanism: &Mechanism) -> Option<f64> {
 /// A mode that locks, in words.
 fn locking_in_words(
     mode: &[ContactState],
+    factor: f64,
     joints: &dyn Fn(&[i8]) -> Vec<report::JointMode>,
 ) -> report::LockedMode {
-    let pattern = pattern(mode);
-    let sign = |state: u8| i8::from(state == b'+') - i8::from(state == b'-');
-    let signs: Vec<i8> = pattern.bytes().map(sign).collect();
-    report::LockedMode { joints: joints(&signs), pattern }
+    report::LockedMode { joints: joints(&signs(mode)), pattern: pattern(mode), factor }
 }
 
 /// Of a mechanism without solution: the mode that locks last as all friction grows to the present one, and at what part

@@ -325,3 +325,16 @@ pub(super) fn couples(mechanism: &Mechanism, influence: &Influence) -> Vec<(Outp
     }
     couples
 }
+
+/// The couple of each contact about the middle of its pressed face, 0 of one that has none.
+pub(super) fn contact_couples(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    unknowns: &DVector<f64>,
+) -> Vec<f64> {
+    let mut of_contacts = vec![0.0; mechanism.contacts.len()];
+    for (bound, row) in couples(mechanism, influence) {
+        of_contacts[bound.contact] = unknowns[row];
+    }
+    of_contacts
+}

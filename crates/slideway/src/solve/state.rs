@@ -116,3 +116,14 @@ pub(crate) fn pattern(states: &[ContactState]) -> String {
     };
     states.iter().map(sign).collect()
 }
+
+/// The states of a pattern that is written so; none if it is not.
+pub(crate) fn states(pattern: &str) -> Option<Vec<ContactState>> {
+    let state = |sign: char| match sign {
+        '+' => Some(ContactState::Positive),
+        '-' => Some(ContactState::Negative),
+        '0' => Some(ContactState::Gap),
+        _ => None,
+    };
+    pattern.chars().map(state).collect()
+}
