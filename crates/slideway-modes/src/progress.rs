@@ -46,7 +46,7 @@ pub type Callback<'c> = dyn FnMut(&Progress) -> ControlFlow<()> + Send + 'c;
 
 /// The result of work that cannot be ended.
 pub fn undisturbed<T>(compute: impl FnOnce(Work<'_>) -> T) -> T {
-    compute(Work::new(&|_| ControlFlow::Continue(())))
+    compute(Work::undisturbed())
 }
 
 /// The result of work that a callback may end; `None` if it has.
@@ -60,6 +60,12 @@ pub fn watched<T, E>(
     callback: &mut Callback<'_>,
     compute: impl FnOnce(Work<'_>) -> Result<T, E>,
 ) -> Result<Option<T>, E> {
+    let (result, has_ended) = as_far_as_wanted(callback, compute);
+    if has_ended { Ok(None) } else { result.map(Some) }
+}
+
+/// The result of work that a callback may end, and whether it has: then whatever the work found by then.
+pub fn as_far_as_wanted<T>(callback: &mut Callback<'_>, compute: impl FnOnce(Work<'_>) -> T) -> (T, bool) {
     let has_ended = AtomicBool::new(false);
     let caller = Mutex::new((callback, Progress::of("pieces", 0, 1)));
     let tell = |progress: Option<&Progress>| {
@@ -77,7 +83,7 @@ pub fn watched<T, E>(
         flow
     };
     let result = compute(Work::new(&tell));
-    if has_ended.load(Ordering::Relaxed) { Ok(None) } else { result.map(Some) }
+    (result, has_ended.load(Ordering::Relaxed))
 }
 
 /// Takes the progress, or repeats the latest one; breaks if the work is to end.
@@ -94,6 +100,11 @@ pub struct Work<'w> {
 }
 
 impl<'w> Work<'w> {
+    /// Work that cannot be ended.
+    pub fn undisturbed() -> Work<'static> {
+        Work::new(&|_| ControlFlow::Continue(()))
+    }
+
     /// The whole computation.
     fn new(tell: Tell<'w>) -> Self {
         Self { tell, piece: None, from: 0.0, to: 1.0 }

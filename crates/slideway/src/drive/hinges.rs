@@ -37,11 +37,12 @@ pub(super) fn direction(
     work: Work<'_>,
 ) -> Result<(Guarantee, CourseDirection), Faults> {
     let course = Sampled { varied, range, work };
-    let rows: Vec<CourseRow> = evenly(range, steps).flat_map(|value| course.rows_at(value)).collect();
+    let values = in_pieces(evenly(range, steps), steps + 1, work.part(0, 2));
+    let rows: Vec<CourseRow> = values.flat_map(|value| course.rows_at(value)).collect();
     if rows.iter().all(|row| row.frictionless.is_none()) {
         course.at(f64::midpoint(range[0], range[1]))?;
     }
-    let Changes { locked, others } = course.changes();
+    let Changes { locked, others } = course.changes(work.part(1, 2));
     let sides = |at: f64| [(at, -1.0, Approach::Below), (at, 1.0, Approach::Above)];
     let of_locked = locked.iter().flat_map(|locked| [sides(locked.from)[0], sides(locked.to)[1]]);
     let mut blow_ups: Vec<BlowUp> = of_locked
@@ -65,6 +66,12 @@ struct Changes {
     locked: Vec<LockedRange>,
     /// Changes from some solutions to another number of them.
     others: Vec<f64>,
+}
+
+/// Values one after another, until the work is to end.
+fn in_pieces(values: impl Iterator<Item = f64>, all: usize, work: Work<'_>) -> impl Iterator<Item = f64> {
+    let goes_on = move |(index, _): &(usize, f64)| work.piece("values", *index, all).is_continue();
+    values.enumerate().take_while(goes_on).map(|(_, value)| value)
 }
 
 struct Sampled<'c> {
@@ -91,9 +98,7 @@ impl Sampled<'_> {
     }
 
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
-        let found = if self.work.is_over() { None } else { self.at(value).ok() };
-        let Some(all) = found else { return vec![nothing(value)] };
-        rows_of(value, all)
+        self.at(value).map_or_else(|_| vec![nothing(value)], |all| rows_of(value, all))
     }
 
     /// How many solutions there are at a value; none where there is no answer.
@@ -118,13 +123,13 @@ impl Sampled<'_> {
     }
 
     /// Where the number of solutions changes.
-    fn changes(&self) -> Changes {
+    fn changes(&self, work: Work<'_>) -> Changes {
         let mut before = (Trail::default(), LastSolution::default());
         let mut changes = Changes::default();
         let mut open: Option<f64> = None;
         let mut last: Option<(f64, usize)> = None;
-        for value in evenly(self.range, STEPS) {
-            let number = if self.work.is_over() { None } else { self.number(value, &mut before) };
+        for value in in_pieces(evenly(self.range, STEPS), STEPS + 1, work) {
+            let number = self.number(value, &mut before);
             match (last, number) {
                 (Some((known, was)), Some(is)) if was != is => {
                     let at = self.change([known, value], is, &mut before);

@@ -149,13 +149,16 @@ impl Factors {
         let size = matrix.nrows();
         let mut entries = matrix.as_slice().to_vec();
         let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..size).collect(), (0..size).collect());
+        let mut greatest: Vec<Greatest> =
+            entries.chunks_exact(size.max(1)).map(|e| Greatest::of(e, 0)).collect();
         for step in 0..size {
-            let (row, column) = greatest(&entries, size, step);
-            if entries[column * size + row] == 0.0 {
+            let (column, Greatest { row, magnitude }) = greatest_of_all(&greatest, step);
+            if magnitude == 0.0 {
                 break;
             }
             rows.swap(step, row);
             columns.swap(step, column);
+            greatest.swap(step, column);
             if column != step {
                 let (left, right) = entries.split_at_mut(column * size);
                 left[step * size..][..size].swap_with_slice(&mut right[..size]);
@@ -167,9 +170,15 @@ impl Factors {
             let (pivot, multipliers) = left[step * size + step..].split_at_mut(1);
             let inverse = 1.0 / pivot[0];
             multipliers.iter_mut().for_each(|entry| *entry *= inverse);
-            for later in right.chunks_exact_mut(size).filter(|later| later[step] != 0.0) {
-                let (above, below) = later.split_at_mut(step + 1);
-                subtract(above[step], multipliers, below);
+            for (later, greatest) in right.chunks_exact_mut(size).zip(&mut greatest[step + 1..]) {
+                let changes = later[step] != 0.0;
+                if changes {
+                    let (above, below) = later.split_at_mut(step + 1);
+                    subtract(above[step], multipliers, below);
+                }
+                if changes || greatest.row == step || greatest.row == row {
+                    *greatest = Greatest::of(later, step + 1);
+                }
             }
         }
         Self { entries, rows, columns }
@@ -211,18 +220,35 @@ impl Factors {
     }
 }
 
-/// Row and column of the greatest entry from this place on.
-fn greatest(entries: &[f64], size: usize, from: usize) -> (usize, usize) {
-    let (mut place, mut most) = ((from, from), entries[from * (size + 1)].abs());
-    for column in from..size {
-        for row in from..size {
-            let entry = entries[column * size + row].abs();
-            if entry > most {
-                (place, most) = ((row, column), entry);
+/// The greatest entry of a column from some row on, the first of several. It is sought anew only where the column or this
+/// row has changed: in a chain of bodies a step of the elimination changes few columns.
+#[derive(Debug, Clone, Copy)]
+struct Greatest {
+    row: usize,
+    magnitude: f64,
+}
+
+impl Greatest {
+    fn of(column: &[f64], from: usize) -> Self {
+        let mut greatest = Self { row: from, magnitude: 0.0 };
+        for (row, entry) in column.iter().enumerate().skip(from) {
+            if entry.abs() > greatest.magnitude {
+                greatest = Self { row, magnitude: entry.abs() };
             }
         }
+        greatest
     }
-    place
+}
+
+/// The column with the greatest entry from this one on, the first of several, and the entry.
+fn greatest_of_all(columns: &[Greatest], from: usize) -> (usize, Greatest) {
+    let mut found = (from, columns[from]);
+    for (column, greatest) in columns.iter().enumerate().skip(from) {
+        if greatest.magnitude > found.1.magnitude {
+            found = (column, *greatest);
+        }
+    }
+    found
 }
 
 /// Takes so many times a row off each of the others.
@@ -303,6 +329,39 @@ fn inverse_root(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By the definition of complete pivoting: `L U` is the matrix with its rows and columns exchanged, and each pivot is
+    /// the greatest of what was left, so that no multiplier, and no entry beside a pivot, is greater.
+    #[test]
+    fn every_pivot_is_the_greatest_of_what_is_left() {
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for size in 1..40 {
+            // Mostly zeros, many equal entries, and a diagonal that makes it regular.
+            let band = |i: usize, j: usize| i.abs_diff(j) < 3;
+            let matrix = DMatrix::from_fn(size, size, |i, j| match random() {
+                _ if i == j => 1.0 + random(),
+                chance if chance < 0.3 && band(i, j) => 1.0,
+                chance if chance < 0.4 => random() - 0.5,
+                _ => 0.0,
+            });
+            let Factors { entries, rows, columns } = Factors::of(&matrix);
+            let factors = DMatrix::from_vec(size, size, entries);
+            let lower = factors.lower_triangle().map_with_location(|i, j, x| if i == j { 1.0 } else { x });
+            let exchanged = matrix.select_rows(&rows).select_columns(&columns);
+            assert!((lower * factors.upper_triangle() - exchanged).amax() < 1e-12, "{size}");
+            for step in 0..size {
+                let pivot = factors[(step, step)].abs();
+                for later in step + 1..size {
+                    assert!(factors[(later, step)].abs() <= 1.0, "{size}");
+                    assert!(factors[(step, later)].abs() <= pivot, "{size}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn inverse_roots_are_those_of_the_exponent() {

@@ -30,7 +30,7 @@ pub(super) fn states(
     let mut states = all_states(RougherStages { stages, factor }, &rougher, model, careful, last, work)?;
     if colour_by == ColourBy::Margin && states.solutions.len() == 1 {
         let bounds = &MARGINS[..MARGINS.len() - 1];
-        states.margin = factors_with_one_solution(&rougher, bounds)?.map(margin_up_to);
+        states.margin = factors_with_one_solution(&rougher, bounds, work)?.map(margin_up_to);
     }
     Ok(states)
 }

@@ -165,22 +165,31 @@ impl Ord for Node {
 }
 
 /// A convex region and the pins that bound it further.
-pub(super) struct Pinned<'a> {
-    pub(super) convex: &'a Region,
+pub(super) struct Pinned<'a, 'w> {
+    pub(super) convex: &'a Region<'w>,
     pub(super) pins: &'a [Pin],
 }
 
-impl Pinned<'_> {
+impl<'w> Pinned<'_, 'w> {
+    /// The steps of a search until it is given up, or the work is to end.
+    fn steps(&self) -> impl Iterator<Item = usize> {
+        let work = self.convex.work;
+        (0..MOST_SECTORS).take_while(move |_| !work.is_over())
+    }
+
     /// The point at which the least slack is greatest, those of the friction circles among them, and that slack; once one
-    /// is positive, greater ones are not sought.
+    /// is positive, greater ones are not sought, and of those below `least` only that they are below.
     ///
     /// # Errors
-    /// If a linear program was not solved, or too many sectors would be needed.
-    pub(super) fn highest(&self) -> Result<(f64, Vec<f64>), Unsolved> {
+    /// If a linear program was not solved, too many sectors would be needed, or the work is to end.
+    pub(super) fn highest_from(&self, least: f64) -> Result<(f64, Vec<f64>), Unsolved> {
         let mut best = (f64::NEG_INFINITY, Vec::new());
         let mut open = BinaryHeap::from([self.node(vec![None; self.pins.len()])?]);
-        for _ in 0..MOST_SECTORS {
+        for _ in self.steps() {
             let Some(Node { upper, at, sectors }) = open.pop() else { return Ok(best) };
+            if upper < least {
+                return Ok((upper, at.at));
+            }
             let agree = NOTHING.max(SLACK_AGREEMENT * upper.abs());
             if upper <= best.0 + agree {
                 return Ok(best);
@@ -239,7 +248,7 @@ impl Pinned<'_> {
     ) -> Result<Vec<Extent>, Unsolved> {
         let mut found: Vec<Extent> = Vec::new();
         let mut open = vec![vec![None; self.pins.len()]];
-        for _ in 0..MOST_SECTORS {
+        for _ in self.steps() {
             let Some(sectors) = open.pop() else { return Ok(found) };
             let outer = self.around(&sectors);
             let Some(outer) = nearly_possible(outer)? else { continue };
@@ -295,10 +304,10 @@ impl Pinned<'_> {
     ///
     /// # Errors
     /// If a linear program was not solved, too many sectors would be needed, or Newton's method does not end.
-    pub(super) fn parts(&self) -> Result<Vec<Region>, Unsolved> {
-        let mut found: Vec<(Directions, Region)> = Vec::new();
+    pub(super) fn parts(&self) -> Result<Vec<Region<'w>>, Unsolved> {
+        let mut found: Vec<(Directions, Region<'w>)> = Vec::new();
         let mut open = vec![vec![None; self.pins.len()]];
-        for _ in 0..MOST_SECTORS {
+        for _ in self.steps() {
             let Some(sectors) = open.pop() else {
                 return Ok(found.into_iter().map(|(_, region)| region).collect());
             };
@@ -314,7 +323,7 @@ impl Pinned<'_> {
                 continue;
             }
             let new = self.tangent(end)?;
-            let is_new = |new: &(Directions, Region)| {
+            let is_new = |new: &(Directions, Region<'w>)| {
                 found.iter().all(|(directions, _)| change(directions, &new.0) > SAME_DIRECTION)
             };
             found.extend(new.filter(is_new));
@@ -323,7 +332,7 @@ impl Pinned<'_> {
     }
 
     /// The region in which couples are `-s r t.R`, with the directions `t` of its own reactions; nothing if it is empty.
-    fn tangent(&self, mut end: End) -> Result<Option<(Directions, Region)>, Unsolved> {
+    fn tangent(&self, mut end: End) -> Result<Option<(Directions, Region<'w>)>, Unsolved> {
         let mut directions = self.directions(&end);
         for _ in 0..MOST_STEPS {
             let both = |(pin, t): (&Pin, &[f64; 2])| pin.along(*t);
@@ -348,7 +357,7 @@ impl Pinned<'_> {
     }
 
     /// Whether no pin is loaded anywhere in a region that is not empty: then directions make no difference.
-    fn is_unloaded(&self, region: &Region) -> Result<bool, Unsolved> {
+    fn is_unloaded(&self, region: &Region<'_>) -> Result<bool, Unsolved> {
         let region = region.clone().relaxed(NOTHING);
         for component in self.pins.iter().flat_map(|pin| &pin.reaction) {
             let ends = region.convex_extent(component)?;
@@ -360,12 +369,12 @@ impl Pinned<'_> {
     }
 
     /// The region from outside.
-    fn around(&self, sectors: &Sectors) -> Region {
+    fn around(&self, sectors: &Sectors) -> Region<'w> {
         self.convex.within(self.pins.iter().zip(sectors).flat_map(|(pin, sector)| pin.around(*sector)))
     }
 
     /// The region from inside, with the directions that the reactions have somewhere.
-    fn inside(&self, end: &End) -> Region {
+    fn inside(&self, end: &End) -> Region<'w> {
         let directions = self.directions(end);
         self.convex
             .within(self.pins.iter().zip(directions).flat_map(|(pin, direction)| pin.within(direction)))
@@ -403,7 +412,7 @@ fn change(one: &Directions, other: &Directions) -> f64 {
 }
 
 /// A region that is not empty but for rounding, relaxed by that.
-fn nearly_possible(region: Region) -> Result<Option<Region>, Unsolved> {
+fn nearly_possible(region: Region<'_>) -> Result<Option<Region<'_>>, Unsolved> {
     let (slack, _) = region.highest()?;
     Ok((slack >= -NOTHING).then(|| region.relaxed(-slack.min(0.0))))
 }
@@ -444,7 +453,7 @@ mod tests {
 
     /// One body hinged at the origin, without weight: a force `f_a` at `p_a`, and a load factor times `f_b` at `p_b`; in
     /// units of 100 N and 100 mm, so that all is of order one.
-    fn lever(radius: f64, [p_a, f_a, p_b, f_b]: [[f64; 2]; 4]) -> Region {
+    fn lever(radius: f64, [p_a, f_a, p_b, f_b]: [[f64; 2]; 4]) -> Region<'static> {
         let moment = |p: [f64; 2], f: [f64; 2]| p[0] * f[1] - p[1] * f[0];
         let reaction = [0, 1].map(|axis| affine(&[-f_b[axis]], -f_a[axis]));
         let couple = affine(&[-moment(p_b, f_b)], -moment(p_a, f_a));
@@ -458,7 +467,7 @@ mod tests {
     }
 
     /// In each part; sorted, and joined where they overlap.
-    fn held(region: &Region) -> Vec<[f64; 2]> {
+    fn held(region: &Region<'_>) -> Vec<[f64; 2]> {
         let mut parts: Vec<[f64; 2]> = region
             .extents(&affine(&[1.0], 0.0))
             .expect("it is solved")

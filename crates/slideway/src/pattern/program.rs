@@ -3,6 +3,7 @@
 use super::friction_circle::{Pin, Pinned};
 use super::simplex::{Optimum, least};
 use super::{Affine, Extent};
+use crate::progress::Work;
 use nalgebra::Vector3;
 
 /// Greater slacks are not sought: the reactions of a wedged block may grow without bound.
@@ -20,11 +21,13 @@ pub(crate) const NOTHING: f64 = 1e-12;
 
 /// The points at which every one of some functions, the slacks, is at least zero, and the couples of pins are within
 /// their friction circles.
-#[derive(Debug, Clone)]
-pub(crate) struct Region {
+#[derive(Clone)]
+pub(crate) struct Region<'w> {
     dimension: usize,
     slacks: Vec<Affine>,
     pins: Vec<Pin>,
+    /// What may end a search over the sectors of pins.
+    pub(super) work: Work<'w>,
 }
 
 /// Where a function of a region is least or greatest.
@@ -49,14 +52,22 @@ impl End {
     }
 }
 
-/// The solver gave up, or its answer contradicts what is known.
+/// The solver gave up, its answer contradicts what is known, or the work is to end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Unsolved;
 
-impl Region {
+impl Region<'static> {
     /// The points of so many coordinates at which every function is at least zero.
     pub(crate) fn new(dimension: usize, slacks: Vec<Affine>) -> Self {
-        Self { dimension, slacks, pins: Vec::new() }
+        Self { dimension, slacks, pins: Vec::new(), work: Work::undisturbed() }
+    }
+}
+
+impl Region<'_> {
+    /// The region with work that may end its searches, which are unsolved then.
+    pub(crate) fn watched(self, work: Work<'_>) -> Region<'_> {
+        let Self { dimension, slacks, pins, .. } = self;
+        Region { dimension, slacks, pins, work }
     }
 
     /// The region in which the couples of these pins, too, are within their friction circles.
@@ -80,7 +91,8 @@ impl Region {
 
     /// The part in which further slacks are at least zero, without pins.
     pub(super) fn within(&self, further: impl Iterator<Item = Affine>) -> Self {
-        Self::new(self.dimension, self.slacks.iter().cloned().chain(further).collect())
+        let slacks = self.slacks.iter().cloned().chain(further).collect();
+        Self { dimension: self.dimension, slacks, pins: Vec::new(), work: self.work }
     }
 
     /// The point at which the least slack is greatest, but no more than 1, and that slack; negative if the
@@ -89,8 +101,16 @@ impl Region {
     /// # Errors
     /// If the linear program, which has a solution, was not solved.
     pub(crate) fn highest(&self) -> Result<(f64, Vec<f64>), Unsolved> {
+        self.highest_from(f64::NEG_INFINITY)
+    }
+
+    /// The same; of a greatest least slack below this number only that it is below.
+    ///
+    /// # Errors
+    /// As [`Region::highest`].
+    pub(crate) fn highest_from(&self, least: f64) -> Result<(f64, Vec<f64>), Unsolved> {
         if !self.pins.is_empty() {
-            return Pinned { convex: self, pins: &self.pins }.highest();
+            return Pinned { convex: self, pins: &self.pins }.highest_from(least);
         }
         let found = match self.dimension {
             0 => Some(Vec::new()),

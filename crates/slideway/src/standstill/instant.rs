@@ -106,7 +106,7 @@ pub(crate) fn sticking_slack(setup: &Setup, pattern: &Pattern, directions: &[[f6
 fn greatest_slack(
     setup: &Setup,
     (pattern, directions): (&Pattern, &[[f64; 2]]),
-    region: impl Fn(&State<'_>, &StaticFriction) -> Region,
+    region: impl Fn(&State<'_>, &StaticFriction) -> Region<'static>,
 ) -> Option<f64> {
     let sticks = |k: usize| {
         let joint = setup.sliders.iter().position(|slider| slider.contacts.contains(&k));

@@ -11,7 +11,7 @@ use crate::pattern::{AffineExpression, GuidedCouple, Region, Unsolved};
 /// The range of an expression in a region of a state, in this unit.
 pub(super) fn range(
     state: &State<'_>,
-    region: &Region,
+    region: &Region<'_>,
     expression: &AffineExpression,
     unit: f64,
 ) -> Result<Range, Unsolved> {
@@ -24,7 +24,7 @@ pub(super) fn range(
 /// The ranges of an expression in a region that friction circles may divide, in this unit.
 pub(super) fn ranges(
     state: &State<'_>,
-    region: &Region,
+    region: &Region<'_>,
     expression: &AffineExpression,
     unit: f64,
 ) -> Result<Vec<Range>, Unsolved> {
@@ -33,7 +33,11 @@ pub(super) fn ranges(
 }
 
 /// The ranges of all reactions in a region of a state.
-pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Reactions, Unsolved> {
+pub(super) fn reactions(
+    setup: &Setup,
+    state: &State<'_>,
+    region: &Region<'_>,
+) -> Result<Reactions, Unsolved> {
     let contacts = (0..setup.mechanism.contacts.len()).map(|k| contact(setup, state, region, k));
     let joints = (0..setup.mechanism.joints.len()).map(JointId);
     let hinges = joints.filter_map(|joint| hinge(setup, joint, state, region));
@@ -45,7 +49,12 @@ pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Re
     })
 }
 
-fn contact(setup: &Setup, state: &State<'_>, region: &Region, k: usize) -> Result<ContactRange, Unsolved> {
+fn contact(
+    setup: &Setup,
+    state: &State<'_>,
+    region: &Region<'_>,
+    k: usize,
+) -> Result<ContactRange, Unsolved> {
     let unit = setup.units.force;
     let slider = setup.sliders.iter().find(|slider| slider.contacts.contains(&k));
     let couple = match slider.and_then(|slider| slider.couple) {
@@ -67,7 +76,7 @@ fn hinge(
     setup: &Setup,
     id: JointId,
     state: &State<'_>,
-    region: &Region,
+    region: &Region<'_>,
 ) -> Option<Result<HingeRange, Unsolved>> {
     let ends = setup.mechanism.hinge(id)?;
     let on_first = ends[0].frame.body().is_some();
@@ -95,14 +104,14 @@ fn friction_couple(
     setup: &Setup,
     hinge: JointId,
     state: &State<'_>,
-    region: &Region,
+    region: &Region<'_>,
 ) -> Result<Option<Range>, Unsolved> {
     let circle = setup.mechanism.friction_circles.iter().position(|circle| circle.joint == hinge);
     let unit = setup.units.force * setup.units.length;
     circle.map(|circle| range(state, region, &state.friction_couple(circle), unit)).transpose()
 }
 
-fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region) -> Result<DriveRange, Unsolved> {
+fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region<'_>) -> Result<DriveRange, Unsolved> {
     let drive = &setup.mechanism.drives[id.index()];
     let unit = state.force_unit(setup.assembled.layout.effort(id));
     Ok(DriveRange {

@@ -39,12 +39,12 @@ pub(super) fn releases(
         if let Some(states) = isolated(setup, signs, &motions, work) {
             over.undecided += usize::from(!states.decided);
             for state in until_over(states.list, work) {
-                over.note(setup, turned(setup, &state).map(Vec::from_iter));
+                over.note(setup, turned(setup, &state, work).map(Vec::from_iter));
             }
             continue;
         }
         for sides in until_over(sides(setup), work) {
-            over.note(setup, released(setup, &Pattern { contacts: sides, ..signs.clone() }));
+            over.note(setup, released(setup, &Pattern { contacts: sides, ..signs.clone() }, work));
         }
     }
     over
@@ -70,11 +70,11 @@ fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'
 }
 
 /// How a mechanism begins to move in a state in which hinges turn.
-fn turned(setup: &Setup, state: &MotionState) -> Result<Option<Release>, Unsolved> {
+fn turned(setup: &Setup, state: &MotionState, work: Work<'_>) -> Result<Option<Release>, Unsolved> {
     let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
     let question = (question(setup), Some(&directions[..]));
     let Some(linear) = State::turning(setup, &state.pattern, question) else { return Ok(None) };
-    release(setup, &state.pattern, &linear, linear.region(&static_friction(setup)))
+    release(setup, &state.pattern, &linear, linear.region(&static_friction(setup)).watched(work))
 }
 
 fn question(setup: &Setup) -> StateQuestion {
@@ -84,9 +84,9 @@ fn question(setup: &Setup) -> StateQuestion {
 
 /// The ways in which a mechanism begins to move with a pattern: one for each part into which turning hinges divide its
 /// region.
-fn released(setup: &Setup, pattern: &Pattern) -> Result<Vec<Release>, Unsolved> {
+fn released(setup: &Setup, pattern: &Pattern, work: Work<'_>) -> Result<Vec<Release>, Unsolved> {
     let Some(state) = State::new(setup, pattern, question(setup)) else { return Ok(Vec::new()) };
-    let parts = state.region(&static_friction(setup)).parts()?;
+    let parts = state.region(&static_friction(setup)).watched(work).parts()?;
     let releases = parts.into_iter().map(|part| release(setup, pattern, &state, part));
     releases.filter_map(Result::transpose).collect()
 }
@@ -95,7 +95,7 @@ fn release(
     setup: &Setup,
     pattern: &Pattern,
     state: &State<'_>,
-    region: Region,
+    region: Region<'_>,
 ) -> Result<Option<Release>, Unsolved> {
     let Some(region) = possible(region)? else { return Ok(None) };
     let Some(region) = really_slipping(setup, state, region)? else { return Ok(None) };
@@ -127,7 +127,11 @@ fn release(
 
 /// The region, unless a joint that should slip does not accelerate anywhere in it. Where no joint slips some
 /// coordinate must accelerate.
-fn really_slipping(setup: &Setup, state: &State<'_>, region: Region) -> Result<Option<Region>, Unsolved> {
+fn really_slipping<'w>(
+    setup: &Setup,
+    state: &State<'_>,
+    region: Region<'w>,
+) -> Result<Option<Region<'w>>, Unsolved> {
     let Some(region) = really_beginning(state, region)? else { return Ok(None) };
     let slips = !state.beginning().is_empty();
     let rests = |region| {
@@ -138,7 +142,7 @@ fn really_slipping(setup: &Setup, state: &State<'_>, region: Region) -> Result<O
 }
 
 /// The region, unless a joint that should begin to move does not accelerate anywhere in it.
-fn really_beginning(state: &State<'_>, region: Region) -> Result<Option<Region>, Unsolved> {
+fn really_beginning<'w>(state: &State<'_>, region: Region<'w>) -> Result<Option<Region<'w>>, Unsolved> {
     for acceleration in &state.beginning() {
         let [_, greatest] = region.extent(&state.function(acceleration))?;
         if greatest.is_some_and(|greatest| greatest <= TOLERANCE) {
@@ -160,7 +164,11 @@ fn acceleration_unit(setup: &Setup, unit: &str) -> f64 {
     if unit == "rad/s^2" { units.acceleration / units.length } else { units.acceleration }
 }
 
-fn coordinates(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Vec<CoordinateRange>, Unsolved> {
+fn coordinates(
+    setup: &Setup,
+    state: &State<'_>,
+    region: &Region<'_>,
+) -> Result<Vec<CoordinateRange>, Unsolved> {
     let pairs = setup.mechanism.coordinates.iter().zip(setup.assembled.coordinate_rows());
     let one = |(coordinate, row): (&crate::mechanism::Coordinate, &[(usize, f64)])| {
         let in_words = if unit(&coordinate.kind) == "rad" { "rad/s^2" } else { "m/s^2" };

@@ -37,7 +37,7 @@ pub(super) fn static_friction(setup: &Setup) -> StaticFriction {
 }
 
 /// The region of a state if it is not empty, relaxed by as little as rounding asks for.
-pub(super) fn possible(region: Region) -> Result<Option<Region>, Unsolved> {
+pub(super) fn possible(region: Region<'_>) -> Result<Option<Region<'_>>, Unsolved> {
     let (slack, _) = region.highest()?;
     Ok((slack >= -TOLERANCE).then(|| region.relaxed(-slack.min(0.0))))
 }
@@ -69,8 +69,7 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> (Over<Optio
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        let region = state.region(&static_friction(setup));
-        let region = possible(region);
+        let region = possible(state.region(&static_friction(setup)).watched(work));
         is_possible |= matches!(region, Ok(Some(_)));
         match region.and_then(|region| region.map(|r| reactions(setup, &state, &r)).transpose()) {
             Ok(None) => {}
@@ -117,7 +116,7 @@ pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<
         let question = StateQuestion::rest(Some(factor));
         let pattern = resting(setup, sides);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        match possible(state.region(&static_friction(setup))) {
+        match possible(state.region(&static_friction(setup)).watched(work)) {
             Ok(Some(_)) => return Some(true),
             Ok(None) => {}
             Err(Unsolved) => undecided = true,
@@ -133,8 +132,8 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(None);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        let region = state.region(&static_friction(setup));
-        let extents = |region: Region| ranges(&state, &region, &state.factor(), state.factor_unit());
+        let region = state.region(&static_friction(setup)).watched(work);
+        let extents = |region: Region<'_>| ranges(&state, &region, &state.factor(), state.factor_unit());
         match possible(region).and_then(|region| region.map(extents).transpose()) {
             Ok(found) => over.found.extend(found.into_iter().flatten()),
             Err(Unsolved) => over.undecided += 1,

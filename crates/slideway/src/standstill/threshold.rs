@@ -144,13 +144,13 @@ fn least_value(alone: &Setup, law: &Law, question: StateQuestion, work: Work<'_>
     let mut again = Vec::new();
     for sides in until_over(sides(alone), work) {
         let pattern = resting(alone, sides);
-        match least_in(alone, &pattern, law, (question, found)) {
+        match least_in(alone, &pattern, law, (question, found), work) {
             Ok(least) => found = least.or(found),
             Err(Unsolved) => again.push(pattern),
         }
     }
     for pattern in &again {
-        match least_in(alone, pattern, law, (question, found)) {
+        match least_in(alone, pattern, law, (question, found), work) {
             Ok(least) => found = least.or(found),
             Err(Unsolved) => undecided += 1,
         }
@@ -164,17 +164,23 @@ fn least_in(
     pattern: &Pattern,
     law: &Law,
     (question, found): (StateQuestion, Option<f64>),
+    work: Work<'_>,
 ) -> Result<Option<f64>, Unsolved> {
     let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
-    let missing = |value| state.region(&law.friction(alone, value)).highest().map(|(slack, _)| -slack);
+    let missing = |value, enough: f64| {
+        let region = state.region(&law.friction(alone, value)).watched(work);
+        region.highest_from(-enough).map(|(slack, _)| -slack)
+    };
     least_of(found.unwrap_or(GREATEST), missing)
 }
 
-/// The least value from 0 to `best` where a falling function is no more than zero.
+/// The least value from 0 to `best` where a falling function is no more than zero; of a function that is greater than its
+/// second argument it is enough to know that.
 fn least_of(
     best: f64,
-    mut margin: impl FnMut(f64) -> Result<f64, Unsolved>,
+    mut function: impl FnMut(f64, f64) -> Result<f64, Unsolved>,
 ) -> Result<Option<f64>, Unsolved> {
+    let mut margin = |value| function(value, ROUNDING);
     if margin(0.0)? <= ROUNDING {
         return Ok(Some(0.0));
     }
@@ -199,12 +205,12 @@ fn least_of(
             Err(Unsolved) => return Err(Unsolved),
         }
     }
-    Ok(Some(polished(above, &mut margin).unwrap_or(above)))
+    Ok(Some(polished(above, |value| function(value, f64::INFINITY)).unwrap_or(above)))
 }
 
 /// The root near `value` from the secant through two points below it, where the margin is well above
 /// rounding. The bisection ends where the margin falls below [`ROUNDING`], not at its root.
-fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Unsolved>) -> Result<f64, Unsolved> {
+fn polished(value: f64, mut margin: impl FnMut(f64) -> Result<f64, Unsolved>) -> Result<f64, Unsolved> {
     let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
     let (at_first, at_second) = (margin(first)?, margin(second)?);
     let root = second + at_second * (second - first) / (at_first - at_second);

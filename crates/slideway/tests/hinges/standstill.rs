@@ -173,6 +173,26 @@ fn a_bar_is_held_in_a_range_of_forces(#[case] friction: &str, #[case] reference:
     assert_ranges(&factors(&text, "P"), &[reference.map(Some)]);
 }
 
+/// The threshold of a load is found by some fifty programs, each of which divides directions into sectors.
+#[test]
+fn a_threshold_over_directions_can_be_ended_at_any_sector() {
+    let model = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
+    let options = HoldOptions::default().load("knee");
+    let asked_until = |most: usize| {
+        let mut asked = 0;
+        let report = hold_with(&model, &options, &mut |_| {
+            asked += 1;
+            if asked == most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        (report.unwrap().is_some(), asked)
+    };
+    let (is_done, all) = asked_until(usize::MAX);
+    assert!(is_done && all > 1000, "{all}");
+    for most in [all / 4, all / 2, 3 * all / 4] {
+        assert_eq!(asked_until(most), (false, most));
+    }
+}
+
 /// A mechanism of an independent review with three sliding contacts on one block. Where both contacts of one face are in their
 /// gaps, their columns are the same whatever the directions of the hinge, so that the equations of every sector are singular:
 /// `hold` took minutes. The search for the states in which the hinge begins to turn takes few nodes, and ends where the

@@ -65,13 +65,11 @@ pub(super) struct HingedAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
     pub(super) hinges: &'a [TurningHinge],
-    /// For margins of friction, if they are asked for.
-    pub(super) growth: Option<Growth<'a>>,
 }
 
 impl HingedAnswer<'_> {
-    /// The report on all solutions.
-    pub(super) fn report(&self, found: &BlocksFound<'_>) -> SolveReport {
+    /// The report on all solutions, with their margins of friction if what grows is given.
+    pub(super) fn report(&self, found: &BlocksFound<'_>, growth: Option<&Growth<'_>>) -> SolveReport {
         let joints: Vec<JointId> = self.hinges.iter().map(|hinge| hinge.joint).collect();
         let elastic = ElasticHinges::new(self.answer.mechanism, self.answer.equations, &joints);
         let mut tipping = Tipped::default();
@@ -97,7 +95,7 @@ impl HingedAnswer<'_> {
                 held: &[],
             };
             let Some(mut kept) = self.answer.kept(&state, &mut tipping) else { continue };
-            kept.margin = self.growth.as_ref().and_then(|growth| growth.margin(solution));
+            kept.margin = growth.and_then(|growth| growth.margin(solution));
             if !solution.gaps.is_empty() {
                 gaps.push(kept);
                 continue;

@@ -10,9 +10,8 @@ use crate::modes::SearchOptions;
 use crate::modes::blocks::{self, BlockSolution, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
-use crate::progress::{Callback, Progress, Work};
+use crate::progress::Work;
 use crate::report::{ModeEndCause, ModeMargin, Proof};
-use std::ops::ControlFlow;
 
 /// Friction that is greater than this many times that of the model counts as infinite.
 const INFINITY: f64 = 1e6;
@@ -43,18 +42,31 @@ enum Number {
 pub(super) struct Growth<'a> {
     friction: GrowingFriction<'a>,
     mechanism: &'a Mechanism,
+    /// Once it is over there are no more problems: nothing is found then.
+    work: Work<'a>,
 }
 
 impl<'a> Growth<'a> {
     /// # Errors
     /// Guides that share a load.
-    pub(super) fn new(stages: &'a Stages, hinges: &'a [TurningHinge]) -> Result<Self, Faults> {
-        Ok(Self { friction: GrowingFriction::new(stages, hinges)?, mechanism: &stages.mechanism })
+    pub(super) fn new(
+        stages: &'a Stages,
+        hinges: &'a [TurningHinge],
+        work: Work<'a>,
+    ) -> Result<Self, Faults> {
+        Ok(Self { friction: GrowingFriction::new(stages, hinges)?, mechanism: &stages.mechanism, work })
     }
 
     /// The problem with this logarithm of the factor.
     fn at(&self, logarithm: f64) -> Result<Instance, NoInstance> {
-        self.friction.at(logarithm.exp()).map_err(|_| NoInstance::Other)
+        self.at_factor(logarithm.exp())
+    }
+
+    fn at_factor(&self, factor: f64) -> Result<Instance, NoInstance> {
+        if self.work.is_over() {
+            return Err(NoInstance::Other);
+        }
+        self.friction.at(factor).map_err(|_| NoInstance::Other)
     }
 
     /// The factor by which all friction may grow before a solution ends, and what ends it; none if that is not found.
@@ -80,16 +92,15 @@ impl<'a> Growth<'a> {
 
     /// Whether it is proven that there is no solution just beyond an end.
     fn nothing_is_left(&self, end: &ModeEnd) -> bool {
-        self.solutions(end.at + BEYOND, &mut undisturbed).is_some_and(|solutions| solutions.is_empty())
+        self.solutions(end.at + BEYOND).is_some_and(|solutions| solutions.is_empty())
     }
 
-    /// All solutions with this logarithm of the factor; none if their list is not proven complete, or once the callback
-    /// breaks.
-    fn solutions(&self, logarithm: f64, progress: &mut Callback<'_>) -> Option<Vec<BlockSolution>> {
+    /// All solutions with this logarithm of the factor; none if their list is not proven complete.
+    fn solutions(&self, logarithm: f64) -> Option<Vec<BlockSolution>> {
         let options = SearchOptions { nodes: NODES, ..SearchOptions::default() };
         let problem = &self.at(logarithm).ok()?.problem;
         let unique = unique_for_every_load(problem);
-        let result = blocks::search_all_or_nothing(problem, unique, &options, progress);
+        let result = blocks::search_all_or_nothing(problem, unique, &options, &mut |_| self.work.flow());
         (result.complete == Proof::Proven).then_some(result.solutions)
     }
 
@@ -100,7 +111,7 @@ impl<'a> Growth<'a> {
     }
 
     fn number_at(&self, logarithm: f64) -> Option<Number> {
-        let mut solutions = self.solutions(logarithm, &mut undisturbed)?;
+        let mut solutions = self.solutions(logarithm)?;
         let instance = self.at(logarithm).ok()?;
         solutions.retain(|solution| solution.gaps.is_empty() && keeps_bounds(&instance, solution));
         let last = solutions.pop().filter(|_| solutions.is_empty());
@@ -171,10 +182,10 @@ impl<'a> Growth<'a> {
 
     /// The factor by which friction may grow before there is neither a solution nor a preload-gap state, infinite if
     /// there always is one; where there is none as it is, the factor to which friction has to fall.
-    fn locking(&self, work: Work<'_>) -> Option<f64> {
+    fn locking(&self) -> Option<f64> {
         let (mut at, mut end) = (0.0, None);
         for _ in 0..BRANCHES {
-            let solutions = self.solutions(at, &mut |_| work.flow())?;
+            let solutions = self.solutions(at)?;
             let ends = solutions
                 .iter()
                 .map(|solution| Some(end_of(&|at| self.at(at), (solution, at), INFINITY.ln(), PART)?.end.at));
@@ -183,7 +194,7 @@ impl<'a> Growth<'a> {
                 return Some(f64::INFINITY);
             }
             if last <= at {
-                return Some(end.map_or_else(|| self.falling(work), f64::exp));
+                return Some(end.map_or_else(|| self.falling(), f64::exp));
             }
             end = Some(last);
             at = last + BEYOND;
@@ -192,7 +203,7 @@ impl<'a> Growth<'a> {
     }
 
     /// The greatest factor up to that of the model with a solution, as far as even steps show it.
-    fn falling(&self, work: Work<'_>) -> f64 {
+    fn falling(&self) -> f64 {
         let options = BranchOptions {
             range: [0.0, 1.0],
             values: FALLING,
@@ -200,15 +211,9 @@ impl<'a> Growth<'a> {
             greatest_normal_force: None,
             search: SearchOptions { nodes: NODES, ..SearchOptions::default() },
         };
-        let family = |factor: f64| self.friction.at(factor).map_err(|_| NoInstance::Other);
-        let found = branches(&family, &options, work).branches;
+        let found = branches(&|factor| self.at_factor(factor), &options, self.work).branches;
         found.iter().map(|branch| branch.to.end.at).fold(0.0, f64::max)
     }
-}
-
-/// Goes on.
-fn undisturbed(_: &Progress) -> ControlFlow<()> {
-    ControlFlow::Continue(())
 }
 
 /// A number of at least 1, rounded down to four significant digits, or to a whole number.
@@ -222,12 +227,16 @@ fn rounded_down(number: f64) -> f64 {
 ///
 /// # Errors
 /// Hinges with friction that do not turn now; guides that share a load.
-pub(crate) fn factors_with_one_solution(stages: &Stages, factors: &[f64]) -> Result<Option<usize>, Faults> {
+pub(crate) fn factors_with_one_solution(
+    stages: &Stages,
+    factors: &[f64],
+    work: Work<'_>,
+) -> Result<Option<usize>, Faults> {
     let Spins { turning, standing } = spins(&stages.mechanism, &stages.configuration, &stages.influence)?;
     if !standing.is_empty() {
         return Ok(None);
     }
-    Ok(Growth::new(stages, &turning)?.with_one_solution(factors))
+    Ok(Growth::new(stages, &turning, work)?.with_one_solution(factors))
 }
 
 /// The factor by which all friction may grow before there is neither a solution nor a preload-gap state, infinite if
@@ -240,5 +249,5 @@ pub(crate) fn locking_factor(
     hinges: &[TurningHinge],
     work: Work<'_>,
 ) -> Result<Option<f64>, Faults> {
-    Ok(Growth::new(stages, hinges)?.locking(work))
+    Ok(Growth::new(stages, hinges, work)?.locking())
 }

@@ -30,7 +30,7 @@ use crate::mechanism::{Contact, Mechanism};
 use crate::model::{Model, ParameterRange};
 use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
-use crate::progress::Callback;
+use crate::progress::{Callback, as_far_as_wanted};
 use crate::report::{MarginsMissing, SolveReport};
 pub(crate) use found::directions;
 use found::{BlocksFound, HingedAnswer};
@@ -68,17 +68,19 @@ pub(super) fn solve(
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);
     let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
-    let growth = options.margins.then(|| Growth::new(stages, &turning)).transpose()?;
-    let unique_at_least = growth
-        .as_ref()
-        .filter(|_| result.unique_for_every_load.is_some())
-        .and_then(|growth| growth.unique_at_least(enclosed.as_ref().ok()?));
-    let answer = HingedAnswer { answer, problem: &problem, hinges: &turning, growth };
+    let answer = HingedAnswer { answer, problem: &problem, hinges: &turning };
+    let (report, _) = as_far_as_wanted(progress, |work| {
+        let growth = options.margins.then(|| Growth::new(stages, &turning, work)).transpose()?;
+        let unique_at_least = growth
+            .as_ref()
+            .filter(|_| result.unique_for_every_load.is_some())
+            .and_then(|growth| growth.unique_at_least(enclosed.as_ref().ok()?));
+        Ok::<_, Faults>(SolveReport { unique_at_least, ..answer.report(&found, growth.as_ref()) })
+    });
     Ok(SolveReport {
-        unique_at_least,
         margins_missing: options.margins.then_some(MarginsMissing::FrictionInHinges),
         uncertainty: answer.uncertainty(model, ranges, options, progress),
-        ..answer.report(&found)
+        ..report?
     })
 }
 

@@ -18,7 +18,7 @@ pub(in crate::standstill) struct StaticFriction {
 /// Inequalities of a state.
 impl State<'_> {
     /// What the equations leave open within every inequality of the state, with this static friction.
-    pub(in crate::standstill) fn region(&self, static_friction: &StaticFriction) -> Region {
+    pub(in crate::standstill) fn region(&self, static_friction: &StaticFriction) -> Region<'static> {
         let all = (0..self.setup.sliders.len()).flat_map(|slider| self.bounds_of(slider, static_friction));
         let slacks = all.chain(self.pushes().into_iter().flatten()).chain(self.beginning());
         self.within(slacks.map(|slack| self.function(&slack)).collect(), static_friction)
@@ -26,7 +26,7 @@ impl State<'_> {
 
     /// The same within the inequalities of what sticks alone, and those that depend on what the equations leave open: the
     /// others bound what slides and turns.
-    pub(in crate::standstill) fn sticking_region(&self, static_friction: &StaticFriction) -> Region {
+    pub(in crate::standstill) fn sticking_region(&self, static_friction: &StaticFriction) -> Region<'static> {
         let sticks = |slider: &usize| self.pattern.joints[*slider] == JointPhase::Sticking;
         let (sticking, sliding): (Vec<usize>, Vec<usize>) = (0..self.setup.sliders.len()).partition(sticks);
         let bounds = |sliders: &[usize]| -> Vec<Affine> {
@@ -39,7 +39,7 @@ impl State<'_> {
         self.within(slacks, static_friction)
     }
 
-    fn within(&self, slacks: Vec<Affine>, static_friction: &StaticFriction) -> Region {
+    fn within(&self, slacks: Vec<Affine>, static_friction: &StaticFriction) -> Region<'static> {
         Region::new(self.solutions.dimension(), slacks).with_pins(self.pins(&static_friction.radii))
     }
 
