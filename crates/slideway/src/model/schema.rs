@@ -59,13 +59,13 @@ struct ModelFile {
 #[expect(dead_code, reason = "only its schema is used")]
 enum JointTable {
     /// A hinge, without friction unless it is given.
-    Hinge(HingeTable),
+    Hinge(Box<HingeTable>),
     /// A carriage, sledge or bushing with a contact at each end.
-    BlockSlider(BlockSliderTable),
+    BlockSlider(Box<BlockSliderTable>),
     /// A slider pressed on one side along its whole length: one normal force and a couple.
-    GuidedSlider(GuidedSliderTable),
+    GuidedSlider(Box<GuidedSliderTable>),
     /// A pin in a slot, free to rotate: one contact.
-    PinInSlot(PinInSlotTable),
+    PinInSlot(Box<PinInSlotTable>),
 }
 
 /// A table that has some keys of others.
