@@ -41,7 +41,7 @@
 //! their own.
 //!
 //! # Accuracy
-//! This concerns what is solved within tolerances: [`enumerate`], [`screen`](crate::screen), and a search without
+//! This concerns what is solved within tolerances: [`enumerate`], [`screen`], and a search without
 //! certificates. A pattern is solved by LU factorization and one step of iterative refinement; where very many problems
 //! of few contacts are solved, patterns are the leaves of a binary tree that decides the side of one contact per level,
 //! with one elimination step per node (theory, section 4): constant work per pattern on average.
