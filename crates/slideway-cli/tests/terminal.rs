@@ -372,6 +372,9 @@ fn drive_names_what_it_could_be_tabulated_over() {
     let (told, _) = on_terminal(&mut folder.command(&["drive", "drawer.toml"]));
     let told = without_styles(&told).0;
     let last = told.trim_end().rsplit("\n\n").next().unwrap().replace('\n', " ");
-    assert!(last.starts_with("Over one of these with `--vary NAME`: L = 0.4 m, a = 0.3 m, "), "{told}");
+    assert!(
+        last.starts_with("To see it over one of these, add `--vary NAME`: L = 0.4 m, a = 0.3 m, "),
+        "{told}"
+    );
     assert!(last.ends_with("x = 0 m, friction = 1."), "{told}");
 }

@@ -211,7 +211,13 @@ fn what_coincides_is_one_line_with_both_names() {
         key.split("</svg> ").skip(1).filter_map(|rest| rest.split('<').next()).collect();
     assert_eq!(
         meanings,
-        ["normal reaction on the block", "friction on the block", "load, weight or drive"],
+        [
+            "normal reaction on the block",
+            "friction on the block",
+            "load, weight or drive",
+            "sliding velocity",
+            "not to scale"
+        ],
         "{key}"
     );
     // 4.905 N are 80 px long, so that 3.68 N would be 60 px, the longest that the scale may be.

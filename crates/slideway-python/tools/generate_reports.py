@@ -52,6 +52,8 @@ ITEM = re.compile(
     r"^pub (?P<kind>struct|enum) (?P<name>\w+)(?:<[^>]*>)? \{\n(?P<body>[\s\S]*?)^\}",
     re.MULTILINE,
 )
+# Enumerations that have a word each in tables are declared within a macro (choice.rs).
+WORDED = re.compile(r"^worded! \{\n([\s\S]*?)^\}\n", re.MULTILINE)
 SIMPLE = {"f64": "float", "bool": "bool", "String": "str", "str": "str", "Arc<str>": "str"}
 ARRAYS = {"Vec<f64>": "array", "Vec<Option<f64>>": "array", "Vec<[f64; 2]>": "pairs"}
 INTEGERS = {f"{sign}{size}" for sign in "iu" for size in ("8", "16", "32", "64", "128", "size")}
@@ -134,7 +136,8 @@ def read() -> dict[str, Item]:
     items: dict[str, Item] = {}
     for source in SOURCES:
         for path in sorted(source.rglob("*.rs")):
-            for match in ITEM.finditer(path.read_text()):
+            text = WORDED.sub(lambda within: textwrap.dedent(within[1]), path.read_text())
+            for match in ITEM.finditer(text):
                 if re.search(r"derive\([^)]*\bSerialize\b", match["attributes"]):
                     item = struct(match, path) if match["kind"] == "struct" else enum(match, path)
                     if item.name not in items or "report" in str(path):

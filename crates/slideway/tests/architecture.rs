@@ -18,7 +18,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("configuration", &["fault", "ids", "interval", "mechanism", "model", "progress"]),
     ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),
     ("influence", &["ids", "kinetics"]),
-    ("report", &["fault", "ids", "printable", "units"]),
+    ("report", &["choice", "fault", "ids", "printable", "units"]),
     ("sharing", &["fault", "interval", "mechanism", "modes", "report"]),
     (
         "enclosure",
@@ -36,7 +36,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
         ],
     ),
     ("attainability", &["configuration", "ids", "kinetics", "mechanism", "modes", "report", "sharing"]),
-    ("pattern", &["ids", "mechanism", "model", "modes"]),
+    ("pattern", &["ids", "mechanism", "model", "modes", "progress"]),
     ("import", &["drawing", "expression", "model", "printable", "progress"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),

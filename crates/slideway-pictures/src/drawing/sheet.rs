@@ -142,7 +142,8 @@ pub fn sheet(
 /// };
 /// // The mechanism itself, its solution, and the key.
 /// let held = drawn("0.3", None)?[1].held;
-/// assert_eq!(drawn("0.5", held.as_ref())?[1].held, held);
+/// let longest = |held: Option<Held>| held.and_then(|held| held.longest_force);
+/// assert_eq!(longest(drawn("0.5", held.as_ref())?[1].held), longest(held));
 /// # Ok::<(), slideway::fault::Faults>(())
 /// ```
 pub fn pieces(

@@ -369,8 +369,8 @@ mod tests {
         animation.bounds.greatest = least + nalgebra::Vector2::new(1612.3, 500.7);
         let bytes = gif_of(&animation);
         let decoder = opened(&bytes);
-        // 1613 x ceil(500.7 + 38 + 138) units: title and caption
-        assert_eq!([decoder.width(), decoder.height()], [1000, 420]);
+        // 1613 x ceil(500.7 + 38 + 90) units: title; a line for the mode, one for the event, the key
+        assert_eq!([decoder.width(), decoder.height()], [1000, 390]);
         let picture = &shown(&bytes)[0];
         let background = parsed(DARK.background).expect("a colour");
         let last_row = &picture[picture.len() - 1000..];

@@ -617,7 +617,7 @@ Verdict = Literal["attainable", "unattainable", "flutter", "undecided", "not_com
 - `"unattainable"`: Some fast motion leaves the solution whatever the damping of the contacts.
 - `"flutter"`: A fast oscillation grows unless the contacts are damped enough.
 - `"undecided"`: The question has no definite answer; see the reason.
-- `"not_computed"`: Not computed; see the reason."""
+- `"not_computed"`: Not asked for, or not computed; see the reason."""
 
 WithinRoundingAnswer = Literal["solution", "none", "unknown"]
 """Whether numbers that differ from the given ones only by rounding have a solution.
@@ -1936,6 +1936,8 @@ class LockedMode(Record):
 
     pattern: str
     """Its pattern."""
+    factor: float
+    """The part of the friction of the model at which its determinant vanishes, at most 1."""
     joints: tuple[JointMode, ...]
     """The contact mode of each sliding joint."""
 
@@ -2039,7 +2041,7 @@ class Margins(Record):
     and where none comes."""
     locking: LockedMode | None = None
     """Where there is no solution: the mode that locks last as all friction grows to the present one; absent
-    where none does, and of redundant guides."""
+    where none does."""
     critical_contact: CriticalContact | None = None
     """The contact whose friction alone changes the number of solutions first; absent if none does."""
 
@@ -2491,6 +2493,12 @@ class Rejection(Record):
     """The greatest couple that its pressure gives: |N| L / 2 (N m)."""
     normal_forces: NDArray[np.float64]
     """Normal forces of all contacts (N)."""
+    friction_forces: NDArray[np.float64]
+    """Friction forces of all contacts, positive against positive sliding (N)."""
+    couples: NDArray[np.float64]
+    """Couples of all contacts about the middle of the pressed face, 0 of those that have none (N m)."""
+    efforts: NDArray[np.float64]
+    """Efforts of all drives (N or N m)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -3129,7 +3137,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "LimitsReport": {"between_faces_at": "array"},
     "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},
     "RawSolution": {"z": "array", "w": "array", "u": "array", "x": "array", "y": "array", "normal_forces": "array"},
-    "Rejection": {"normal_forces": "array"},
+    "Rejection": {"normal_forces": "array", "friction_forces": "array", "couples": "array", "efforts": "array"},
     "UncertainMode": {"normal_force_bounds": "pairs"},
     "WithinRounding": {"z": "array", "w": "array", "u": "array", "x": "array", "y": "array", "normal_forces": "array"},
 }

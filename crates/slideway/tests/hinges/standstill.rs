@@ -120,7 +120,7 @@ fn from_a_certain_friction_on_a_lever_is_self_locking(#[case] friction: &str, #[
 fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     let options = HoldOptions::default().load("Q");
     let pins = held(&lever("mu = 0.3\nradius = 0.1", BELL_CRANK), &options)
-        .text(Style::PLAIN.verbose(true).width(200));
+        .text(Style::PLAIN.verbose(true).width(400));
     assert!(
         pins.contains("It would be self-locking from 2.5 times this static friction.")
             && !pins.contains("mu_static"),

@@ -238,7 +238,7 @@ fn reasons_are_the_true_ones() {
     assert_eq!(report.method, LimitsMethod::Independent);
     assert!(report.guarantee.contains("hold"), "{}", report.guarantee);
     assert!(
-        report.conclusion[0].contains("the same in the whole range: one solution"),
+        report.conclusion[0].contains("the same in the whole range: it speeds up (one solution)"),
         "{:?}",
         report.conclusion
     );
