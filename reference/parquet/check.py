@@ -35,8 +35,10 @@ COMMANDS = [
     ["sweep", "models/drawer.toml", "--vary", "mu=normal(0.6, 0.05)", "--samples", "2000"],
     # Positions that cannot be assembled.
     ["sweep", "models/slider-crank.toml", "--vary", "l=0.02..0.2:37", "--at", "phi=80 deg"],
-    # Friction is not determined while a joint sticks.
+    # Statics determines the friction of the block that sticks.
     ["simulate", "models/stick-slip.toml", "--until", "2s"],
+    # Both slots stick in the end: how they share the load is undetermined.
+    ["simulate", "models/elliptic-trammel.toml", "--until", "2s"],
     ["simulate", "models/frictional-oscillator.toml", "--until", "3s", "--step", "1ms"],
 ]
 
