@@ -190,10 +190,12 @@ impl Standing<'_> {
         let names = self.names();
         match self.free.as_slice() {
             [Free::Hinge(_)] => {
-                format!("the ranges of the couple of {names}, which never turns, are computed, not proven")
+                format!(
+                    "the ranges of the couple of {names}, which never turns, are computed in floating point"
+                )
             }
             _ => format!(
-                "the ranges of the friction of {names}, at rest while the rest moves, are computed, not proven"
+                "the ranges of the friction of {names}, at rest while the rest moves, are computed in floating point"
             ),
         }
     }
