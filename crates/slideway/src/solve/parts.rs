@@ -12,6 +12,7 @@ use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::{PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts, Side};
+use crate::pattern::face;
 use crate::progress::Callback;
 use nalgebra::{DMatrix, DVector};
 
@@ -68,7 +69,7 @@ impl Parts {
             })
         };
         let side = |side: Side| {
-            let face = usize::from(side == Side::Negative);
+            let face = face(side);
             let gamma = |row: &ConstraintRow, k: usize| row.times(&influence.columns[k][face]);
             let columns = extended(problem.columns(side), &|row, k| {
                 let friction = -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k];

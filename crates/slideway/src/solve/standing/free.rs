@@ -7,6 +7,7 @@ use crate::influence::{ContactFriction, HingeState, Influence};
 use crate::mechanism::{Contact, Mechanism};
 use crate::model::PreloadLine;
 use crate::modes::Side;
+use crate::pattern::face;
 use nalgebra::DVector;
 
 /// A friction force or couple that may be anything within a limit.
@@ -69,13 +70,17 @@ impl Free {
         Some(Held { contact, friction: ContactFriction { positive_face, negative_face } })
     }
 
+    /// The contact or the hinge that stands, and the unit of its friction.
+    pub(super) fn name_and_unit(self, mechanism: &Mechanism) -> (&str, &'static str) {
+        match self {
+            Self::Hinge(hinge) => (&mechanism.joints[hinge.joint.index()].name, "N m"),
+            Self::Face(k) | Self::Middle(k) => (&mechanism.contacts[k].name, "N"),
+        }
+    }
+
     /// A hinge with this force and couple on its first body; none for a contact.
     pub(super) fn hinge(self, force: [f64; 2], couple: f64) -> Option<HingeState> {
         let Self::Hinge(TurningHinge { circle, joint, .. }) = self else { return None };
         Some(HingeState { circle, joint, force, couple })
     }
-}
-
-fn face(side: Side) -> usize {
-    usize::from(side == Side::Negative)
 }

@@ -175,10 +175,7 @@ impl Standing<'_> {
         let mechanism = &self.stages.mechanism;
         let mut names: Vec<&str> = Vec::new();
         for free in &self.free {
-            let name = match *free {
-                Free::Hinge(hinge) => &*mechanism.joints[hinge.joint.index()].name,
-                Free::Face(k) | Free::Middle(k) => &*mechanism.contacts[k].name,
-            };
+            let (name, _) = free.name_and_unit(mechanism);
             if !names.contains(&name) {
                 names.push(name);
             }
@@ -263,21 +260,18 @@ impl Standing<'_> {
         let mechanism = &self.stages.mechanism;
         let mut all: Vec<HeldFriction> = Vec::new();
         for (index, free) in self.free.iter().enumerate() {
-            let (name, unit) = match *free {
-                Free::Hinge(hinge) => (&mechanism.joints[hinge.joint.index()].name, "N m"),
-                Free::Face(k) | Free::Middle(k) => (&mechanism.contacts[k].name, "N"),
-            };
+            let (name, unit) = free.name_and_unit(mechanism);
             let part = |forces: &[DVector<f64>]| -> Vec<f64> {
                 forces.iter().map(|force| force[index] + 0.0).collect()
             };
             let (at, along) = (part(corners), part(growths));
-            match all.last_mut().filter(|last| *last.name == **name) {
+            match all.last_mut().filter(|last| last.name == name) {
                 // At the face and in the middle.
                 Some(last) => {
                     last.at.iter_mut().zip(at).for_each(|(sum, force)| *sum += force);
                     last.along.iter_mut().zip(along).for_each(|(sum, force)| *sum += force);
                 }
-                None => all.push(HeldFriction { name: name.to_string(), unit, at, along }),
+                None => all.push(HeldFriction { name: name.to_owned(), unit, at, along }),
             }
         }
         all
