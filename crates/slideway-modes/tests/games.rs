@@ -219,7 +219,7 @@ fn games_with_many_equilibria() {
         #[serde(rename = "B")]
         b: Vec<Vec<f64>>,
     }
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/games.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/games.toml");
     let games: Games = toml::from_str(&std::fs::read_to_string(path).expect("a file")).expect("games");
     for Game { equilibria, a, b } in games.game {
         let matrix = |rows: Vec<Vec<f64>>| {

@@ -13,7 +13,7 @@ use super::instances;
 use super::instances::structured::{game_with_two_costs, ones, pile};
 use super::search_support::{Random, low_rank, run};
 
-const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/check_proof.py");
+const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/check_proof.py");
 
 /// A problem as a file of type `modes`. The columns of an absolute value equation may be sums that are not
 /// numbers of a file.

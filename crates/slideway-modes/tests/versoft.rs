@@ -34,7 +34,7 @@ struct Example {
 }
 
 fn examples() -> Vec<Example> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/versoft.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/versoft.toml");
     let reference: Reference = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(reference.example.len(), 4);
     reference.example

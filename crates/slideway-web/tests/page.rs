@@ -41,7 +41,7 @@ fn the_page_passes_its_tests() {
         return skipped(&said(&built));
     }
     assert!(built.status.success(), "the page cannot be built:\n{}", said(&built));
-    let tested = node(&["--test", "--test-concurrency=1", "test/"]).expect("Node");
+    let tested = node(&["--test", "--test-concurrency=2", "test/"]).expect("Node");
     assert!(tested.status.success(), "{}", said(&tested));
     if said(&tested).contains("# SKIP") {
         skipped("there is no Chromium on this machine; name one in CHROMIUM to run all tests of the page");

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// The code blocks in TOML that begin with the line `# complete`.
 fn complete_examples() -> Vec<(String, String)> {
-    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src");
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/src");
     let mut examples = Vec::new();
     for page in fs::read_dir(pages).unwrap().map(|entry| entry.unwrap().path()) {
         if page.extension().is_some_and(|ending| ending == "md") {
@@ -60,7 +60,7 @@ fn citation(text: &str) -> (String, Option<char>) {
 
 #[test]
 fn sections_of_the_theory_that_comments_cite_exist() {
-    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
     let theory = fs::read_to_string(top.join("docs/src/theory.md")).unwrap();
     let sections: Vec<&str> = theory.split("\n## ").skip(1).collect();
     let mut cited = 0;
@@ -102,7 +102,7 @@ fn constants(page: &str) -> Vec<[&str; 3]> {
 
 #[test]
 fn tolerances_of_the_book_are_those_of_the_sources() {
-    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
     let pages = ["docs/src/tolerances.md", "docs/decisions/effort-of-the-search.md"];
     let page = pages.map(|page| fs::read_to_string(top.join(page)).unwrap()).concat();
     let constants = constants(&page);
@@ -125,7 +125,7 @@ fn tolerances_of_the_book_are_those_of_the_sources() {
 
 #[test]
 fn the_book_promises_nothing() {
-    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src");
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/src");
     for page in fs::read_dir(pages).unwrap().map(|entry| entry.unwrap().path()) {
         if page.extension().is_some_and(|ending| ending == "md") {
             let text = fs::read_to_string(&page).unwrap().to_lowercase();

@@ -25,7 +25,7 @@ struct Family {
 
 /// A file of the reference, and the model that it is about.
 fn read(name: &str) -> (Value, Model) {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/motion");
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../reference/motion");
     let text = std::fs::read_to_string(directory.join(format!("{name}.json"))).unwrap();
     let data: Value = serde_json::from_str(&text).unwrap();
     let model = format!("models/{}.toml", data["model"].as_str().unwrap());

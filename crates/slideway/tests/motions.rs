@@ -81,7 +81,7 @@ fn a_frictional_oscillator_comes_to_rest() {
 fn the_slider_crank_agrees_with_an_independent_integration() {
     let text = std::fs::read_to_string(concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../../reference/slider-crank-motion.toml"
+        "/../../../reference/slider-crank-motion.toml"
     ));
     let reference: toml::Table = text.unwrap().parse().unwrap();
     let options = SimulateOptions::new(3.0).tolerance(1e-10);
@@ -119,7 +119,7 @@ fn the_slider_crank_agrees_with_an_independent_integration() {
 /// SciPy's DOP853 at a relative tolerance of 1e-13.
 #[test]
 fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/stribeck-belt.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/stribeck-belt.toml");
     let reference: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
     let gallery_model = Model::parse(gallery::find("stribeck-belt").unwrap().text).unwrap();
     for run in reference["run"].as_array().unwrap() {
@@ -264,7 +264,7 @@ struct ElasticSample {
 
 /// The motions of a scenario, for guides of 1e5, 1e6, 1e7 and 1e8 N/m.
 fn elastic(scenario: &str) -> Vec<Elastic> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/elastic-guides.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/elastic-guides.toml");
     let reference: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
     let float = |value: &toml::Value| value.as_float().unwrap();
     let list = |value: &toml::Value| value.as_array().unwrap().clone();

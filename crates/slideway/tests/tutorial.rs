@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// A model of the tutorial.
 fn example(name: &str, values: &[(&str, &str)]) -> Model {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/examples").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/src/examples").join(name);
     let text = std::fs::read_to_string(path).unwrap();
     Model::parse(&text).unwrap().with(&settings(values)).unwrap_or_else(|faults| panic!("{name}: {faults}"))
 }

@@ -35,7 +35,7 @@ struct Solution {
 
 #[test]
 fn all_solutions_are_those_of_resultants() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/block-problems.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/block-problems.toml");
     let reference: Reference = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     for problem in reference.problem {
         let (rows, columns) = (problem.load.len(), problem.response[0].len());

@@ -55,6 +55,6 @@ pub(crate) struct Interval {
 }
 
 pub(crate) fn reference() -> Result<Reference, Box<dyn Error>> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/klepp-2002.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/klepp-2002.toml");
     Ok(toml::from_str(&std::fs::read_to_string(path)?)?)
 }

@@ -111,7 +111,7 @@ pub(crate) fn reference<T: DeserializeOwned>() -> T {
 
 /// What a type takes of a file of references.
 pub(crate) fn read<T: DeserializeOwned>(name: &str) -> T {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../reference").join(name);
     toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 

@@ -120,7 +120,7 @@ struct Holding {
 
 /// Numbers of `reference/gallery_hinges.py`: balances of each body, written out by hand.
 fn reference() -> File {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/gallery-hinges.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../reference/gallery-hinges.toml");
     toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 

@@ -193,7 +193,8 @@ struct Sample {
 /// reference/pinned_slider_crank_motion.py, which errs by 1e-12.
 #[test]
 fn a_slider_crank_with_rough_pins_moves_as_integrated_apart() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/pinned-slider-crank-motion.toml");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../reference/pinned-slider-crank-motion.toml");
     let reference: Reference = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
     let history = moved(&model, 0.1);

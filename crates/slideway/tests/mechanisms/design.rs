@@ -16,7 +16,7 @@ fn with(name: &str, list: &[(&str, &str)]) -> Model {
 }
 
 fn example(name: &str) -> Model {
-    let path = format!("{}/../../docs/src/examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../../../docs/src/examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     Model::parse(&std::fs::read_to_string(path).expect("there")).expect("sound")
 }
 

@@ -56,7 +56,7 @@ fn only_end(report: &LimitsReport) -> f64 {
 
 #[test]
 fn the_paper_s_intervals_to_1e_8() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/klepp-2002.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../reference/klepp-2002.toml");
     let reference: Reference = toml::from_str(&std::fs::read_to_string(path).expect("there")).expect("TOML");
     for case in reference.intervals {
         let preloads: Vec<String> = case.preload.iter().map(|force| format!("{force}*m*g")).collect();

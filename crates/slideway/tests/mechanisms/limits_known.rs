@@ -13,7 +13,7 @@ use slideway::standstill::{HoldOptions, hold};
 const EFFORT: u64 = 60;
 
 fn file(name: &str) -> Model {
-    let path = format!("{}/tests/findings/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/findings/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     Model::parse(&std::fs::read_to_string(path).expect("there")).expect("sound")
 }
 
