@@ -63,7 +63,7 @@ fn random_numbers() {
     assert!(tally.solutions > 100 && tally.none > 10, "{tally:?}");
 }
 
-/// `cargo test --release -p slideway --test exact_arithmetic -- --ignored --nocapture`: minutes, not seconds.
+/// `cargo test --release -p slideway-tests --test all exact_arithmetic -- --ignored --nocapture`: minutes, not seconds.
 /// The variables `FROM` and `COUNT` choose the instances of each family.
 #[test]
 #[ignore = "a long campaign"]

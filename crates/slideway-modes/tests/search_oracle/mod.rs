@@ -100,7 +100,7 @@ fn cells_are_those_of_brute_force() {
     FAMILIES.iter().for_each(assert_same);
 }
 
-/// `cargo test --release -p slideway-modes --test all -- --ignored --nocapture long_campaign`: minutes, not seconds.
+/// `cargo test --release -p slideway-modes-tests --test all -- --ignored --nocapture long_campaign`: minutes, not seconds.
 /// The variables `FROM`, `COUNT` and `SIZE` choose the instances of each family.
 #[test]
 #[ignore = "a long campaign"]
