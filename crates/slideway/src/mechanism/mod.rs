@@ -158,18 +158,6 @@ pub struct Slider<T = f64> {
     pub contacts: Vec<ContactId>,
 }
 
-/// A couple may exceed |N| L / 2 by this multiple of the greatest of its terms before a guided slider counts
-/// as tipping.
-pub(crate) const COUPLE_TOLERANCE: f64 = 1e-9;
-
-impl Slider {
-    /// The couple beyond which a guided slider tips under a normal force: |C| <= |N| L / 2 (theory, section
-    /// 1).
-    pub(crate) fn greatest_couple(&self, normal_force: f64) -> f64 {
-        normal_force.abs() * self.length / 2.0
-    }
-}
-
 /// A contact with friction.
 #[derive(Debug, Clone)]
 pub struct Contact<T = f64> {
