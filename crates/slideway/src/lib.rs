@@ -69,6 +69,7 @@ pub mod ids;
 pub mod import;
 pub mod influence;
 pub mod kinetics;
+mod law;
 pub mod limits;
 pub mod map;
 pub mod mechanism;

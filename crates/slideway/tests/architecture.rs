@@ -18,6 +18,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("configuration", &["fault", "ids", "interval", "mechanism", "model", "progress"]),
     ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),
     ("influence", &["ids", "kinetics"]),
+    ("law", &["interval", "mechanism", "model", "modes"]),
     ("report", &["choice", "fault", "ids", "printable", "units"]),
     ("sharing", &["fault", "interval", "mechanism", "modes", "report"]),
     (

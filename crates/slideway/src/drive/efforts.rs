@@ -37,8 +37,8 @@ pub(crate) struct Efforts {
 impl Efforts {
     /// # Errors
     /// A fault if a number is beyond the range of floating point.
-    pub(super) fn new(stages: &Stages, friction: f64) -> Result<Self, Faults> {
-        let parts = stages.parts_with_efforts(friction)?;
+    pub(super) fn new(stages: &Stages) -> Result<Self, Faults> {
+        let parts = stages.parts_with_efforts()?;
         Ok(Self {
             line: parts.line_to(&parts),
             drives: stages.mechanism.drives.len(),

@@ -12,9 +12,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{SolveReport, Status};
-use crate::solve::{
-    LastSolution, RougherStages, SolveOptions, Stages, Trail, hinged_states, solve_with_friction,
-};
+use crate::solve::{LastSolution, SolveOptions, Stages, Trail, hinged_states, solve_in};
 
 /// Steps between which changes of the number of solutions are sought.
 const STEPS: usize = 500;
@@ -86,15 +84,15 @@ impl Sampled<'_> {
     /// # Errors
     /// Whatever `solve` refuses there.
     fn at(&self, value: f64) -> Result<AllEfforts, Faults> {
-        let (model, factor) = self.varied.model_at(value)?;
+        let model = self.varied.model_at(value)?;
         let stages = Stages::of_any_model(&model)?;
-        let report = self.solved(&model, stages.rougher(factor))?;
+        let report = self.solved(&model, &stages)?;
         Ok(state::efforts(&report, &velocities(&stages)))
     }
 
-    fn solved(&self, model: &Model, stages: RougherStages<'_>) -> Result<SolveReport, Faults> {
+    fn solved(&self, model: &Model, stages: &Stages) -> Result<SolveReport, Faults> {
         let mut goes_on = |_: &Progress| self.work.flow();
-        solve_with_friction(model, stages, &SolveOptions::default().margins(false), &mut goes_on)
+        solve_in(model, stages, &SolveOptions::default(), &mut goes_on)
     }
 
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
@@ -103,17 +101,16 @@ impl Sampled<'_> {
 
     /// How many solutions there are at a value; none where there is no answer.
     fn number(&self, value: f64, before: &mut (Trail, LastSolution)) -> Option<usize> {
-        let (model, factor) = self.varied.model_at(value).ok()?;
+        let model = self.varied.model_at(value).ok()?;
         let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
         if stages.standing.is_empty() && !model.has_guided_sliders() {
             let mut goes_on = |_: &Progress| self.work.flow();
-            let rougher = stages.with_friction(factor);
-            let found = hinged_states(rougher.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
+            let found = hinged_states(stages.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
             if let Some(states) = found {
                 return Some(states.len());
             }
         }
-        let report = self.solved(&model, stages.rougher(factor)).ok()?;
+        let report = self.solved(&model, &stages).ok()?;
         match report.status {
             Status::Unknown => None,
             Status::None => Some(0),

@@ -101,13 +101,15 @@ fn blow_ups(stages: &Stages, work: Work<'_>) -> Result<Option<Vec<BlowUp>>, Faul
     if stages.mechanism.rough_hinges().next().is_some() || !stages.standing.is_empty() {
         return Ok(None);
     }
-    let line = stages.parts(0.0)?.line_to(&stages.parts(1.0)?);
+    let line = stages.data().growing_friction(&|_| true)?;
     let mut all = Vec::new();
     for range in FACTORS {
         let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
         let found = line.existence_with(&options, &mut |progress| work.tell(progress));
         let Ok(Some(existence)) = found else { return Ok(None) };
-        all.extend(growing_ends(&existence, stages, |factor| Efforts::new(stages, factor).ok()));
+        all.extend(growing_ends(&existence, stages, |factor| {
+            Efforts::new(&stages.with_friction(factor)).ok()
+        }));
     }
     all.sort_by(|one, other| one.at.total_cmp(&other.at));
     all.dedup_by(|next, kept| {

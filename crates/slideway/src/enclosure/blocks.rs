@@ -49,7 +49,7 @@ impl EnclosedBlockProblem {
     /// The problem with all friction multiplied by a factor; none if numbers overflow.
     pub(crate) fn rougher(&self, factor: f64) -> Option<BlockProblem> {
         let factor = Interval::point(factor);
-        let hinges = self.circles.iter().map(|circle| circle.rougher(factor).radius / circle.radius);
+        let hinges = self.circles.iter().map(|circle| circle.growth(factor));
         let factors: Vec<Interval> =
             std::iter::repeat_n(factor, self.problem.contacts()).chain(hinges).collect();
         self.problem.with_response_within(&factors)

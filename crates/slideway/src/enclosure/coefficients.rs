@@ -7,7 +7,7 @@ use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
 use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled};
 use crate::mechanism::{Contact, Mechanism, Slider};
-use crate::model::{self, JointKind, Model, PreloadLine, SliderKind};
+use crate::model::{self, JointKind, Model, SliderKind};
 use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
 use crate::progress::Work;
@@ -196,10 +196,8 @@ impl Coefficients<'_> {
     fn couple_of_preload(&self, influence: &BySide<Vec<Interval>>) -> BySide<Vec<Interval>> {
         let mut preload = influence.clone();
         for (k, contact) in self.mechanism.contacts.iter().enumerate() {
-            if contact.preload_line == PreloadLine::Centre {
-                let centre = (influence.positive[k] + influence.negative[k]) * Interval::point(0.5);
-                (preload.positive[k], preload.negative[k]) = (centre, centre);
-            }
+            let faces = [influence.positive[k], influence.negative[k]];
+            [preload.positive[k], preload.negative[k]] = contact.preload_line.of_faces(faces);
         }
         preload
     }
@@ -262,12 +260,12 @@ impl Coefficients<'_> {
     fn preload_columns(&self, eta: &[DMatrix<Interval>; 2]) -> [DMatrix<Interval>; 2] {
         let mut preload = eta.clone();
         for (k, contact) in self.mechanism.contacts.iter().enumerate() {
-            if contact.preload_line == PreloadLine::Centre && self.slider(k).is_some_and(has_two_faces) {
-                let half = Interval::point(0.5);
-                let centre = (eta[0].column(k) + eta[1].column(k)) * half;
-                for side in &mut preload {
-                    side.set_column(k, &centre);
-                }
+            if !self.slider(k).is_some_and(has_two_faces) {
+                continue;
+            }
+            for row in 0..eta[0].nrows() {
+                let faces = contact.preload_line.of_faces([eta[0][(row, k)], eta[1][(row, k)]]);
+                preload.iter_mut().zip(faces).for_each(|(side, face)| side[(row, k)] = face);
             }
         }
         preload

@@ -120,16 +120,10 @@ impl UncertainParameters {
         mechanism: &mut Mechanism<Interval>,
         configuration: &Configuration<Interval>,
     ) -> Result<(), NotEnclosed> {
-        configuration.put_friction(mechanism).map_err(NotEnclosed::Values)?;
         if let Some(factor) = self.friction {
-            for contact in &mut mechanism.contacts {
-                contact.mu = contact.mu.map(|mu| mu * factor);
-            }
-            for circle in &mut mechanism.friction_circles {
-                *circle = circle.rougher(factor);
-            }
+            mechanism.multiply_friction(factor);
         }
-        Ok(())
+        configuration.put_friction(mechanism).map_err(NotEnclosed::Values)
     }
 
     /// The bounds by the number of the parameter.

@@ -20,7 +20,7 @@ use crate::modes::branches::Branch;
 use crate::modes::existence::{EndCause, ModeInterval};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
-use crate::solve::{Parts, ProblemData, Stages, block_instance, directions, friction, rougher, unknowns_of};
+use crate::solve::{Parts, ProblemData, Stages, block_instance, directions, friction, unknowns_of};
 use crate::units::{Unit, Units};
 use nalgebra::DVector;
 
@@ -311,12 +311,10 @@ impl StateAt {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn new(varied: &Varied, at: f64) -> Result<Self, Faults> {
-        let (model, factor) = varied.model_at(at)?;
-        let mechanism = Mechanism::new(&model)?;
+        let mechanism = Mechanism::new(&varied.model_at(at)?)?;
         let configuration = Configuration::new(&mechanism)?;
-        let (mut stages, equations) = Stages::with_equations(mechanism, configuration)?;
-        stages.mechanism = rougher(&stages.mechanism, &|_| factor);
-        let parts = stages.parts(1.0)?;
+        let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
+        let parts = stages.parts()?;
         Ok(Self { stages, equations, parts })
     }
 

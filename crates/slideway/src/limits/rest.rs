@@ -67,10 +67,7 @@ fn rest_limits_of(
 ) -> Result<RestLimitsReport, Faults> {
     let varied = vary.at_rest(model)?;
     let range = vary.ends(&varied, || Err(varied.range_needed()))?;
-    let found = |at: f64| -> Found {
-        let (model, friction) = varied.model_at(at)?;
-        can_rest((&model, friction), options, work)
-    };
+    let found = |at: f64| -> Found { can_rest(&varied.model_at(at)?, options, work) };
     let same_ends = SameEnds::bisected(range);
     let told = |span: SpanOfRest| SpanOfRest {
         from: same_ends.told(span.from),

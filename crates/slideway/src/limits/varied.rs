@@ -16,7 +16,7 @@ use crate::modes::search;
 use crate::progress::{Progress, Work};
 use crate::report::{Proof, Solution, SolveReport};
 use crate::solve::{
-    Parts, SolveOptions, Stages, block_instance, certain_counts, solve_with_friction, states_between_faces,
+    Parts, SolveOptions, Stages, block_instance, certain_counts, solve_in, states_between_faces,
     turning_hinges, unknowns_of,
 };
 use crate::units::Unit;
@@ -282,7 +282,7 @@ impl Varied {
             stages.check_moving().ok()?;
             return question(&self.model, &uncertain.with_friction(bounds), stages);
         }
-        let model = self.model_at(bounds.middle()).ok()?.0;
+        let model = self.model_at(bounds.middle()).ok()?;
         let uncertain = match self.kind {
             Kind::Coordinate => uncertain.with_coordinate(&self.name, bounds),
             _ => uncertain.with(&self.name, bounds),
@@ -296,9 +296,8 @@ impl Varied {
         let present = self.present().ok().filter(|value| (from..=to).contains(value));
         let values = [from, f64::midpoint(from, to), to].into_iter().chain(present);
         let rough = |value: f64| -> Option<Vec<usize>> {
-            let (model, factor) = self.model_at(value).ok()?;
-            let mechanism = Mechanism::new(&model).ok()?;
-            (factor > 0.0).then(|| mechanism.rough_hinges().map(|(circle, _)| circle).collect())
+            let mechanism = Mechanism::new(&self.model_at(value).ok()?).ok()?;
+            Some(mechanism.rough_hinges().map(|(circle, _)| circle).collect())
         };
         let mut circles: Vec<usize> = values.filter_map(rough).flatten().collect();
         circles.sort_unstable();
@@ -314,8 +313,7 @@ impl Varied {
 
     /// The radius of a friction circle at a value; none if the model does not allow it.
     pub(crate) fn friction_radius(&self, value: f64, circle: usize) -> Option<f64> {
-        let (model, _) = self.model_at(value).ok()?;
-        Some(Mechanism::new(&model).ok()?.friction_circles[circle].radius)
+        Some(Mechanism::new(&self.model_at(value).ok()?).ok()?.friction_circles[circle].radius)
     }
 
     /// The block problem at a value, with friction in the hinges of these circles.
@@ -336,10 +334,7 @@ impl Varied {
         circles: &[usize],
         question: impl Fn(&Stages, &[TurningHinge]) -> Result<R, Faults>,
     ) -> Result<R, Faults> {
-        self.at(value, |stages, factor| {
-            let stages = stages.with_friction(factor);
-            question(&stages, &turning_hinges(&stages, circles)?)
-        })
+        self.at(value, |stages| question(stages, &turning_hinges(stages, circles)?))
     }
 
     /// The forces of a branch at a value; none if they are not found.
@@ -382,13 +377,13 @@ impl Varied {
             return Vec::new();
         }
         let options = SolveOptions::default();
-        let states = |model: &Model, stages: &Stages, friction: f64| {
-            let mut goes_on = |_: &Progress| work.flow();
-            states_between_faces(model, stages.rougher(friction), greatest, &options, &mut goes_on)
+        let Ok(model) = self.model_at(value).map(|model| model.with_friction(rougher)) else {
+            return Vec::new();
         };
-        let model = self.model_at(value);
-        let found = model
-            .and_then(|(model, _)| self.at(value, |stages, factor| states(&model, stages, rougher * factor)));
+        let found = self.at(value, |stages| {
+            let mut goes_on = |_: &Progress| work.flow();
+            states_between_faces(&model, &stages.with_friction(rougher), greatest, &options, &mut goes_on)
+        });
         found.unwrap_or_default()
     }
 
@@ -397,11 +392,11 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn solved(&self, value: f64, work: Work<'_>) -> Result<SolveReport, Faults> {
-        let (model, _) = self.model_at(value)?;
+        let model = self.model_at(value)?;
         let options = SolveOptions::default();
-        self.at_any(value, |stages, factor| {
+        self.at_any(value, |stages| {
             let mut goes_on = |_: &Progress| work.flow();
-            solve_with_friction(&model, stages.rougher(factor), &options, &mut goes_on)
+            solve_in(&model, stages, &options, &mut goes_on)
         })
     }
 
@@ -449,14 +444,14 @@ impl Varied {
         Some((Setting::new(kind, &self.name, value), self.argument.clone()))
     }
 
-    /// The model at a value, and the factor of its coefficients of friction there.
+    /// The model at a value.
     ///
     /// # Errors
     /// A value that the model does not allow.
-    pub(crate) fn model_at(&self, value: f64) -> Result<(Model, f64), Faults> {
+    pub(crate) fn model_at(&self, value: f64) -> Result<Model, Faults> {
         match self.setting(value) {
-            None => Ok((self.model.clone(), value)),
-            Some(setting) => Ok((self.model.varied_with(&[setting])?, 1.0)),
+            None => Ok(self.model.clone().with_friction(value)),
+            Some(setting) => self.model.varied_with(&[setting]),
         }
     }
 
@@ -468,18 +463,18 @@ impl Varied {
         self.at(value, Stages::parts)
     }
 
-    /// What is asked of the stages at a value, and of the factor of friction.
+    /// Evaluates a question on the stages at a value.
     ///
     /// # Errors
     /// Whatever `solve` refuses there, contacts that stand still while the rest moves, and those of the question.
     pub(crate) fn at<R>(
         &self,
         value: f64,
-        question: impl Fn(&Stages, f64) -> Result<R, Faults>,
+        question: impl Fn(&Stages) -> Result<R, Faults>,
     ) -> Result<R, Faults> {
-        self.at_any(value, |stages, factor| {
+        self.at_any(value, |stages| {
             stages.check_moving()?;
-            question(stages, factor)
+            question(stages)
         })
     }
 
@@ -488,24 +483,19 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn stands(&self, value: f64) -> Result<bool, Faults> {
-        self.at_any(value, |stages, _| Ok(!stages.standing.is_empty()))
+        self.at_any(value, |stages| Ok(!stages.standing.is_empty()))
     }
 
     /// [`Varied::at`], where contacts may stand still.
     ///
     /// # Errors
     /// Whatever `solve` refuses there, and those of the question.
-    fn at_any<R>(
-        &self,
-        value: f64,
-        question: impl Fn(&Stages, f64) -> Result<R, Faults>,
-    ) -> Result<R, Faults> {
+    fn at_any<R>(&self, value: f64, question: impl Fn(&Stages) -> Result<R, Faults>) -> Result<R, Faults> {
         if let Some(stages) = &self.stages {
-            return question(stages, value);
+            return question(&stages.with_friction(value));
         }
-        let (model, factor) = self.model_at(value)?;
-        let stages = Stages::following_with_standing(&mut self.follower(), Mechanism::new(&model)?)?;
-        question(&stages, factor)
+        let mechanism = Mechanism::new(&self.model_at(value)?)?;
+        question(&Stages::following_with_standing(&mut self.follower(), mechanism)?)
     }
 
     /// The line of mode problems from no friction (`t = 0`) to the friction at a value (`t = 1`).
@@ -513,7 +503,7 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn growing_friction(&self, value: f64) -> Result<ModeProblemLine, Faults> {
-        self.at(value, |stages, factor| Ok(stages.parts(0.0)?.line_to(&stages.parts(factor)?)))
+        self.at(value, |stages| stages.data().growing_friction(&|_| true))
     }
 
     /// The model in which it is varied.
@@ -555,12 +545,11 @@ fn certain_block_counts(
     Some(counts)
 }
 
-/// The mechanism of a model with these values of what is varied, and the factor of its coefficients of
-/// friction.
+/// The mechanism of a model with these values of what is varied.
 ///
 /// # Errors
 /// Values that the model does not allow.
-pub(crate) fn mechanism_with(model: &Model, values: &[(&Varied, f64)]) -> Result<(Mechanism, f64), Faults> {
+pub(crate) fn mechanism_with(model: &Model, values: &[(&Varied, f64)]) -> Result<Mechanism, Faults> {
     let number = |varied: &Varied| model.parameters.iter().position(|other| *other.name == *varied.name);
     let of_kind = |kind: Kind| values.iter().filter(move |(varied, _)| varied.kind == kind);
     let given = of_kind(Kind::Parameter).filter_map(|(varied, value)| Some((number(varied)?, *value)));
@@ -569,7 +558,10 @@ pub(crate) fn mechanism_with(model: &Model, values: &[(&Varied, f64)]) -> Result
         let same = |other: &&mut Coordinate| *other.name == *varied.name;
         mechanism.coordinates.iter_mut().filter(same).for_each(|coordinate| coordinate.value = *value);
     }
-    Ok((mechanism, of_kind(Kind::Friction).map(|(_, factor)| factor).product()))
+    for (_, factor) in of_kind(Kind::Friction) {
+        mechanism.multiply_friction(*factor);
+    }
+    Ok(mechanism)
 }
 
 /// The SI unit of a coordinate.

@@ -322,7 +322,7 @@ mod tests {
                 };
                 let settings = coefficients.iter().zip(values).fold(Settings::default(), set);
                 let stages = Stages::new(&model.with(&settings).expect("sound")).expect("solvable");
-                let parts = stages.parts(1.0).expect("finite numbers");
+                let parts = stages.parts().expect("finite numbers");
                 let range = [1.0, f64::INFINITY];
                 let line = parts.without_pressure_friction().line_to(&parts);
                 let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
@@ -366,7 +366,7 @@ mod tests {
         for mu in [0.1, 0.2, 0.35, 0.5, 0.6, 0.7, 0.78] {
             let settings = Settings::default().parameter("mu", mu.to_string());
             let stages = Stages::new(&model.with(&settings).expect("sound")).expect("solvable");
-            let parts = stages.parts(1.0).expect("finite numbers");
+            let parts = stages.parts().expect("finite numbers");
             let Some(ClassMeaning::Margin { from, to }) = margin(&parts) else { panic!("a margin at {mu}") };
             let factor = 0.8 / mu;
             assert!(from <= factor && factor < to.unwrap_or(f64::INFINITY), "{mu}: {from} {to:?}");

@@ -80,8 +80,7 @@ impl<'a> Evaluator<'a> {
 
     /// Whether it can stay at rest at a point.
     fn rests(&self, values: [f64; 2], work: Work<'_>) -> Result<Option<bool>, Faults> {
-        let (model, friction) = model_at(self.model, self.axes, values)?;
-        can_rest((&model, friction), &HoldOptions::default(), work)
+        can_rest(&model_at(self.model, self.axes, values)?, &HoldOptions::default(), work)
     }
 
     fn class(&self, values: [f64; 2], [there, back]: &mut [Before; 2], work: Work<'_>) -> ClassKey {
@@ -108,9 +107,8 @@ impl<'a> Evaluator<'a> {
 impl Source {
     fn new(model: Model, axes: &[Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
         let at = |[u, v]: [f64; 2]| {
-            let (model, friction) = model_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)])?;
-            let stages = Stages::new(&model)?;
-            let parts = parts(&stages, friction, colour_by)?;
+            let stages = Stages::new(&model_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)])?)?;
+            let parts = parts(&stages, colour_by)?;
             Ok::<_, Faults>((parts, stages.accuracy, free(&stages)))
         };
         let [x, y] = axes.each_ref().map(|axis| axis.varied.dependence().problem);
@@ -143,34 +141,31 @@ impl Source {
             (parts, corners.accuracy, corners.free.clone(), None)
         } else {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
-            let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
-            let stages = Stages::along(&mut before.trail, mechanism)?;
+            let stages = Stages::along(&mut before.trail, mechanism_with(&self.model, &[x, y])?)?;
+            let model = || model_at(&self.model, axes, values);
             if !stages.standing.is_empty() {
-                let model = || Ok(model_at(&self.model, axes, values)?.0);
                 // Margins of what stands still are not computed.
                 let is_margin = self.colour_by == ColourBy::Margin;
                 let asked = (if is_margin { ColourBy::Modes } else { self.colour_by }, true);
-                let found = hinges::states(stages.rougher(friction), &model, asked, &mut before.last, work)?;
+                let found = hinges::states(&stages, &model, asked, &mut before.last, work)?;
                 return Ok(Answer::States(found));
             }
-            if stages.mechanism.rough_hinges().next().is_some() && friction > 0.0 {
-                let model = || Ok(model_at(&self.model, axes, values)?.0);
+            if stages.mechanism.rough_hinges().next().is_some() {
                 let careful = self.colour_by == ColourBy::Motion || self.model.has_guided_sliders();
                 let asked = (self.colour_by, careful);
-                let found = hinges::states(stages.rougher(friction), &model, asked, &mut before.last, work)?;
+                let found = hinges::states(&stages, &model, asked, &mut before.last, work)?;
                 return Ok(Answer::States(found));
             }
-            let parts = parts(&stages, friction, self.colour_by)?;
+            let parts = parts(&stages, self.colour_by)?;
             (parts, stages.accuracy, free(&stages), Some(stages))
         };
         if parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy) {
             return Ok(Answer::Problem(Box::new(Point { parts, free, between_faces: Vec::new() })));
         }
-        let (model, friction) = model_at(&self.model, axes, values)?;
+        let model = model_at(&self.model, axes, values)?;
         let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
         let mut goes_on = |_: &Progress| work.flow();
-        let (at, options) = (stages.rougher(friction), SolveOptions::default());
-        let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
+        let states = states_between_faces(&model, &stages, None, &SolveOptions::default(), &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();
         Ok(Answer::Problem(Box::new(Point { parts, free, between_faces })))
     }
@@ -184,12 +179,8 @@ struct Before {
 }
 
 /// The mode problem of stages, with the accelerations of the coordinates as outputs if these are asked.
-fn parts(stages: &Stages, friction: f64, colour_by: ColourBy) -> Result<Parts, Faults> {
-    if colour_by == ColourBy::Motion {
-        stages.parts_with_accelerations(friction)
-    } else {
-        stages.parts(friction)
-    }
+fn parts(stages: &Stages, colour_by: ColourBy) -> Result<Parts, Faults> {
+    if colour_by == ColourBy::Motion { stages.parts_with_accelerations() } else { stages.parts() }
 }
 
 /// The coordinates that no drive moves, with their rates.
@@ -222,16 +213,16 @@ fn along(axis: &Axis, share: f64) -> f64 {
     if share == 1.0 { axis.range[1] } else { axis.range[0] + share * (axis.range[1] - axis.range[0]) }
 }
 
-/// The model at a point, and the factor of its coefficients of friction there.
+/// The model at a point.
 ///
 /// # Errors
 /// Values that the model does not allow.
-fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<(Model, f64), Faults> {
+fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<Model, Faults> {
     let axes = axes.iter().zip(values);
     let factors = axes.clone().filter(|(axis, _)| axis.varied.is_friction_factor());
     let friction = factors.map(|(_, value)| value).product();
     let settings: Vec<_> = axes.filter_map(|(axis, value)| axis.varied.setting(value)).collect();
-    Ok((model.varied_with(&settings)?, friction))
+    Ok(model.varied_with(&settings)?.with_friction(friction))
 }
 
 /// Refuses a quantity on which nothing depends.
@@ -275,8 +266,7 @@ mod tests {
                     let found = undisturbed(|work| evaluator.classes(values.clone(), work));
                     for (values, found) in values.zip(found) {
                         let anew = |model: &Model| {
-                            let (model, friction) = model_at(model, &axes, values)?;
-                            let parts = Stages::new(&model)?.parts(friction)?;
+                            let parts = Stages::new(&model_at(model, &axes, values)?)?.parts()?;
                             assert!(parts.with_free_faces().is_empty(), "{name}");
                             let point = Point { parts, free: Vec::new(), between_faces: Vec::new() };
                             Ok(Answer::Problem(Box::new(point)))

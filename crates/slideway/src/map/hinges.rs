@@ -7,48 +7,45 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{Solution, SolveReport, SpeedChange, Status};
 use crate::solve::{
-    HingedState, LastSolution, RougherStages, SolveOptions, Stages, factors_with_one_solution, hinged_states,
-    pattern, solve_with_friction,
+    HingedState, LastSolution, SolveOptions, Stages, factors_with_one_solution, hinged_states, pattern,
+    solve_in,
 };
 
 /// An acceleration below this part of the greatest one is zero within rounding.
 const NO_ACCELERATION: f64 = 1e-9;
 
-/// All states of a point with so many times the friction, with the margin of an only solution for a map by margin. `model` makes its model for a careful
+/// All states of a point, with the margin of an only solution for a map by margin. `model` makes its model for a careful
 /// answer, which is given if `careful` says so: what becomes of the speeds and whether guided sliders tip needs one.
 ///
 /// # Errors
 /// Whatever `solve` refuses.
 pub(super) fn states(
-    RougherStages { stages, factor }: RougherStages<'_>,
+    stages: &Stages,
     model: &dyn Fn() -> Result<Model, Faults>,
     (colour_by, careful): (ColourBy, bool),
     last: &mut LastSolution,
     work: Work<'_>,
 ) -> Result<States, Faults> {
-    let rougher = stages.with_friction(factor);
-    let mut states = all_states(RougherStages { stages, factor }, &rougher, model, careful, last, work)?;
+    let mut states = all_states(stages, model, careful, last, work)?;
     if colour_by == ColourBy::Margin && states.solutions.len() == 1 {
         let bounds = &MARGINS[..MARGINS.len() - 1];
-        states.margin = factors_with_one_solution(&rougher, bounds, work)?.map(margin_up_to);
+        states.margin = factors_with_one_solution(stages, bounds, work)?.map(margin_up_to);
     }
     Ok(states)
 }
 
 fn all_states(
-    RougherStages { stages, factor }: RougherStages<'_>,
-    rougher: &Stages,
+    stages: &Stages,
     model: &dyn Fn() -> Result<Model, Faults>,
     careful: bool,
     last: &mut LastSolution,
     work: Work<'_>,
 ) -> Result<States, Faults> {
     let mut goes_on = |_: &Progress| work.flow();
-    if !careful && let Some(found) = hinged_states(rougher.hinged(), stages.accuracy, last, &mut goes_on)? {
+    if !careful && let Some(found) = hinged_states(stages.hinged(), stages.accuracy, last, &mut goes_on)? {
         return Ok(of_found(&found));
     }
-    let options = SolveOptions { margins: false, ..SolveOptions::default() };
-    let report = solve_with_friction(&model()?, stages.rougher(factor), &options, &mut goes_on)?;
+    let report = solve_in(&model()?, stages, &SolveOptions::default(), &mut goes_on)?;
     Ok(of_report(&report, stages))
 }
 

@@ -31,7 +31,7 @@ impl<T: Real> Evaluation<'_, T> {
         let coordinates = model.coordinates.iter().map(|coordinate| self.coordinate(coordinate)).collect();
         let mut loads: Vec<Load<T>> = model.loads.iter().map(|load| self.load(load)).collect();
         loads.extend(self.pads(&joints));
-        Mechanism {
+        let mut mechanism = Mechanism {
             title: model.title.clone(),
             gravity: self.gravity(),
             time: model.time.map_or(T::zero(), |time| self.value(time)),
@@ -46,9 +46,14 @@ impl<T: Real> Evaluation<'_, T> {
             units: model.units.clone(),
             size: 1.0,
             excess: Excess::default(),
+            friction: T::exactly(1.0),
             parameters: model.parameter_values(&self.values),
             formulas: Arc::clone(&model.formulas),
+        };
+        if model.friction != 1.0 {
+            mechanism.multiply_friction(T::exactly(model.friction));
         }
+        mechanism
     }
 
     fn value(&self, id: FormulaId) -> T {

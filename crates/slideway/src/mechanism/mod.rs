@@ -63,6 +63,8 @@ pub struct Mechanism<T = f64> {
     pub size: f64,
     /// What redundant guides have in excess.
     pub excess: Excess,
+    /// By what the coefficients of friction are multiplied, those that follow from sliding speeds, too.
+    friction: T,
     parameters: Vec<T>,
     formulas: Arc<Vec<Formula>>,
 }
@@ -154,18 +156,6 @@ pub struct Slider<T = f64> {
     /// Its contacts: front, rear and further supports of a block slider, else the only one; then the negative faces
     /// of press fits.
     pub contacts: Vec<ContactId>,
-}
-
-/// A couple may exceed |N| L / 2 by this multiple of the greatest of its terms before a guided slider counts
-/// as tipping.
-pub(crate) const COUPLE_TOLERANCE: f64 = 1e-9;
-
-impl Slider {
-    /// The couple beyond which a guided slider tips under a normal force: |C| <= |N| L / 2 (theory, section
-    /// 1).
-    pub(crate) fn greatest_couple(&self, normal_force: f64) -> f64 {
-        normal_force.abs() * self.length / 2.0
-    }
 }
 
 /// A contact with friction.
@@ -296,16 +286,22 @@ impl<T: Real> FrictionCircle<T> {
         Self { joint, radius: kinetic, static_radius: at_rest, law }
     }
 
-    /// The same with its kinetic coefficient, or the radius that is given, multiplied by a factor.
-    pub(crate) fn rougher(self, factor: T) -> Self {
-        match self.law {
-            CircleLaw::Radius => Self { radius: self.radius * factor, ..self },
-            CircleLaw::Pin { mu: [mu, mu_static], radius, law } => {
-                let mu = mu * factor;
-                let rougher = CircleLaw::Pin { mu: [mu, mu_static], radius, law };
-                Self { radius: law.friction_radius(mu, radius), law: rougher, ..self }
+    /// With its coefficients, or the radii that are given, multiplied by a factor.
+    pub(crate) fn times(self, factor: T) -> Self {
+        let (radii, law) = match self.law {
+            CircleLaw::Radius => ([self.radius, self.static_radius].map(|radius| radius * factor), self.law),
+            CircleLaw::Pin { mu, radius, law } => {
+                let mu = mu.map(|mu| mu * factor);
+                (mu.map(|mu| law.friction_radius(mu, radius)), CircleLaw::Pin { mu, radius, law })
             }
-        }
+        };
+        let [radius, static_radius] = radii;
+        Self { radius, static_radius, law, ..self }
+    }
+
+    /// By how much its radius grows with this factor of friction: not linearly for a pin in a bore.
+    pub(crate) fn growth(&self, factor: T) -> T {
+        if self.radius == T::zero() { T::zero() } else { self.times(factor).radius / self.radius }
     }
 }
 
@@ -675,6 +671,23 @@ impl Mechanism<Interval> {
 }
 
 impl<T: Real> Mechanism<T> {
+    /// Multiplies all coefficients of friction, kinetic and static, and the radii of friction circles that are given.
+    pub(crate) fn multiply_friction(&mut self, factor: T) {
+        self.multiply_friction_of_contacts(|_| factor);
+        for circle in &mut self.friction_circles {
+            *circle = circle.times(factor);
+        }
+        self.friction = self.friction * factor;
+    }
+
+    /// Multiplies the coefficients of friction of each contact as they are at its sliding speed, by a factor of its own.
+    pub(crate) fn multiply_friction_of_contacts(&mut self, factor: impl Fn(usize) -> T) {
+        for (k, contact) in self.contacts.iter_mut().enumerate() {
+            contact.mu = contact.mu.map(|mu| mu * factor(k));
+            contact.mu_static = contact.mu_static.map(|mu| mu * factor(k));
+        }
+    }
+
     /// The sliding joint with this number, if it is one.
     pub fn slider(&self, joint: JointId) -> Option<&Slider<T>> {
         match &self.joints[joint.index()].kind {
@@ -735,7 +748,7 @@ impl<T: Real> Mechanism<T> {
         let at = |side: usize| match law[side] {
             Some(id) => {
                 let pieces = pieces.map_or(&[][..], |pieces| pieces.of(id));
-                self.formulas[id.index()].at_speed(&self.parameters, speed, pieces)
+                Ok(self.formulas[id.index()].at_speed(&self.parameters, speed, pieces)? * self.friction)
             }
             None => Ok(mu[side]),
         };

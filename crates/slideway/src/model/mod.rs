@@ -113,6 +113,8 @@ pub struct Model {
     pub(crate) doubts: Vec<Fault>,
     /// The parameters in an order in which each uses only those before it.
     evaluation_order: Vec<usize>,
+    /// The factor of all coefficients of friction ([`Model::with_friction`]).
+    pub(crate) friction: f64,
     /// The formulas of outlines alone, which no answer depends on; those of named points are none of them.
     pub(crate) looks: Vec<FormulaId>,
 }
@@ -528,6 +530,13 @@ impl Model {
     #[must_use]
     pub fn with_units(self, system: UnitSystem) -> Self {
         Self { units: self.units.in_system(system), ..self }
+    }
+
+    /// The model with all its friction multiplied by a factor: the coefficients of contacts and pins, kinetic and static,
+    /// and the radii of friction circles that are given.
+    #[must_use]
+    pub(crate) fn with_friction(self, factor: f64) -> Self {
+        Self { friction: self.friction * factor, ..self }
     }
 
     /// The formula with this number.

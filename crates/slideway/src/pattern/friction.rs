@@ -77,12 +77,9 @@ impl Law {
 
     /// The friction of the preload of a side, at both faces.
     fn of_preload(&self, side: usize, sign: f64) -> [f64; 2] {
-        let preload = self.preload[side] * sign;
-        match self.line {
-            PreloadLine::Pressed if side == 0 => [preload, 0.0],
-            PreloadLine::Pressed => [0.0, preload],
-            PreloadLine::Centre => [preload / 2.0; 2],
-        }
+        let mut faces = [0.0; 2];
+        faces[side] = self.preload[side] * sign;
+        self.line.of_faces(faces)
     }
 
     /// `(share F_0^+ W^+ + (1 - share) F_0^- W^-) s` in a preload gap: at both faces the factor of the share
@@ -189,11 +186,10 @@ impl Friction {
                 [preload[0], preload[1], preload[0].max(preload[1])].map(AffineExpression::constant)
             }
             (ContactPhase::Pressed(side), _) => {
-                let centred = self.law.line == PreloadLine::Centre;
-                let preload = preload[face(side)];
-                let by_pressure = affine(mu_static[face(side)], &self.pressure);
-                let at_face = by_pressure.shifted(if centred { 0.0 } else { preload });
-                [at_face.clone(), at_face, AffineExpression::constant(preload)]
+                let limits = self.law.line.limits_at_rest(mu_static[face(side)], preload[face(side)]);
+                let [at_face, between] =
+                    limits.map(|[mu, constant]| affine(mu, &self.pressure).shifted(constant));
+                [at_face.clone(), at_face, between]
             }
         };
         let held = self.held.into_iter().zip(limits).filter_map(|(unknown, limit)| Some((unknown?, limit)));

@@ -134,12 +134,11 @@ impl MarginQuestion<'_> {
 
     /// The factor of static friction at which the mechanism becomes self-locking.
     fn threshold(&self, load: &str, value: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
-        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?.0, load, work)?;
+        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?, load, work)?;
         if undecided > 0 {
             return Err(Fault::general(FaultKind::UndecidedAtRest { load: load.to_owned() }).into());
         }
-        let scale = if self.varied.is_friction_factor() { value } else { 1.0 };
-        Ok(threshold.map(|factor| factor / scale).filter(|factor| factor.is_finite()))
+        Ok(threshold.filter(|factor| factor.is_finite()))
     }
 }
 

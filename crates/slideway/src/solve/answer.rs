@@ -17,7 +17,8 @@ use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Reaction};
-use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism, Slider};
+use crate::law::tips;
+use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
 use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SharedLoad, SingularMode,
@@ -323,8 +324,7 @@ impl<'a> Answer<'a> {
             let couple = self.couple(joint, unknowns)?;
             let normal_force = state.normal_force[slider.contacts[0].index()].abs();
             let limit = slider.greatest_couple(normal_force);
-            let tolerance = COUPLE_TOLERANCE * greatest.max(normal_force) * slider.length;
-            (couple.abs() > limit + tolerance).then(|| report::Rejection {
+            tips(couple, limit, greatest * slider.length).then(|| report::Rejection {
                 pattern: pattern(state.pattern),
                 joint: self.mechanism.joints[joint.index()].name.to_string(),
                 couple,

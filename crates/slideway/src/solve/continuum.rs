@@ -5,7 +5,8 @@ use super::distinct::SAME_STATE;
 use super::state::{State, pattern, signs};
 use crate::ids::ContactId;
 use crate::kinetics::Reaction;
-use crate::mechanism::{COUPLE_TOLERANCE, Coordinate};
+use crate::law::COUPLE_TOLERANCE;
+use crate::mechanism::Coordinate;
 use crate::modes::{ContactState, SingularMode, SolutionSet};
 use crate::report::{Continuum, DrivenMotion, OpenRange, Undetermined};
 use nalgebra::DVector;
@@ -198,7 +199,7 @@ impl Answer<'_> {
         let unknowns = self.unknowns_at(mode, normal_force);
         let both = |(joint, slider): (_, &crate::mechanism::Slider)| {
             let contact = slider.contacts[0].index();
-            let limit = state.pattern[contact].sign() * normal_force[contact] * slider.length / 2.0;
+            let limit = state.pattern[contact].sign() * normal_force[contact] * slider.greatest_couple(1.0);
             let index = self.influence.layout().reaction(Reaction::Couple(joint));
             let couple = index.map_or(0.0, |index| unknowns[index]);
             [limit - couple, limit + couple]

@@ -20,7 +20,6 @@ use crate::ids::{ContactId, JointId};
 use crate::interval::Interval;
 use crate::kinetics::Reaction;
 use crate::mechanism::Contact;
-use crate::model::PreloadLine;
 use crate::modes::{Certificate, ContactState};
 use nalgebra::{DMatrix, DVector};
 
@@ -66,11 +65,8 @@ impl ProblemData<'_> {
         let Some(row) = self.couple_of(contact) else { return false };
         let of_unit = [0, 1].map(|side| self.influence.columns[contact][side][row]);
         let Contact { preload, preload_line, .. } = &self.mechanism.contacts[contact];
-        let at = |side: usize| match preload_line {
-            PreloadLine::Pressed => preload[side] * of_unit[side],
-            PreloadLine::Centre => preload[side] * f64::midpoint(of_unit[0], of_unit[1]),
-        };
-        (at(0) - at(1)).abs() > NO_COUPLE * preload[0].max(preload[1]) * self.mechanism.size
+        let [positive, negative] = preload_line.of_faces(of_unit);
+        (preload[0] * positive - preload[1] * negative).abs() > NO_COUPLE * preload[0].max(preload[1]) * self.mechanism.size
     }
 
     /// Whether the friction of the contact's preload, or an unknown with it, changes with the face.

@@ -4,7 +4,7 @@ use super::answer::joint_modes;
 use super::friction::friction;
 use super::margins::{AT_ONCE, locking_mode};
 use super::parts::contact_couples;
-use super::stages::{ProblemData, Stages, rougher};
+use super::stages::{ProblemData, Stages};
 use super::state::{pattern, signs, states};
 use crate::configuration::Configuration;
 use crate::mechanism::Mechanism;
@@ -93,7 +93,8 @@ fn normal_forces(problem: &ModeProblem, mode: &[ContactState]) -> Option<DVector
 
 fn balance(stages: &Stages, mode: &[ContactState], factor: f64) -> Option<Locking> {
     let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
-    let mut rough = rougher(mechanism, &|_| factor);
+    let mut rough = mechanism.clone();
+    rough.multiply_friction(factor);
     let problem = ProblemData { mechanism: &rough, ..stages.data() }.problem().ok()?;
     let forces = normal_forces(&problem, mode)?;
     // Preloads are loads.

@@ -4,7 +4,6 @@ use super::mode_problem::determinate_problem;
 use super::stages::ProblemData;
 use super::state::{pattern, signs};
 use crate::enclosure::EnclosedModeProblem;
-use crate::fault::Faults;
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
 use crate::modes::certificate::{
@@ -112,7 +111,11 @@ fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProble
         press_fits: Vec::new(),
         ..shared.clone()
     };
-    first_locking(&line(ProblemData { mechanism: &loose, ..data }, &|_| true).ok()?, enclosed, Some(&shared))
+    first_locking(
+        &ProblemData { mechanism: &loose, ..data }.growing_friction(&|_| true).ok()?,
+        enclosed,
+        Some(&shared),
+    )
 }
 
 /// The factor at which a determinant along a line is proven to change its sign, with bounds of the same numbers.
@@ -174,12 +177,6 @@ fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
     rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
 }
 
-/// From no friction of some contacts (`t = 0`) to their present friction (`t = 1`).
-fn line(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
-    let at = |factor: f64| data.scaled(&|k: usize| if grows(k) { factor } else { 1.0 });
-    Ok(at(0.0)?.line_to(&at(1.0)?))
-}
-
 impl Growth {
     /// To what all friction would have to fall for a solution, with friction that falls to none; none if there is none
     /// down to no friction at all, or one comes at once.
@@ -207,7 +204,7 @@ impl Growth {
 
     /// The modes over a range of factors of the friction of some contacts; none past the limit of work.
     fn over(range: [f64; 2], data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
-        let line = line(data, grows).ok()?;
+        let line = data.growing_friction(grows).ok()?;
         let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
         let existence = line.existence(&options).ok()?;
         let counts = counts(&line, &existence, range);

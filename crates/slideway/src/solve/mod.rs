@@ -40,7 +40,6 @@ mod state;
 mod tolerant;
 mod trail;
 mod uncertainty;
-mod with_friction;
 mod words;
 
 pub(crate) use between_faces::states_between_faces;
@@ -60,13 +59,12 @@ pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::load_sharing;
 pub use stages::exact_mode_problem;
-pub(crate) use stages::{ProblemData, RougherStages, Stages, rougher};
+pub(crate) use stages::{ProblemData, Stages};
 pub(crate) use standing::check_standing;
 pub(crate) use state::{pattern, signs};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
-pub(crate) use with_friction::solve_with_friction;
 pub(crate) use words::joint_mode_in_words;
 pub use words::mode_in_words;
 pub(crate) use words::sliding_in_words;
@@ -77,6 +75,7 @@ use crate::enclosure::{
 };
 use crate::fault::Faults;
 use crate::interval::Interval;
+use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
@@ -152,14 +151,38 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
-    let (stages, equations) = Stages::with_standing(mechanism, configuration)?;
-    let ranges = model.ranges()?;
+    let state = Stages::with_standing(mechanism, configuration)?;
+    answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
+}
+
+/// [`solve_with`] in stages of the model that are there already, without margins and uncertainty.
+///
+/// # Errors
+/// As [`solve`].
+pub(crate) fn solve_in(
+    model: &Model,
+    stages: &Stages,
+    options: &SolveOptions,
+    progress: &mut Callback<'_>,
+) -> Result<SolveReport, Faults> {
+    let equations = KineticEquations::new(&stages.mechanism, &stages.configuration)?;
+    answered(model, (stages, &equations), &[], &options.margins(false), progress)
+}
+
+/// The answer for a model in its state, over the ranges of parameters that are known only within bounds.
+fn answered(
+    model: &Model,
+    (stages, equations): (&Stages, &KineticEquations),
+    ranges: &[ParameterRange],
+    options: &SolveOptions,
+    progress: &mut Callback<'_>,
+) -> Result<SolveReport, Faults> {
     let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
     if has_rough_hinges || !stages.standing.is_empty() {
         let mut report = if has_rough_hinges {
-            hinges::solve(model, (&middle(&ranges), &ranges), (&stages, &equations), options, progress)?
+            hinges::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
         } else {
-            standing::of_contacts(&stages, &equations)?
+            standing::of_contacts(stages, equations)?
         };
         if !ranges.is_empty() && report.uncertainty.is_none() {
             let taken = "parameters known within bounds are taken at the middle of their ranges";
@@ -172,15 +195,15 @@ pub fn solve_with(
         report.suit_units();
         return finite(report);
     }
-    let Stages { mechanism, configuration, influence, velocity_signs, .. } = &stages;
+    let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
     let enclosed = enclosed_while(progress, |work| {
-        enclosure_within(model, &middle(&ranges), (mechanism, configuration), work)
+        enclosure_within(model, &middle(ranges), (mechanism, configuration), work)
     });
     let (result, jumps) = searched(&enclosed, stages.data(), &options.search, progress)?;
     let answer = answer::Answer {
         mechanism,
         configuration,
-        equations: &equations,
+        equations,
         influence,
         velocity_signs,
         jumps,
@@ -194,12 +217,12 @@ pub fn solve_with(
         most: options.most,
     })?;
     report.rates_not_given = rates_not_given(model);
-    sharing::add(&mut report, &stages, options.margins)?;
+    sharing::add(&mut report, stages, options.margins)?;
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok(), &|signs| answer.joint_modes(signs));
         from_rest::add(&mut report, model, progress);
     }
-    report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
+    report.uncertainty = answer.uncertainty(model, ranges, options, progress);
     report.suit_units();
     finite(report)
 }

@@ -7,7 +7,7 @@ use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::model::{PreloadLine, SliderKind};
+use crate::model::SliderKind;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
 use crate::sharing::{NO_STRESS, shared_load};
 use nalgebra::{DMatrix, DVector};
@@ -199,10 +199,9 @@ pub(crate) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) ->
 pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
     let mut preload = eta.clone();
     for (k, contact) in mechanism.contacts.iter().enumerate() {
-        if contact.preload_line == PreloadLine::Centre {
-            let centre = (eta.positive.column(k) + eta.negative.column(k)) / 2.0;
-            preload.positive.set_column(k, &centre);
-            preload.negative.set_column(k, &centre);
+        for row in 0..eta.positive.nrows() {
+            let faces = [eta.positive[(row, k)], eta.negative[(row, k)]];
+            [preload.positive[(row, k)], preload.negative[(row, k)]] = contact.preload_line.of_faces(faces);
         }
     }
     preload

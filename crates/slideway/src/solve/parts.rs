@@ -8,8 +8,9 @@ use super::tolerant::{StatesWithinTolerances, screened};
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Reaction};
-use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
-use crate::model::{PreloadLine, SliderKind};
+use crate::law::{positive_share, tips};
+use crate::mechanism::{JointKind, Mechanism};
+use crate::model::SliderKind;
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts, Side};
 use crate::pattern::face;
@@ -79,14 +80,8 @@ impl Parts {
             });
             let jumps = extended(problem.jumps(side), &|row, k| {
                 let contact = &mechanism.contacts[k];
-                let gamma = match contact.preload_line {
-                    PreloadLine::Pressed => gamma(row, k),
-                    PreloadLine::Centre => {
-                        let [positive, negative] = &influence.columns[k];
-                        f64::midpoint(row.times(positive), row.times(negative))
-                    }
-                };
-                gamma * contact.preload[face] * velocity_signs[k]
+                let of_faces = influence.columns[k].each_ref().map(|column| row.times(column));
+                contact.preload_line.of_faces(of_faces)[face] * contact.preload[face] * velocity_signs[k]
             });
             (columns, jumps)
         };
@@ -239,11 +234,7 @@ impl Parts {
         self.bounds.iter().any(|bound| {
             let row = contacts + bound.output;
             let of_contact = |k: usize| {
-                let positive = match pattern[k] {
-                    ContactState::Positive => 1.0,
-                    ContactState::Negative => 0.0,
-                    ContactState::Gap => shares[k].unwrap_or(0.5),
-                };
+                let positive = positive_share(pattern[k], shares[k]);
                 let both = |by_side: &BySide<DMatrix<f64>>| {
                     positive * by_side.positive[(row, k)] + (1.0 - positive) * by_side.negative[(row, k)]
                 };
@@ -252,7 +243,7 @@ impl Parts {
             let terms: Vec<f64> = (0..contacts).map(of_contact).collect();
             let couple = self.right_hand_side[row] + terms.iter().sum::<f64>();
             let size = self.right_hand_side[row].abs() + terms.iter().map(|term| term.abs()).sum::<f64>();
-            couple.abs() > normal_force[bound.contact].abs() * bound.factor + COUPLE_TOLERANCE * size
+            tips(couple, normal_force[bound.contact].abs() * bound.factor, size)
         })
     }
 

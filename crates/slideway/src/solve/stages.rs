@@ -12,11 +12,11 @@ use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coordinate_rows};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::modes::existence::ModeProblemLine;
 use crate::modes::{ModeProblem, SharedLoad};
 use crate::report::Elasticity;
 use crate::sharing::{elasticity, shared_load};
 use nalgebra::DVector;
-use std::borrow::Cow;
 
 /// The mode problem of a model in floating point: a problem with exact numbers, which differ from those of the
 /// mechanism by rounding.
@@ -182,56 +182,38 @@ impl Stages {
         }
     }
 
-    /// The same with every coefficient of friction multiplied by a factor, those of hinges, too.
-    pub(crate) fn with_friction(&self, factor: f64) -> Cow<'_, Self> {
-        if factor == 1.0 {
-            return Cow::Borrowed(self);
-        }
-        Cow::Owned(Self { mechanism: rougher_throughout(&self.mechanism, factor), ..self.clone() })
+    /// With all friction multiplied by a factor.
+    pub(crate) fn with_friction(&self, factor: f64) -> Self {
+        let mut stages = self.clone();
+        stages.mechanism.multiply_friction(factor);
+        stages
     }
 
-    /// The same with every coefficient of friction multiplied by a factor.
-    pub(crate) fn rougher(&self, factor: f64) -> RougherStages<'_> {
-        RougherStages { stages: self, factor }
-    }
-
-    /// The mode problem with every coefficient of friction multiplied by a factor.
+    /// The mode problem.
     ///
     /// # Errors
     /// A fault if a number is beyond the range of floating point.
-    pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
-        self.data().scaled(&|_| friction)
+    pub(crate) fn parts(&self) -> Result<Parts, Faults> {
+        self.data().parts(Vec::new())
     }
 
     /// The same with the efforts of the drives as further outputs, behind the couples.
     ///
     /// # Errors
     /// As [`Stages::parts`].
-    pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
+    pub(crate) fn parts_with_efforts(&self) -> Result<Parts, Faults> {
         let drives = 0..self.mechanism.drives.len();
         let effort = |drive: usize| ConstraintRow::unknown(self.influence.layout().effort(DriveId(drive)));
-        self.parts_with(friction, drives.map(effort).collect())
+        self.data().parts(drives.map(effort).collect())
     }
 
     /// The same with the accelerations of the coordinates as further outputs.
     ///
     /// # Errors
     /// As [`Stages::parts`].
-    pub(crate) fn parts_with_accelerations(&self, friction: f64) -> Result<Parts, Faults> {
-        self.parts_with(friction, coordinate_rows(&self.mechanism, &self.configuration))
+    pub(crate) fn parts_with_accelerations(&self) -> Result<Parts, Faults> {
+        self.data().parts(coordinate_rows(&self.mechanism, &self.configuration))
     }
-
-    fn parts_with(&self, friction: f64, outputs: Vec<ConstraintRow>) -> Result<Parts, Faults> {
-        let mechanism = rougher(&self.mechanism, &|_| friction);
-        ProblemData { mechanism: &mechanism, ..self.data() }.parts(outputs)
-    }
-}
-
-/// The stages of a model with all coefficients of friction multiplied by a factor: no model describes it.
-#[derive(Clone, Copy)]
-pub(crate) struct RougherStages<'s> {
-    pub(crate) stages: &'s Stages,
-    pub(crate) factor: f64,
 }
 
 /// What a mode problem is made of.
@@ -262,31 +244,15 @@ impl ProblemData<'_> {
         Ok(Parts::new(self, &self.problem()?, others))
     }
 
-    /// The same with the couples alone and the coefficients of friction of each contact multiplied by a
-    /// factor of its own.
+    /// The line from no friction of these contacts (`t = 0`) to their present friction (`t = 1`), with the couples as
+    /// outputs.
     ///
     /// # Errors
     /// As [`Self::problem`].
-    pub(crate) fn scaled(self, factor: &dyn Fn(usize) -> f64) -> Result<Parts, Faults> {
-        ProblemData { mechanism: &rougher(self.mechanism, factor), ..self }.parts(Vec::new())
+    pub(crate) fn growing_friction(self, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
+        let mut smooth = self.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|k| if grows(k) { 0.0 } else { 1.0 });
+        let without = ProblemData { mechanism: &smooth, ..self }.parts(Vec::new())?;
+        Ok(without.line_to(&self.parts(Vec::new())?))
     }
-}
-
-/// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
-pub(crate) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
-    let mut mechanism = mechanism.clone();
-    for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
-        contact.mu = contact.mu.map(|mu| mu * factor(k));
-        contact.mu_static = contact.mu_static.map(|mu| mu * factor(k));
-    }
-    mechanism
-}
-
-/// A mechanism with all coefficients of friction multiplied by a factor, those of hinges, too.
-pub(super) fn rougher_throughout(mechanism: &Mechanism, factor: f64) -> Mechanism {
-    let mut mechanism = rougher(mechanism, &|_| factor);
-    for circle in &mut mechanism.friction_circles {
-        *circle = circle.rougher(factor);
-    }
-    mechanism
 }

@@ -246,17 +246,13 @@ pub(crate) fn beginning_within(
     Ok((beginning.releases.undecided == 0).then_some(beginning))
 }
 
-/// Whether a mechanism with so many times the friction can stay at rest in its position; none where that could
+/// Whether a mechanism can stay at rest in its position; none where that could
 /// not be decided.
 ///
 /// # Errors
 /// As [`hold`].
-pub(crate) fn can_rest(
-    (model, friction): (&Model, f64),
-    options: &HoldOptions,
-    work: Work<'_>,
-) -> Result<Option<bool>, Faults> {
-    let setup = Setup::new(model, options, work)?.rougher(friction);
+pub(crate) fn can_rest(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Option<bool>, Faults> {
+    let setup = Setup::new(model, options, work)?;
     check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     Ok(rest::is_possible(&setup, nominal, work))

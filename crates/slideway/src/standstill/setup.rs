@@ -252,18 +252,6 @@ impl Setup {
         row
     }
 
-    /// The same with all coefficients of friction multiplied by a factor.
-    pub(super) fn rougher(mut self, factor: f64) -> Self {
-        for contact in &mut self.mechanism.contacts {
-            contact.mu = contact.mu.map(|mu| mu * factor);
-            contact.mu_static = contact.mu_static.map(|mu| mu * factor);
-        }
-        for circle in &mut self.mechanism.friction_circles {
-            circle.static_radius = circle.static_radius_with(factor * circle.static_friction());
-        }
-        self
-    }
-
     /// Whether friction can act at a sliding joint, by its number among these.
     pub(crate) fn rubs(&self, slider: usize) -> bool {
         let contacts = self.sliders[slider].contacts.iter().map(|&k| &self.mechanism.contacts[k]);

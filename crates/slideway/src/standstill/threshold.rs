@@ -234,7 +234,10 @@ fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults
     if !model.changes_friction_and_pins_alone(parameter) {
         return Err(refused());
     }
-    let line = |formula: FormulaId| model.line_of(formula, parameter).filter(|[_, slope]| *slope >= 0.0);
+    let line = |formula: FormulaId| {
+        let line = model.line_of(formula, parameter).filter(|[_, slope]| *slope >= 0.0)?;
+        Some(line.map(|number| model.friction * number))
+    };
     let lines: Option<Vec<[[f64; 2]; 2]>> = model
         .contacts()
         .map(|contact| {

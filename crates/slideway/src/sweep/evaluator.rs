@@ -18,8 +18,8 @@ use crate::modes::ContactState;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::progress::{Callback, Progress};
 use crate::solve::{
-    self, HingedData, HingedState, LastSolution, Sliding, SolveOptions, Trail, hinged_states, mode_problem,
-    solve_with, solve_with_friction,
+    HingedData, HingedState, LastSolution, Sliding, SolveOptions, Trail, hinged_states, mode_problem,
+    solve_with,
 };
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -65,11 +65,17 @@ impl Plan {
         if self.mechanism.contacts.len() <= MOST_CONTACTS { by_elimination } else { by_search }
     }
 
-    /// What makes of the model that of a point, and the factor of its friction.
+    /// The factor of all friction of a point.
+    fn factor(&self, values: &[f64]) -> f64 {
+        let place = self.varied.iter().position(|kind| *kind == Kind::Friction);
+        place.map_or(1.0, |place| values[place])
+    }
+
+    /// The model of a point.
     ///
     /// # Errors
     /// Values that the model does not allow.
-    fn model_at(&self, values: &[f64]) -> Result<(Model, f64), Faults> {
+    fn model_at(&self, values: &[f64]) -> Result<Model, Faults> {
         let (parameters, coordinates) = (&self.model.parameters, &self.model.coordinates);
         let mut settings = Vec::with_capacity(values.len());
         let mut friction = 1.0;
@@ -86,7 +92,7 @@ impl Plan {
             };
             settings.push((Setting::new(kind, name, *value), Arc::from(name)));
         }
-        Ok((self.model.varied_with(&settings)?, friction))
+        Ok(self.model.varied_with(&settings)?.with_friction(friction))
     }
 }
 
@@ -173,6 +179,7 @@ impl<'p> Evaluator<'p> {
                 _ => None,
             });
             self.mechanism = Mechanism::with_parameters(&plan.model, &given.collect::<Vec<_>>())?;
+            self.mechanism.multiply_friction(plan.factor(values));
         }
         for (kind, value) in plan.varied.iter().zip(values) {
             match *kind {
@@ -191,9 +198,6 @@ impl<'p> Evaluator<'p> {
             stages.configuration.put_misalignments(&mut self.mechanism)?;
             if plan.friction.is_none() {
                 stages.configuration.put_friction(&mut self.mechanism)?;
-                self.friction = Friction::of(&self.mechanism);
-                self.circles.clone_from(&self.mechanism.friction_circles);
-                self.put_friction(values)?;
             }
             self.stages = Some(Cow::Owned(stages));
         }
@@ -207,15 +211,13 @@ impl<'p> Evaluator<'p> {
             formulas.apply(&plan.model, values, &mut self.parameters, &mut self.friction)?;
             formulas.put_circles(&plan.model, &self.parameters, &self.mechanism, &mut self.circles)?;
         }
-        let kinds = plan.varied.iter().zip(values);
-        let factor = kinds.filter(|(kind, _)| **kind == Kind::Friction).map(|(_, value)| *value).next();
-        let factor = factor.unwrap_or(1.0);
+        let factor = plan.factor(values);
         for (contact, friction) in self.mechanism.contacts.iter_mut().zip(&self.friction) {
             contact.mu = friction.mu.map(|mu| mu * factor);
             contact.preload = friction.preload;
         }
         for (circle, friction) in self.mechanism.friction_circles.iter_mut().zip(&self.circles) {
-            *circle = if factor == 1.0 { *friction } else { friction.rougher(factor) };
+            *circle = if factor == 1.0 { *friction } else { friction.times(factor) };
         }
         Ok(())
     }
@@ -246,14 +248,8 @@ impl<'p> Evaluator<'p> {
                 return Ok(());
             }
         }
-        let (model, friction) = self.plan.model_at(point.values)?;
-        let options = SolveOptions { margins: false, ..SolveOptions::default() };
-        let report = if self.plan.varied.contains(&Kind::Friction) {
-            let stages = solve::Stages::of_any_model(&model)?;
-            solve_with_friction(&model, stages.rougher(friction), &options, look)?
-        } else {
-            solve_with(&model, &options, look)?
-        };
+        let model = self.plan.model_at(point.values)?;
+        let report = solve_with(&model, &SolveOptions::default().margins(false), look)?;
         told::write(&report, self.plan, point, rows);
         Ok(())
     }

@@ -115,7 +115,8 @@ impl FrictionFormulas {
             if let Some(fault) = model.static_below_kinetic(name, friction.kinetic_and_static(), &value) {
                 return Err(fault.into());
             }
-            *circle = FrictionCircle::new(circle.joint, friction, |id| value(id).unwrap_or(f64::NAN));
+            let raw = FrictionCircle::new(circle.joint, friction, |id| value(id).unwrap_or(f64::NAN));
+            *circle = raw.times(model.friction);
         }
         Ok(())
     }
@@ -144,7 +145,8 @@ impl FrictionFormulas {
             let value = |id: FormulaId| model.formula(id).constant(parameters);
             for side in 0..2 {
                 let is_same = side == 1 && formulas.mu[1] == formulas.mu[0];
-                contact.mu[side] = if is_same { contact.mu[0] } else { value(formulas.mu[side])? };
+                contact.mu[side] =
+                    if is_same { contact.mu[0] } else { model.friction * value(formulas.mu[side])? };
                 if let Some(preload) = formulas.preload[side] {
                     contact.preload[side] = value(preload)?;
                 }
@@ -161,7 +163,7 @@ impl ContactFormulas {
     /// Refuses a static coefficient below the kinetic one.
     fn check_static(&self, side: usize, model: &Model, parameters: &[f64], mu: f64) -> Result<(), Faults> {
         let formula = model.formula(self.mu_static[side]);
-        let mu_static = formula.constant(parameters)?;
+        let mu_static = model.friction * formula.constant(parameters)?;
         if mu_static >= mu {
             return Ok(());
         }

@@ -6,8 +6,8 @@ use super::rows::{PointStatus, RowHead, RowKind, Rows};
 use super::stages::Stages;
 use crate::attainability::ElasticGuides;
 use crate::influence::HingeState;
-use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
-use crate::model::PreloadLine;
+use crate::law::{COUPLE_TOLERANCE, positive_share};
+use crate::mechanism::{JointKind, Mechanism};
 use crate::modes::ContactState;
 use crate::modes::screen::SmallState;
 use crate::report::Verdict;
@@ -156,20 +156,12 @@ impl Writer<'_> {
 
     /// Friction at both faces of a contact, eq. (2) with F_k = (mu_k |N_k| + F_k0) s_k.
     fn friction(&self, state: &SmallState, k: usize) -> [f64; 2] {
-        let contact = &self.mechanism.contacts[k];
-        let sign = self.stages.signs[k];
-        // Share of the positive face.
-        let (share, pressure) = match state.pattern[k] {
-            ContactState::Positive => (1.0, contact.mu[0] * state.unknowns[k] * sign),
-            ContactState::Negative => (0.0, contact.mu[1] * state.unknowns[k] * sign),
-            ContactState::Gap => (state.unknowns[k], 0.0),
+        let (in_gap, pressure) = match state.pattern[k] {
+            ContactState::Gap => (Some(state.unknowns[k]), 0.0),
+            _ => (None, state.unknowns[k]),
         };
-        let preload = [share * contact.preload[0] * sign, (1.0 - share) * contact.preload[1] * sign];
-        let preload = match contact.preload_line {
-            PreloadLine::Pressed => preload,
-            PreloadLine::Centre => [f64::midpoint(preload[0], preload[1]); 2],
-        };
-        [share * pressure + preload[0], (1.0 - share) * pressure + preload[1]]
+        let share = positive_share(state.pattern[k], in_gap);
+        self.mechanism.contacts[k].sliding(self.stages.signs[k], share, pressure)
     }
 
     /// Whether all guided sliders stay flat: |C| <= |N| L / 2 (theory, section 1); none if one is about to

@@ -173,6 +173,7 @@ impl<'t> Reader<'t> {
             units: Units::default(),
             doubts: Vec::new(),
             evaluation_order: Vec::new(),
+            friction: 1.0,
             looks: std::mem::take(&mut self.looks),
         }
     }

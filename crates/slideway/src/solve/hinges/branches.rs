@@ -75,10 +75,8 @@ impl<'a> GrowingFriction<'a> {
     /// Numbers beyond the range of floating point.
     pub(crate) fn at(&self, factor: f64) -> Result<Instance, Faults> {
         let mut factors = vec![factor; self.stages.mechanism.contacts.len()];
-        factors.extend(self.hinges.iter().map(|hinge| {
-            let circle = &self.stages.mechanism.friction_circles[hinge.circle];
-            if circle.radius == 0.0 { 0.0 } else { circle.rougher(factor).radius / circle.radius }
-        }));
+        let circle = |hinge: &TurningHinge| self.stages.mechanism.friction_circles[hinge.circle];
+        factors.extend(self.hinges.iter().map(|hinge| circle(hinge).growth(factor)));
         let instance = self.now.with_response_times(&factors).map_err(|_| overflow())?;
         is_finite(&instance.outputs).then_some(instance).ok_or_else(overflow)
     }

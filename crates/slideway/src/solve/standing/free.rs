@@ -43,18 +43,15 @@ impl Free {
 
     /// The contact, and the limit of the force by its pressure and without: `|T| <= mu |N| + F_0`; none for a hinge.
     pub(super) fn limit(self, mechanism: &Mechanism, sides: &[Side]) -> Option<(usize, [f64; 2])> {
-        let of = |k: usize| -> (&Contact, usize) { (&mechanism.contacts[k], face(sides[k])) };
+        let limits = |k: usize| {
+            let Contact { preload_line, mu_static, preload, .. } = &mechanism.contacts[k];
+            let side = face(sides[k]);
+            preload_line.limits_at_rest(mu_static[side], preload[side])
+        };
         match self {
             Self::Hinge(_) => None,
-            Self::Face(k) => {
-                let (contact, side) = of(k);
-                let is_there = contact.preload_line == PreloadLine::Pressed;
-                Some((k, [contact.mu_static[side], if is_there { contact.preload[side] } else { 0.0 }]))
-            }
-            Self::Middle(k) => {
-                let (contact, side) = of(k);
-                Some((k, [0.0, contact.preload[side]]))
-            }
+            Self::Face(k) => Some((k, limits(k)[0])),
+            Self::Middle(k) => Some((k, limits(k)[1])),
         }
     }
 

@@ -9,7 +9,7 @@ use super::free::Free;
 use super::polyhedron::{Extremes, Polyhedron};
 use crate::enclosure::TurningHinge;
 use crate::fault::Faults;
-use crate::mechanism::COUPLE_TOLERANCE;
+use crate::law::COUPLE_TOLERANCE;
 use crate::modes::existence::OutputBound;
 use crate::modes::{BySide, Side};
 use nalgebra::{DMatrix, DVector};
