@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::interval::Interval;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, ContactState, ModeProblemError, ProblemPart, Side};
 
@@ -102,18 +101,6 @@ impl BlockProblem {
         let response = BySide { positive: scaled(Side::Positive)?, negative: scaled(Side::Negative)? };
         let (jumps, load, has_jump) = (self.jumps.clone(), self.load.clone(), self.has_jump.clone());
         Ok(Self { response, jumps, load, has_jump })
-    }
-
-    /// All problems with the column of each block of `H` multiplied by any factor within its bounds; `None` if entries are
-    /// not finite then.
-    pub fn with_response_within(&self, factors: &[Interval]) -> Option<Self> {
-        let scaled = |part: &IntervalMatrix| {
-            let entry = |row: usize, column: usize| part.entry(row, column) * factors[column];
-            IntervalMatrix::from_intervals(&DMatrix::from_fn(self.rows(), self.blocks(), entry))
-        };
-        let BySide { positive, negative } = &self.response;
-        let response = BySide { positive: scaled(positive)?, negative: scaled(negative)? };
-        Some(Self { response, ..self.clone() })
     }
 
     /// The number `s` of contacts.

@@ -5,7 +5,7 @@ use super::instant::MotionState;
 use super::setup::Setup;
 use super::state::Pattern;
 use crate::configuration::null_space;
-use crate::enclosure::{BlockCoefficients, TurningHinge};
+use crate::enclosure::{BlockCoefficients, BlockNumbers, TurningHinge};
 use crate::ids::ContactId;
 use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
@@ -185,8 +185,10 @@ impl<'h, 's> Blocks<'h, 's> {
             )?,
             leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
             frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
+            shared: None,
         };
-        BlockProblem::new(coefficients.response(), coefficients.jumps(), coefficients.frictionless).ok()
+        let BlockNumbers { response, jumps, load } = coefficients.numbers();
+        BlockProblem::new(response, jumps, load).ok()
     }
 
     fn leverage(&self, hinge: usize) -> f64 {

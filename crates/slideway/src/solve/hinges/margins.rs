@@ -48,7 +48,7 @@ pub(super) struct Growth<'a> {
 
 impl<'a> Growth<'a> {
     /// # Errors
-    /// Guides that share a load.
+    /// Nothing says how redundant guides share their load.
     pub(super) fn new(
         stages: &'a Stages,
         hinges: &'a [TurningHinge],
@@ -113,7 +113,8 @@ impl<'a> Growth<'a> {
     fn number_at(&self, logarithm: f64) -> Option<Number> {
         let mut solutions = self.solutions(logarithm)?;
         let instance = self.at(logarithm).ok()?;
-        solutions.retain(|solution| solution.gaps.is_empty() && keeps_bounds(&instance, solution));
+        let open = &self.mechanism.excess.open;
+        solutions.retain(|solution| open.is_solution(&solution.states) && keeps_bounds(&instance, solution));
         let last = solutions.pop().filter(|_| solutions.is_empty());
         Some(last.map_or(Number::Another, |last| Number::One(Box::new(last))))
     }
@@ -226,7 +227,7 @@ fn rounded_down(number: f64) -> f64 {
 /// followed, and all are sought at the factors. None if that is not decided, or a hinge never turns.
 ///
 /// # Errors
-/// Hinges with friction that do not turn now; guides that share a load.
+/// Hinges with friction that do not turn now; nothing says how redundant guides share their load.
 pub(crate) fn factors_with_one_solution(
     stages: &Stages,
     factors: &[f64],
@@ -243,7 +244,7 @@ pub(crate) fn factors_with_one_solution(
 /// there always is one; where there is none as it is, the factor to which it has to fall. None if that was not found.
 ///
 /// # Errors
-/// Guides that share a load.
+/// Nothing says how redundant guides share their load.
 pub(crate) fn locking_factor(
     stages: &Stages,
     hinges: &[TurningHinge],
