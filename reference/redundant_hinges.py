@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""All solutions of random carriages on redundant rails with rubbing pendulums, by brute force: writes redundant-hinges.toml.
+"""All solutions of random redundant mechanisms with rubbing hinges, by brute force: writes redundant-hinges.toml.
 
     python3 reference/redundant_hinges.py > reference/redundant-hinges.toml
     python3 reference/redundant_hinges.py COUNT target/release/slideway      # compares COUNT mechanisms with `slideway solve`
@@ -12,6 +12,7 @@ normal forces of both faces of all contacts, hinge forces, and the small deflect
 - A contact at (x, y) is displaced by d = y + theta x - e. It presses with N+ = -(delta + d) k at one face, or with
   N- = -(delta - d) k at the other, or is open; a press fit presses at both faces, or at one. Friction at each face is
   -s mu N, in the line of the face.
+- Trammels: see there.
 - The couple of a pin is -sgn(omega) r |R|.
 
 For each pattern of open faces all forces are affine in the lengths w of the hinge forces. What is left are the quadrics
@@ -34,7 +35,9 @@ CLEAR = 1e-7
 
 
 def drawn(generator):
-    """A random carriage."""
+    """A random case."""
+    if generator.random() < 0.25:
+        return drawn_trammel(generator)
     number = lambda low, high: round(generator.uniform(low, high), 4)
     length = number(0.2, 0.6)
     kind = generator.choice(["rails", "rails", "pads", "press", "rigid"])
@@ -48,10 +51,11 @@ def drawn(generator):
             play = generator.choice([0.0, number(0.05, 0.4)])
             if kind == "press" and lateral > 0 and generator.random() < 0.7:
                 play = -number(0.05, 0.4)
+            out = number(-0.1, 0.1)
             if kind == "rigid":
-                play = number(0.05, 0.4)
+                play, out = number(0.05, 0.4), 0.2 * out  # within the play, so that it can be assembled
             rail["contacts"].append({
-                "x": place, "play": round(1e-3 * play, 7), "e": round(1e-3 * generator.choice([0.0, number(-0.1, 0.1)]), 7),
+                "x": place, "play": round(1e-3 * play, 7), "e": round(1e-3 * generator.choice([0.0, out]), 7),
                 "k": None if kind == "rigid" else 1e3 * number(20, 200),
             })
         rails.append(rail)
@@ -75,7 +79,9 @@ def drawn(generator):
 
 
 def model(case):
-    """The model file of a carriage."""
+    """The model file of a case."""
+    if case["kind"] == "trammel":
+        return model_of_trammel(case)
     text = ["gravity = 9.81", "[points]", "middle = [0, 0]", f"where = {case['where']}"]
     bodies, joints, names = [], [], []
     for index, rail in enumerate(case["rails"]):
@@ -242,10 +248,16 @@ class Pattern:
             entries = [(self.first_force + index, flexibility), (self.size - 2, face), (self.size - 1, face * contact["x"])]
             self.row(entries, [face * contact["e"] - contact["play"] / 2] + [0.0] * self.bars)
 
+    def displacement(self, at, z):
+        _, contact = self.contacts[at]
+        return z[-2] + z[-1] * contact["x"] - contact["e"]
+
     def affine(self):
         """All unknowns: without couples, then what a unit length of each hinge force adds; None if they are not determined."""
         matrix, right = np.array(self.rows), np.array(self.right)
         scale = np.abs(matrix).max(axis=1)
+        if (scale == 0).any():
+            return None
         matrix, right = matrix / scale[:, None], right / scale[:, None]
         columns = np.abs(matrix).max(axis=0)
         if (columns == 0).any():
@@ -311,13 +323,12 @@ class Pattern:
         kept, doubtful = [], False
         for w in self.roots(all_):
             z = all_ @ np.array([1.0, *w])
-            size = max(np.abs(z[1 + 3 * self.bars:self.size - 2]).max(), 1.0)
-            margins = list(np.array(w) / size)
-            margins += list(z[self.first_force:self.size - 2] / size)
-            y, theta = z[-2:]
+            forces = range(self.first_force, self.first_force + len(self.forces))
+            size = max(np.abs(z[1 + 3 * self.bars:forces.stop]).max(), 1.0)
+            margins = list(np.array(w) / size) + list(z[forces] / size)
             for at, faces in enumerate(self.pattern):
                 _, contact = self.contacts[at]
-                d = y + theta * contact["x"] - contact["e"]
+                d = self.displacement(at, z)
                 half = contact["play"] / 2
                 unit = abs(half) + 1e-5
                 margins += [(half + face * d) / unit for face in (1, -1) if face not in faces and contact["play"] != 0]
@@ -332,13 +343,129 @@ class Pattern:
         return kept, doubtful
 
 
+class Trammel(Pattern):
+    """A bar whose ends slide in crossed slots while a crank guides its middle: one of these three is in excess, and the
+    self-stress passes through the pins of the crank, both of which turn. The crank is driven at a constant rate.
+
+    Unknowns: the torque, six numbers without meaning, the forces of the pins on the bar and on the crank, faces, and the
+    small turn psi of the bar about its middle, which displaces its ends by `l cos(theta) psi` and `l sin(theta) psi` along
+    the normals +y and -x of the slots.
+    """
+
+    def carriage(self):
+        case, w = self.case, 2 * self.case["rate"]
+        self.bars, self.first_force = 2, 11
+        self.size = self.first_force + len(self.forces) + 1
+        l, theta, rate, mu = case["l"], case["theta"], case["rate"], case["mu"]
+        direction = np.array([np.cos(theta), np.sin(theta)])
+        for unused in range(1, 7):
+            self.row([(unused, 1.0)], [0.0] * 3)
+        ends = [np.array([l * direction[0], -l * direction[1]]), np.array([-l * direction[0], l * direction[1]])]
+        slides = [np.array([-np.sin(theta) * rate, 0.0]), np.array([0.0, np.cos(theta) * rate])]
+        normals = [np.array([0.0, 1.0]), np.array([-1.0, 0.0])]
+        (mx, my), (ox, oy) = self.reaction(0), self.reaction(1)
+        # the bar: at its middle, which is its mass centre
+        force = [[(mx, 1.0)], [(my, 1.0)]]
+        moment = []
+        for index, (at, face) in enumerate(self.forces):
+            along = face * normals[at] - mu * np.sign(slides[at].sum()) * np.abs(np.sign(slides[at]))
+            for axis in (0, 1):
+                force[axis].append((self.first_force + index, along[axis]))
+            moment.append((self.first_force + index, ends[at][0] * along[1] - ends[at][1] * along[0]))
+        inertia = -case["mass"] * rate**2 * l * direction
+        self.row(force[0], [inertia[0], 0.0, 0.0])
+        self.row(force[1], [inertia[1] + case["mass"] * GRAVITY, 0.0, 0.0])
+        # the bar turns by -rate, the crank by rate: the couple on the bar has the sense of rate
+        self.row(moment, [0.0, -np.sign(w) * case["radii"][0], 0.0])
+        # the massless crank, about its pin on ground
+        self.row([(mx, -1.0), (ox, 1.0)], [0.0] * 3)
+        self.row([(my, -1.0), (oy, 1.0)], [0.0] * 3)
+        arm = l * direction
+        self.row([(0, 1.0), (my, -arm[0]), (mx, arm[1])],
+                 [0.0, np.sign(w) * case["radii"][0], np.sign(rate) * case["radii"][1]])
+
+    def pendulums(self):
+        pass
+
+    def laws(self):
+        for index, (at, face) in enumerate(self.forces):
+            _, contact = self.contacts[at]
+            entries = [(self.first_force + index, 1 / contact["k"]), (self.size - 1, face * self.arm(at))]
+            self.row(entries, [face * contact["e"] - contact["play"] / 2] + [0.0] * 2)
+
+    def arm(self, at):
+        return self.case["l"] * (np.cos, np.sin)[at](self.case["theta"])
+
+    def displacement(self, at, z):
+        return self.arm(at) * z[-1] - self.contacts[at][1]["e"]
+
+
+def drawn_trammel(generator):
+    number = lambda low, high: round(generator.uniform(low, high), 4)
+    contact = lambda: {"play": round(1e-3 * generator.choice([0.0, number(0.05, 0.4)]), 7),
+                       "e": round(1e-3 * generator.choice([0.0, number(-0.3, 0.3)]), 7), "k": 1e3 * number(5, 200)}
+    mu = number(0.05, 1.5)
+    size = generator.choice([0.02, 0.1, 0.3])
+    return {"kind": "trammel", "l": number(0.1, 0.4), "theta": number(0.2, 1.3), "rate": number(1, 6) * generator.choice([-1, 1]),
+            "mu": mu, "mass": number(0.5, 4), "radii": [number(0.1, 1) * size, number(0.1, 1) * size], "pendulums": [],
+            "rails": [{"contacts": [contact()]}, {"contacts": [contact()]}]}
+
+
+def model_of_trammel(case):
+    l, theta = case["l"], case["theta"]
+    x, y = float(l * np.cos(theta)), float(l * np.sin(theta))
+    text = f"""gravity = 9.81
+[points]
+O = [0, 0]
+M = [{x!r}, {y!r}]
+A = [{2 * x!r}, 0]
+B = [0, {2 * y!r}]
+[bodies.carriage]
+points = ["M", "A", "B"]
+mass = {case["mass"]}
+moment_of_inertia = 0.1
+centre_of_mass = "M"
+[bodies.crank]
+points = ["O", "M"]
+massless = true
+[joints.middle]
+type = "hinge"
+between = ["carriage.M", "crank.M"]
+friction_radius = {case["radii"][0]}
+[joints.shaft]
+type = "hinge"
+between = ["crank.O", "ground.O"]
+friction_radius = {case["radii"][1]}
+"""
+    for name, angle, rail in zip("AB", (0, 90), case["rails"]):
+        contact = rail["contacts"][0]
+        text += f"""[joints.slot{name}]
+type = "pin_in_slot"
+block = "carriage"
+guide = "ground"
+along = "{angle} deg"
+at = "{name}"
+mu = {case["mu"]}
+play = {contact["play"]!r}
+misalignment = {contact["e"]!r}
+stiffness = {contact["k"]}
+"""
+    return text + f"""[coordinates.theta]
+rotation = "crank"
+rate = {case["rate"]}
+[drives.motor]
+coordinate = "theta"
+acceleration = 0
+torque = {{ body = "crank" }}
+"""
+
+
 def solve(case):
     """All solutions; and whether one is near a border of its mode."""
     found, doubtful = [], False
     for pattern in itertools.product(*faces_of(case)):
-        if sum(1 for faces in pattern if faces) < 2:
-            continue  # the load does not vanish: two contacts at least carry
-        kept, near = Pattern(case, pattern).solutions()
+        kind = Trammel if case["kind"] == "trammel" else Pattern
+        kept, near = kind(case, pattern).solutions()
         found += kept
         doubtful |= near
     return sorted(found, key=lambda one: one["acceleration"]), doubtful
@@ -356,7 +483,7 @@ def by_slideway(program, case):
 
 def compare(count, program):
     generator = random.Random(2026)
-    tally = {"same": 0, "unproven": 0, "doubtful": 0, "wrong": 0}
+    tally = {"same": 0, "unproven": 0, "doubtful": 0, "refused": 0, "wrong": 0}
     numbers = {}
     drawn_ = 0
     while tally["same"] + tally["wrong"] + tally["unproven"] < count:
@@ -368,13 +495,14 @@ def compare(count, program):
             continue
         report, error = by_slideway(program, case)
         if report is None:
-            print(f"{drawn_} ({case['kind']}): refused: {error[:300]}")
-            tally["wrong"] += 1
+            errors = [line for line in error.splitlines() if line.startswith("error")]
+            print(f"{drawn_} ({case['kind']}): refused: {errors}, expected: {len(expected)}")
+            tally["refused"] += 1
             continue
         key = (case["kind"], len(expected))
         numbers[key] = numbers.get(key, 0) + 1
-        found = sorted((carriage(one) for one in report["solutions"]))
-        wanted = [one["acceleration"] for one in expected]
+        found = sorted(value(one, case) for one in report["solutions"])
+        wanted = sorted(one["acceleration"] for one in expected)
         size = max([1.0] + [abs(value) for value in wanted])
         is_same = len(found) == len(wanted) and all(abs(a - b) < 1e-6 * size for a, b in zip(found, wanted))
         proven = report["complete"] == "proven"
@@ -390,7 +518,10 @@ def compare(count, program):
     print("solutions:", dict(sorted(numbers.items())))
 
 
-def carriage(solution):
+def value(solution, case):
+    """The acceleration of a carriage, or the torque of a trammel."""
+    if case["kind"] == "trammel":
+        return solution["drives"][0]["effort"]
     return next(body["acceleration"][0] for body in solution["bodies"] if body["name"] == "carriage")
 
 

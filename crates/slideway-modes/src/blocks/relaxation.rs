@@ -172,7 +172,8 @@ fn sides(state: Option<ContactState>) -> &'static [Side] {
 /// varies in the piece, and the pseudo-inverse leaves it out of the others.
 fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
     let half_angle = piece.half_angle();
-    if half_angle > SMALL {
+    // Without hinges nothing is curved.
+    if half_angle > SMALL || piece.sectors.is_empty() {
         return None;
     }
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
