@@ -445,8 +445,6 @@ pub enum FaultKind {
     ZeroSlidingVelocity { contacts: Vec<String>, why: NoSliding },
     #[error("{hinge} does not turn, so the direction of its friction couple is undefined")]
     HingeDoesNotTurn { hinge: String, why: NoSliding },
-    #[error("friction in hinges is not taken into account where guides share a load: {}", listed(hinges))]
-    FrictionInHingesOfRedundant { hinges: Vec<String> },
 
     // Standstill.
     #[error("the load {load} vanishes at rest, so no factor changes it")]
@@ -603,9 +601,6 @@ impl FaultKind {
             }
             Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
             Self::HingeDoesNotTurn { why, .. } => Some(why.hint_of_hinge()),
-            Self::FrictionInHingesOfRedundant { .. } => {
-                Some("leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge".to_owned())
-            }
             Self::LoadUnused { load } => Some(format!(
                 "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),

@@ -23,7 +23,7 @@
 //!
 //! # Files
 //! `problem.rs`, `result.rs`: what is given and returned. `sector.rs`: directions; `equations.rs`: a piece and
-//! its equations; `frames.rs`: bounds on their slopes. `relaxation.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
+//! its equations; `frames.rs`: bounds on their slopes. `relaxation.rs`, `rigid.rs`: proofs that it is empty; `at_most_one.rs`: that it has at most one
 //! solution; `zero.rs`: that there is one. `uniqueness.rs`: one solution for every load; `only.rs`: that one, for many
 //! neighbouring problems. `tree.rs`: the search; `open.rs`: what it leaves open; `solutions.rs`: what it found.
 //! `smooth.rs`, `unloaded.rs`: blocks that act on no other, and on which nothing acts; `parts.rs`: a problem without them.
@@ -37,6 +37,7 @@ mod parts;
 mod problem;
 mod relaxation;
 mod result;
+mod rigid;
 mod sector;
 mod smooth;
 mod solutions;

@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::interval::Interval;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, ContactState, ModeProblemError, ProblemPart, Side};
 
@@ -18,12 +17,17 @@ use crate::problem::{BySide, ContactState, ModeProblemError, ProblemPart, Side};
 /// `k < s` of `H` belongs to contact `k` and has a version for each side, column `s + j` to hinge `j`. The
 /// jump vectors `d_k^sigma` have one version for each side, too; a contact whose versions differ may rest in
 /// its gap, where `N_k = 0` and `d_k = lambda d_k^+ + (1 - lambda) d_k^-`, `0 <= lambda <= 1`.
+///
+/// A linear term `A x` in place of `x`, which differs from it in the columns of contacts, is the part
+/// `sigma (I - A)` of `H^sigma`: so stand contacts here that share a load
+/// ([`SharedLoad::response`](crate::SharedLoad::response)).
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockProblem {
     response: BySide<IntervalMatrix>,
     jumps: BySide<IntervalMatrix>,
     load: IntervalMatrix,
     has_jump: Vec<bool>,
+    forceless: Vec<usize>,
 }
 
 impl BlockProblem {
@@ -87,7 +91,8 @@ impl BlockProblem {
         let has_jump = (0..contacts).map(|contact| {
             differs(&jumps, contact) || Side::BOTH.into_iter().any(|side| uncertain(side, contact))
         });
-        Ok(Self { has_jump: has_jump.collect(), response, jumps, load })
+        let forceless = (0..contacts).filter(|&row| is_forceless(&response, row)).collect();
+        Ok(Self { has_jump: has_jump.collect(), forceless, response, jumps, load })
     }
 
     /// The problem with the column of each block of `H` multiplied by its factor, where the numbers are exact.
@@ -100,20 +105,7 @@ impl BlockProblem {
             check(ProblemPart::Columns(side), &matrix, matrix.shape()).map(|()| matrix)
         };
         let response = BySide { positive: scaled(Side::Positive)?, negative: scaled(Side::Negative)? };
-        let (jumps, load, has_jump) = (self.jumps.clone(), self.load.clone(), self.has_jump.clone());
-        Ok(Self { response, jumps, load, has_jump })
-    }
-
-    /// All problems with the column of each block of `H` multiplied by any factor within its bounds; `None` if entries are
-    /// not finite then.
-    pub fn with_response_within(&self, factors: &[Interval]) -> Option<Self> {
-        let scaled = |part: &IntervalMatrix| {
-            let entry = |row: usize, column: usize| part.entry(row, column) * factors[column];
-            IntervalMatrix::from_intervals(&DMatrix::from_fn(self.rows(), self.blocks(), entry))
-        };
-        let BySide { positive, negative } = &self.response;
-        let response = BySide { positive: scaled(positive)?, negative: scaled(negative)? };
-        Some(Self { response, ..self.clone() })
+        Ok(Self { response, ..self.clone() })
     }
 
     /// The number `s` of contacts.
@@ -132,6 +124,11 @@ impl BlockProblem {
     /// If there is no such contact.
     pub fn has_jump(&self, contact: usize) -> bool {
         self.has_jump[contact]
+    }
+
+    /// The rows in which no force stands: those of contacts with `H_k^sigma = sigma e_k`.
+    pub(super) fn forceless(&self) -> &[usize] {
+        &self.forceless
     }
 
     /// The response `H` with the columns of contacts on one side.
@@ -205,6 +202,17 @@ impl BlockProblem {
     pub(super) fn constant_jump(state: ContactState) -> Side {
         state.side().unwrap_or(Side::Negative)
     }
+}
+
+/// Whether no force stands in the row of a contact.
+fn is_forceless(response: &BySide<IntervalMatrix>, row: usize) -> bool {
+    Side::BOTH.into_iter().all(|side| {
+        let own = |column: usize| if column == row { side.sign() } else { 0.0 };
+        let part = response.get(side);
+        (0..part.shape().1).all(|column| {
+            part.centre()[(row, column)] == own(column) && part.radius()[(row, column)] == 0.0
+        })
+    })
 }
 
 /// A matrix with each column multiplied by its factor.

@@ -150,7 +150,7 @@ pub(super) fn relax(
 }
 
 /// Whether a contact contributes a mixture of both jump vectors to the load.
-fn shares(problem: &BlockProblem, piece: &Piece, contact: usize) -> bool {
+pub(super) fn shares(problem: &BlockProblem, piece: &Piece, contact: usize) -> bool {
     problem.has_jump(contact) && piece.states[contact].is_none_or(|state| state == ContactState::Gap)
 }
 
@@ -172,7 +172,8 @@ fn sides(state: Option<ContactState>) -> &'static [Side] {
 /// varies in the piece, and the pseudo-inverse leaves it out of the others.
 fn combination(problem: &BlockProblem, piece: &Piece) -> Option<DMatrix<f64>> {
     let half_angle = piece.half_angle();
-    if half_angle > SMALL {
+    // Without hinges nothing is curved.
+    if half_angle > SMALL || piece.sectors.is_empty() {
         return None;
     }
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
@@ -364,6 +365,15 @@ fn excludes(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> bool {
     if !contacts || !hinges || strict {
         return contacts && hinges;
     }
+    load_product(problem, piece, vector).upper() < 0.0
+}
+
+/// Bounds of the product of a vector with all loads `b + d` of a piece.
+pub(super) fn load_product(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> Interval {
+    let times = |part: &IntervalMatrix, column: usize| {
+        let radius = slice(part.radius(), column);
+        inner_product(vector, centre(part, column), Some(radius))
+    };
     let jump = |(contact, &state): (usize, &Option<ContactState>)| {
         let [positive, negative] = Side::BOTH.map(|side| times(problem.jumps(side), contact));
         match state {
@@ -372,9 +382,7 @@ fn excludes(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> bool {
             Some(ContactState::Positive) | None => positive,
         }
     };
-    let load =
-        piece.states.iter().enumerate().map(jump).fold(times(problem.load(), 0), |sum, part| sum + part);
-    load.upper() < 0.0
+    piece.states.iter().enumerate().map(jump).fold(times(problem.load(), 0), |sum, part| sum + part)
 }
 
 fn centre(part: &IntervalMatrix, column: usize) -> &[f64] {

@@ -6,6 +6,7 @@ use super::open::{Undecided, point_of_continuum};
 use super::problem::BlockProblem;
 use super::relaxation::{Relaxed, RelaxedPoint, relax};
 use super::result::OpenLabel;
+use super::rigid::is_out_of_line;
 use super::zero::{Zero, newton, prove, start};
 use crate::interval::Interval;
 use crate::problem::ContactState;
@@ -115,9 +116,11 @@ impl<'a, 'c> Tree<'a, 'c> {
 
     fn decide(&mut self, piece: &Piece) -> Decision {
         let told = Progress { counted: "nodes", done: self.found.nodes, fraction: None, found: None };
-        let relaxed = match relax(self.problem, piece, &mut self.pivots, &mut || {
-            (self.progress)(&told).is_continue()
-        }) {
+        let mut proceed = || (self.progress)(&told).is_continue();
+        if is_out_of_line(self.problem, piece, &mut self.pivots, &mut proceed) {
+            return Decision::Done;
+        }
+        let relaxed = match relax(self.problem, piece, &mut self.pivots, &mut proceed) {
             Relaxed::Empty => return Decision::Done,
             Relaxed::Point(point) => Some(point),
             Relaxed::Unsolved => None,

@@ -96,15 +96,30 @@ impl<T: Real> SharedLoad<T> {
         }
     }
 
+    /// `H_k^sigma` of `x = b + d^sigma + H^sigma |x|` in a row, from the number that stands there without self-stresses:
+    /// `sigma e_k - c_k^sigma` (dimensionless). Rows below those of the contacts, such as of hinge forces, are equilibrium.
+    ///
+    /// A linear term `A x` in place of `x` is a part of `H` that changes its sign with the side, so that this form holds
+    /// all problems of redundant guides, even where `A` is singular, as it is for rigid faces.
+    pub fn response(&self, side: Side, row: usize, contact: usize, given: T) -> T {
+        let sign = T::exactly(side.sign());
+        match (self.stress_of(row), self.stress_of(contact)) {
+            (Some(_), _) if row == contact => sign - self.column(side, row, contact, given),
+            (Some(_), _) => -self.column(side, row, contact, given),
+            (None, Some(stress)) => given + sign * self.self_stress[(row, stress)],
+            (None, None) => given,
+        }
+    }
+
     /// `d_k^sigma` in a row: `-sigma delta_k Z_kl` in that of a self-stress.
-    fn jump(&self, side: Side, row: usize, contact: usize, given: T) -> T {
+    pub fn jump(&self, side: Side, row: usize, contact: usize, given: T) -> T {
         let Some(stress) = self.stress_of(row) else { return given };
         let force = self.self_stress[(contact, stress)];
         T::exactly(-side.sign()) * self.clearance[contact] * force * self.scale(stress)
     }
 
     /// The right-hand side in a row: `(Z^T e)_l` in that of a self-stress.
-    fn load(&self, row: usize, given: T) -> T {
+    pub fn load(&self, row: usize, given: T) -> T {
         let Some(stress) = self.stress_of(row) else { return given };
         let terms = self.self_stress.column(stress).into_iter().zip(self.misalignment.iter());
         terms.map(|(force, misalignment)| *force * *misalignment).sum::<T>() * self.scale(stress)

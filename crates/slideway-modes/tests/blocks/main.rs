@@ -9,5 +9,6 @@ mod one_hinge;
 mod random;
 mod raw;
 mod reference;
+mod shared;
 mod smooth;
 mod support;

@@ -77,7 +77,7 @@ impl<'p> ElasticGuides<'p> {
     /// that share a load have one, the others having the mean of these.
     pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
         let contacts = &mechanism.contacts;
-        let shared = SharedGaps::of(mechanism, equations);
+        let shared = SharedGaps::of(mechanism, equations, &[]);
         let known: Vec<f64> = contacts.iter().filter_map(|contact| contact.stiffness).collect();
         let given = known.len() == contacts.len() && !contacts.is_empty();
         let instead = if shared.is_some() && !known.is_empty() { mean(&known) } else { 1.0 };
@@ -236,13 +236,7 @@ impl<'p> ElasticGuides<'p> {
     }
 
     fn stiffness_ratios(&self) -> impl Iterator<Item = Vec<f64>> {
-        ratios(self.stiffness.len()).into_iter().map(|ratios| {
-            let mut ratios = ratios;
-            for &[positive, negative] in self.shared.iter().flat_map(|shared| &shared.press_fits) {
-                ratios[negative] = ratios[positive];
-            }
-            ratios.iter().zip(&self.stiffness).map(|(ratio, stiffness)| ratio * stiffness).collect()
-        })
+        other_stiffnesses(&self.stiffness, self.shared.as_ref())
     }
 
     /// What each unattainable solution separates.
@@ -324,6 +318,16 @@ fn mass_ratios(inertia: &Inertia) -> Vec<Vec<f64>> {
 fn mode_matrix(problem: &ModeProblem, states: &[ContactState]) -> DMatrix<f64> {
     DMatrix::from_fn(states.len(), states.len(), |i, k| {
         states[k].side().map_or(0.0, |side| problem.columns(side)[(i, k)] * side.sign())
+    })
+}
+
+/// Stiffnesses in other ratios; both faces of a press fit have one.
+fn other_stiffnesses(stiffness: &[f64], shared: Option<&SharedGaps>) -> impl Iterator<Item = Vec<f64>> {
+    ratios(stiffness.len()).into_iter().map(move |mut ratios| {
+        for &[positive, negative] in shared.iter().flat_map(|shared| &shared.press_fits) {
+            ratios[negative] = ratios[positive];
+        }
+        ratios.iter().zip(stiffness).map(|(ratio, stiffness)| ratio * stiffness).collect()
     })
 }
 

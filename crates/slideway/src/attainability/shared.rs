@@ -10,7 +10,7 @@
 //! with stiffness 0 for open contacts: `p` is the mean of the oriented determinants of the determinate
 //! sub-mechanisms, weighted by stiffness (theory of redundant guides, R4).
 
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
@@ -20,9 +20,9 @@ use nalgebra::{DMatrix, DVector};
 /// The gaps of redundant contacts.
 #[derive(Debug, Clone)]
 pub(super) struct SharedGaps {
-    /// The contacts that are not cut.
+    /// The contacts that are not cut, and behind all contacts both components of each elastic hinge.
     pub(super) kept: Vec<usize>,
-    /// E: all gaps from those of the contacts that are not cut (contacts x kept).
+    /// E: all gaps from those that are kept (all x kept).
     pub(super) gaps: DMatrix<f64>,
     /// The deflections of all contacts where the gaps of the kept ones are closed: misalignment (m).
     pub(super) offset: DVector<f64>,
@@ -39,24 +39,30 @@ pub(super) struct SharedGaps {
 }
 
 impl SharedGaps {
-    /// Those of a mechanism; none if nothing is in excess.
-    pub(super) fn of(mechanism: &Mechanism, equations: &KineticEquations) -> Option<Self> {
+    /// Those of a mechanism in which these hinges are elastic, too; none if nothing is in excess.
+    pub(super) fn of(
+        mechanism: &Mechanism,
+        equations: &KineticEquations,
+        hinges: &[JointId],
+    ) -> Option<Self> {
         let contacts = mechanism.contacts.len();
         let cut: Vec<usize> = mechanism.excess.contacts.iter().map(|contact| contact.index()).collect();
         if cut.is_empty() {
             return None;
         }
-        let normal = |contact: usize| equations.layout.reaction(Reaction::Normal(ContactId(contact)));
+        let normals = (0..contacts).map(|contact| Reaction::Normal(ContactId(contact)));
+        let of_hinges = hinges.iter().flat_map(|joint| [0, 1].map(|axis| Reaction::Hinge(*joint, axis)));
+        let all: Vec<Reaction> = normals.chain(of_hinges).collect();
         let stresses = equations.self_stresses();
-        let stress = |contact: usize, stress: usize| {
-            let force = normal(contact).map_or(0.0, |row| stresses[stress][row]);
+        let stress = |force: usize, stress: usize| {
+            let force = equations.layout.reaction(all[force]).map_or(0.0, |row| stresses[stress][row]);
             if force.abs() <= NO_STRESS { 0.0 } else { force }
         };
-        let kept: Vec<usize> = (0..contacts).filter(|contact| !cut.contains(contact)).collect();
+        let kept: Vec<usize> = (0..all.len()).filter(|force| !cut.contains(force)).collect();
         let position = |contact: usize| cut.iter().position(|other| *other == contact);
-        let gaps = DMatrix::from_fn(contacts, kept.len(), |contact, column| match position(contact) {
+        let gaps = DMatrix::from_fn(all.len(), kept.len(), |force, column| match position(force) {
             Some(number) => -stress(kept[column], number),
-            None => f64::from(u8::from(kept[column] == contact)),
+            None => f64::from(u8::from(kept[column] == force)),
         });
         let forces = DMatrix::from_fn(contacts, cut.len(), stress);
         let shared = shared_load(mechanism, forces.clone()).ok().flatten()?;
@@ -111,11 +117,10 @@ impl SharedGaps {
 
     /// Oriented determinant p: 1 without friction.
     pub(super) fn oriented(&self, mode: &DMatrix<f64>, states: &[ContactState], stiffness: &[f64]) -> f64 {
-        let closed: Vec<f64> = stiffness
-            .iter()
-            .zip(states)
-            .map(|(stiffness, state)| if *state == ContactState::Gap { 0.0 } else { *stiffness })
-            .collect();
+        let is_open = |force: usize| states.get(force) == Some(&ContactState::Gap);
+        let stiffness = stiffness.iter().enumerate();
+        let closed: Vec<f64> =
+            stiffness.map(|(force, stiffness)| if is_open(force) { 0.0 } else { *stiffness }).collect();
         let [with, without] = [mode, &self.frictionless].map(|mode| self.stiff(mode, &closed).determinant());
         if without == 0.0 { 0.0 } else { with / without }
     }

@@ -8,10 +8,11 @@ use crate::interval::{Interval, Real, Sign};
 use crate::kinetics::Reaction;
 use crate::mechanism::{FrictionCircle, JointKind, Mechanism};
 use crate::model::Model;
-use crate::modes::BySide;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
+use crate::modes::{BySide, OpenContacts, SharedLoad, Side};
 use crate::progress::Work;
+use crate::sharing::shared_load;
 use nalgebra::{DMatrix, DVector};
 
 /// A hinge with friction that turns.
@@ -41,6 +42,10 @@ pub(crate) struct EnclosedBlockProblem {
     pub(crate) problem: BlockProblem,
     /// What follows from the forces.
     pub(crate) outputs: EnclosedOutputs,
+    /// Which contacts may be open, and together.
+    pub(crate) open: OpenContacts,
+    /// What its numbers are made of.
+    coefficients: BlockCoefficients<Interval>,
     /// The friction circles of its hinges.
     circles: Vec<FrictionCircle<Interval>>,
 }
@@ -52,14 +57,14 @@ impl EnclosedBlockProblem {
         let hinges = self.circles.iter().map(|circle| circle.growth(factor));
         let factors: Vec<Interval> =
             std::iter::repeat_n(factor, self.problem.contacts()).chain(hinges).collect();
-        self.problem.with_response_within(&factors)
+        bounded_problem(&self.coefficients.rougher(&factors)).ok()
     }
 }
 
 /// What the block mode problem `x = b + d^sigma + H^sigma w` is made of: rows are the normal forces, then both
 /// components of the force of each hinge that turns.
 #[derive(Debug, Clone)]
-pub(crate) struct BlockCoefficients<T> {
+pub(crate) struct BlockCoefficients<T: Real> {
     /// What a unit friction force of each contact adds at either face, and where the preload's friction acts.
     pub(crate) eta: BySide<DMatrix<T>>,
     pub(crate) eta_preload: BySide<DMatrix<T>>,
@@ -74,39 +79,89 @@ pub(crate) struct BlockCoefficients<T> {
     pub(crate) leverage: DVector<T>,
     /// Everything without friction.
     pub(crate) frictionless: DVector<T>,
+    /// How redundant guides share their load; its self-stresses have all rows.
+    pub(crate) shared: Option<SharedLoad<T>>,
+}
+
+/// The numbers of a block mode problem.
+#[derive(Debug, Clone)]
+pub(crate) struct BlockNumbers<T: Real> {
+    /// `H^sigma`, a column for each contact and hinge.
+    pub(crate) response: BySide<DMatrix<T>>,
+    /// `d^sigma`, a column for each contact.
+    pub(crate) jumps: BySide<DMatrix<T>>,
+    /// `b`.
+    pub(crate) load: DVector<T>,
 }
 
 impl<T: Real> BlockCoefficients<T> {
-    /// `H^sigma`: columns `mu_k s_k eta_k^sigma` of the contacts, `-r_j sgn(omega_j)` times the answer to a unit couple of
-    /// the hinges.
-    pub(crate) fn response(&self) -> BySide<DMatrix<T>> {
-        let side = |eta: &DMatrix<T>, mu: &DVector<T>| {
-            let contacts = mu.len();
-            DMatrix::from_fn(eta.nrows(), contacts + self.leverage.len(), |row, column| {
-                match column.checked_sub(contacts) {
-                    None => eta[(row, column)] * mu[column] * T::exactly(self.velocity_signs[column]),
-                    Some(hinge) => self.couples[(row, hinge)] * self.leverage[hinge],
-                }
-            })
+    /// The numbers of the problem.
+    pub(crate) fn numbers(&self) -> BlockNumbers<T> {
+        self.with_friction(&|_, friction| friction)
+    }
+
+    /// The numbers with the friction of each contact, then of each hinge, multiplied by its factor.
+    pub(crate) fn rougher(&self, factors: &[T]) -> BlockNumbers<T> {
+        self.with_friction(&|block, friction| friction * factors[block])
+    }
+
+    fn with_friction(&self, rougher: &dyn Fn(usize, T) -> T) -> BlockNumbers<T> {
+        let by_side = |part: &dyn Fn(Side) -> DMatrix<T>| BySide {
+            positive: part(Side::Positive),
+            negative: part(Side::Negative),
         };
-        BySide {
-            positive: side(&self.eta.positive, &self.mu.positive),
-            negative: side(&self.eta.negative, &self.mu.negative),
+        let load = self.frictionless.iter().enumerate();
+        let load = load.map(|(row, &given)| self.shared.as_ref().map_or(given, |all| all.load(row, given)));
+        BlockNumbers {
+            response: by_side(&|side| self.response(side, rougher)),
+            jumps: by_side(&|side| self.jumps(side)),
+            load: DVector::from_iterator(self.frictionless.len(), load),
         }
     }
 
-    /// `d_k^sigma = F_k0 s_k eta_k^sigma`, a column for each contact.
-    pub(crate) fn jumps(&self) -> BySide<DMatrix<T>> {
-        let side = |eta: &DMatrix<T>, preload: &DVector<T>| {
-            DMatrix::from_fn(eta.nrows(), preload.len(), |row, k| {
-                eta[(row, k)] * preload[k] * T::exactly(self.velocity_signs[k])
-            })
-        };
-        BySide {
-            positive: side(&self.eta_preload.positive, &self.preload.positive),
-            negative: side(&self.eta_preload.negative, &self.preload.negative),
-        }
+    /// `H^sigma`: columns `mu_k s_k eta_k^sigma` of the contacts, `-r_j sgn(omega_j)` times the answer to a unit couple of
+    /// the hinges. Those of contacts that share a load hold what their stiffness adds, too.
+    fn response(&self, side: Side, rougher: &dyn Fn(usize, T) -> T) -> DMatrix<T> {
+        let (eta, mu) = (self.eta.get(side), self.mu.get(side));
+        let contacts = mu.len();
+        DMatrix::from_fn(eta.nrows(), contacts + self.leverage.len(), |row, block| {
+            let Some(hinge) = block.checked_sub(contacts) else {
+                let sense = T::exactly(self.velocity_signs[block]);
+                let friction = rougher(block, eta[(row, block)] * mu[block] * sense);
+                return match &self.shared {
+                    Some(shared) => shared.response(side, row, block, friction),
+                    None => friction,
+                };
+            };
+            // Compatibility of deflections knows no couples.
+            let is_cut = self.shared.as_ref().is_some_and(|shared| shared.cut.contains(&row));
+            if is_cut { T::zero() } else { rougher(block, self.couples[(row, hinge)] * self.leverage[hinge]) }
+        })
     }
+
+    /// `d_k^sigma = F_k0 s_k eta_k^sigma`, a column for each contact; of compatibility the play of one that shares a load.
+    fn jumps(&self, side: Side) -> DMatrix<T> {
+        let (eta, preload) = (self.eta_preload.get(side), self.preload.get(side));
+        DMatrix::from_fn(eta.nrows(), preload.len(), |row, k| {
+            let friction = eta[(row, k)] * preload[k] * T::exactly(self.velocity_signs[k]);
+            self.shared.as_ref().map_or(friction, |shared| shared.jump(side, row, k, friction))
+        })
+    }
+}
+
+/// The problem of numbers within bounds.
+fn bounded_problem(numbers: &BlockNumbers<Interval>) -> Result<BlockProblem, NotEnclosed> {
+    let bounded =
+        |matrix: &DMatrix<Interval>| IntervalMatrix::from_intervals(matrix).ok_or(NotEnclosed::Equations);
+    let both = |sides: &BySide<DMatrix<Interval>>| {
+        Ok::<_, NotEnclosed>(BySide {
+            positive: bounded(&sides.positive)?,
+            negative: bounded(&sides.negative)?,
+        })
+    };
+    let load = DMatrix::from_column_slice(numbers.load.len(), 1, numbers.load.as_slice());
+    BlockProblem::within_bounds(both(&numbers.response)?, both(&numbers.jumps)?, bounded(&load)?)
+        .map_err(|_| NotEnclosed::Equations)
 }
 
 /// Bounds of the block mode problem of the mechanism that `model` describes, for all values of the parameters in
@@ -126,23 +181,13 @@ pub(crate) fn enclosed_block_problem(
         let unknowns = coefficients.unknowns(work).ok_or(NotEnclosed::Equations)?;
         let influence = coefficients.influence(&unknowns)?;
         let numbers = coefficients.block_coefficients(&unknowns, &influence, (hinges, &rubbing))?;
-        let bounded =
-            |matrix: &DMatrix<Interval>| IntervalMatrix::from_intervals(matrix).ok_or(NotEnclosed::Equations);
-        let both = |sides: BySide<DMatrix<Interval>>| {
-            Ok::<_, NotEnclosed>(BySide {
-                positive: bounded(&sides.positive)?,
-                negative: bounded(&sides.negative)?,
-            })
-        };
-        let load = DMatrix::from_column_slice(numbers.frictionless.len(), 1, numbers.frictionless.as_slice());
-        let [response, jumps] = [both(numbers.response())?, both(numbers.jumps())?];
-        let problem = BlockProblem::within_bounds(response, jumps, bounded(&load)?)
-            .map_err(|_| NotEnclosed::Equations)?;
         let circle = |hinge: &TurningHinge| coefficients.mechanism.friction_circles[hinge.circle];
         let circles = hinges.iter().map(circle).collect();
         Ok(EnclosedBlockProblem {
-            problem,
+            problem: bounded_problem(&numbers.numbers())?,
             outputs: coefficients.outputs(influence, &unknowns, &rubbing),
+            open: coefficients.mechanism.excess.open.clone(),
+            coefficients: numbers,
             circles,
         })
     })
@@ -158,13 +203,20 @@ impl Coefficients<'_> {
         let without = self.without_shared_jumps(influence)?;
         let contacts = self.mechanism.contacts.len();
         let rows = self.hinge_rows(hinges);
-        // Rows of hinge forces: a couple between both faces of a contact changes no other joint.
-        let extended = |of_contacts: &IntervalMatrix| {
+        let stresses = self.stresses_with(unknowns, &rows);
+        let shared = shared_load(self.mechanism, stresses.clone()).map_err(NotEnclosed::Values)?;
+        let [eta, eta_preload] = self.answers_of_hinges(unknowns, &rows, &stresses);
+        let extended = |of_contacts: &IntervalMatrix, of_hinges: &DMatrix<Interval>| {
             DMatrix::from_fn(contacts + rows.len(), contacts, |row, k| match row.checked_sub(contacts) {
                 None => of_contacts.entry(row, k),
-                Some(hinge) => unknowns[(rows[hinge], 1 + k)],
+                Some(_) => of_hinges[(row, k)],
             })
         };
+        let both =
+            |of_contacts: &BySide<IntervalMatrix>, [positive, negative]: [DMatrix<Interval>; 2]| BySide {
+                positive: extended(&of_contacts.positive, &positive),
+                negative: extended(&of_contacts.negative, &negative),
+            };
         let column = |vector: &IntervalMatrix| DVector::from_fn(contacts, |k, _| vector.entry(k, 0));
         let normals =
             (0..contacts).filter_map(|k| self.equations.layout.reaction(Reaction::Normal(ContactId(k))));
@@ -172,19 +224,13 @@ impl Coefficients<'_> {
         let frictionless = DVector::from_fn(all.len(), |row, _| match row.checked_sub(contacts) {
             None => without.frictionless.entry(row, 0),
             Some(hinge) => {
-                let answers = |k: usize| unknowns[(rows[hinge], 1 + k)];
+                let answers = |k: usize| eta_preload[0][(row, k)].hull(eta_preload[1][(row, k)]);
                 unknowns[(rows[hinge], 0)] + shared_jumps([influence, &without], &answers)
             }
         });
         Ok(BlockCoefficients {
-            eta: BySide {
-                positive: extended(&influence.eta.positive),
-                negative: extended(&influence.eta.negative),
-            },
-            eta_preload: BySide {
-                positive: extended(&influence.eta_preload.positive),
-                negative: extended(&influence.eta_preload.negative),
-            },
+            eta: both(&influence.eta, eta),
+            eta_preload: both(&influence.eta_preload, eta_preload),
             mu: BySide { positive: column(&influence.mu.positive), negative: column(&influence.mu.negative) },
             preload: BySide {
                 positive: column(&without.preload.positive),
@@ -196,7 +242,37 @@ impl Coefficients<'_> {
             }),
             leverage: DVector::from_fn(rubbing.len(), |hinge, _| rubbing[hinge].leverage),
             frictionless,
+            shared,
         })
+    }
+
+    /// The self-stresses in the rows of the contacts, then in those of hinges.
+    fn stresses_with(&self, unknowns: &DMatrix<Interval>, rows: &[usize]) -> DMatrix<Interval> {
+        let of_contacts = self.self_stresses(unknowns);
+        let (contacts, stresses) = of_contacts.shape();
+        DMatrix::from_fn(contacts + rows.len(), stresses, |row, stress| match row.checked_sub(contacts) {
+            None => of_contacts[(row, stress)],
+            Some(hinge) => unknowns[(rows[hinge], 1 + contacts + stress)],
+        })
+    }
+
+    /// What a unit friction of each contact adds to these rows of hinge forces, which stand below those of the contacts, at
+    /// either face; and the same of its preload.
+    ///
+    /// A couple between both faces of a contact changes them only if a self-stress hands it on.
+    fn answers_of_hinges(
+        &self,
+        unknowns: &DMatrix<Interval>,
+        rows: &[usize],
+        stresses: &DMatrix<Interval>,
+    ) -> [[DMatrix<Interval>; 2]; 2] {
+        let contacts = self.mechanism.contacts.len();
+        let positive = DMatrix::from_fn(stresses.nrows(), contacts, |row, k| {
+            row.checked_sub(contacts).map_or(Interval::ZERO, |hinge| unknowns[(rows[hinge], 1 + k)])
+        });
+        let eta = [positive.clone(), self.negative_versions(positive, stresses)];
+        let preload = self.preload_columns(&eta);
+        [eta, preload]
     }
 
     fn hinge_rows(&self, hinges: &[TurningHinge]) -> Vec<usize> {

@@ -225,7 +225,7 @@ impl Coefficients<'_> {
     /// ```
     ///
     /// A contact that is cut takes up nothing: what it would, a self-stress hands to the others.
-    fn negative_versions(
+    pub(super) fn negative_versions(
         &self,
         mut eta: DMatrix<Interval>,
         self_stress: &DMatrix<Interval>,
@@ -257,7 +257,7 @@ impl Coefficients<'_> {
     }
 
     /// The columns of the preload's friction: at the pressed face, or in the middle between both.
-    fn preload_columns(&self, eta: &[DMatrix<Interval>; 2]) -> [DMatrix<Interval>; 2] {
+    pub(super) fn preload_columns(&self, eta: &[DMatrix<Interval>; 2]) -> [DMatrix<Interval>; 2] {
         let mut preload = eta.clone();
         for (k, contact) in self.mechanism.contacts.iter().enumerate() {
             if !self.slider(k).is_some_and(has_two_faces) {

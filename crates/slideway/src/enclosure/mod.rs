@@ -34,7 +34,7 @@ mod motion;
 mod outputs;
 
 pub(crate) use blocks::{
-    BlockCoefficients, EnclosedBlockProblem, TurningHinge, enclosed_block_problem, spin,
+    BlockCoefficients, BlockNumbers, EnclosedBlockProblem, TurningHinge, enclosed_block_problem, spin,
 };
 pub use outputs::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, Tipping};
 

@@ -7,6 +7,7 @@
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
 use super::varied::Varied;
 use crate::fault::{FaultKind, Faults};
+use crate::mechanism::Mechanism;
 use crate::modes::SearchOptions;
 use crate::modes::branches::{Branch, BranchOptions, Branches, NoInstance, branches, over_radius};
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval, cells, counts_in, is_same_end};
@@ -120,7 +121,8 @@ fn modes_found(
         from: branch.from.end.clone(),
         to: branch.to.end.clone(),
     };
-    let existence = Existence { modes: branches.iter().map(mode).collect(), ..Existence::default() };
+    let open = Mechanism::new(varied.model()).map(|mechanism| mechanism.excess.open).unwrap_or_default();
+    let existence = Existence { modes: branches.iter().map(mode).collect(), open, ..Existence::default() };
     let faults = |at: f64| varied.block_instance(at, circles).err().unwrap_or_default();
     let gaps: Vec<Gap> =
         gaps.iter().map(|gap| Gap { from: gap.from, to: gap.to, faults: faults(gap.inside) }).collect();

@@ -241,7 +241,7 @@ fn of_branch(
         let joints: Vec<_> = hinges.iter().map(|hinge| hinge.joint).collect();
         let elastic = ElasticHinges::new(&stages.mechanism, &equations, &joints);
         let problem = block_instance(stages, hinges)?.problem;
-        Ok((values, elastic.of(directions(&problem, &branch.states, &forces.hinges)).verdict))
+        Ok((values, elastic.of(directions(&problem, &branch.states, &forces.hinges), &branch.states).verdict))
     };
     varied.with_hinges(at, circles, values).ok()
 }

@@ -2,7 +2,9 @@
 
 use super::vary::Vary;
 use crate::configuration::Follower;
-use crate::enclosure::{TurningHinge, UncertainParameters, enclosed_block_problem, enclosure_within};
+use crate::enclosure::{
+    EnclosedBlockProblem, TurningHinge, UncertainParameters, enclosed_block_problem, enclosure_within,
+};
 use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
@@ -12,7 +14,7 @@ use crate::model::{Dependence, Model, Setting, SettingKind, Value};
 use crate::modes::blocks::{self, BlockProblem, BlockResult};
 use crate::modes::branches::{Branch, BranchForces, Instance, NoInstance};
 use crate::modes::existence::ModeProblemLine;
-use crate::modes::search;
+use crate::modes::{OpenContacts, search};
 use crate::progress::{Progress, Work};
 use crate::report::{Proof, Solution, SolveReport};
 use crate::solve::{
@@ -254,19 +256,19 @@ impl Varied {
         if self.model.has_guided_sliders() {
             return (None, 1);
         }
-        let problem = self.enclosed(bounds, |model, uncertain, stages| {
+        let enclosed = self.enclosed(bounds, |model, uncertain, stages| {
             let hinges = turning_hinges(stages, circles).ok()?;
             let state = (&stages.mechanism, &stages.configuration);
-            Some(enclosed_block_problem(model, uncertain, state, &hinges, work).ok()?.problem)
+            enclosed_block_problem(model, uncertain, state, &hinges, work).ok()
         });
-        let Some(problem) = problem else { return (None, 1) };
+        let Some(EnclosedBlockProblem { problem, open, .. }) = enclosed else { return (None, 1) };
         let unique = blocks::unique_for_every_load(&problem);
         if greatest.is_none() && unique.is_some() {
             return (Some([1, 0]), 1);
         }
         let mut goes_on = |_: &Progress| work.flow();
         let result = blocks::search_all_or_nothing(&problem, unique, &options.search, &mut goes_on);
-        (certain_block_counts(&problem, &result, greatest), result.nodes)
+        (certain_block_counts((&problem, &open), &result, greatest), result.nodes)
     }
 
     /// What follows from the model, the bounds of what is varied, and the stages in the middle of them; none if
@@ -520,7 +522,7 @@ impl Varied {
 /// The numbers of solutions and gap states that are proven for all problems within bounds, if they are; none where a
 /// normal force may be above `greatest`, or may not.
 fn certain_block_counts(
-    problem: &BlockProblem,
+    (problem, open): (&BlockProblem, &OpenContacts),
     result: &BlockResult,
     greatest: Option<f64>,
 ) -> Option<[usize; 2]> {
@@ -537,7 +539,7 @@ fn certain_block_counts(
         let pressed = forces.filter(|(_, state)| state.side().is_some()).map(|(force, _)| force.abs());
         let pressed: Vec<Interval> = pressed.collect();
         if pressed.iter().all(|force| force.upper() <= greatest) {
-            counts[usize::from(!solution.gaps.is_empty())] += 1;
+            counts[usize::from(!open.is_solution(&solution.states))] += 1;
         } else if pressed.iter().all(|force| force.lower() <= greatest) {
             return None;
         }

@@ -287,9 +287,6 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
         }
         Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
         Some(FaultKind::HingeDoesNotTurn { .. }) => "a hinge with friction does not turn",
-        Some(FaultKind::FrictionInHingesOfRedundant { .. }) => {
-            "friction in hinges beside guides that share a load"
-        }
         Some(
             FaultKind::OutOfRange { .. }
             | FaultKind::StaticBelowKinetic { .. }

@@ -5,11 +5,11 @@ use super::instant::MotionState;
 use super::setup::Setup;
 use super::state::Pattern;
 use crate::configuration::null_space;
-use crate::enclosure::{BlockCoefficients, TurningHinge};
+use crate::enclosure::{BlockCoefficients, BlockNumbers, TurningHinge};
 use crate::ids::ContactId;
 use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
-use crate::modes::{ContactState, SearchOptions, Side};
+use crate::modes::{ContactState, SearchOptions, SharedLoad, Side};
 use crate::pattern::{ContactPhase, JointPhase};
 use crate::progress::Callback;
 use crate::solve::{friction_of_contacts, preload_columns, without_rounding};
@@ -185,8 +185,27 @@ impl<'h, 's> Blocks<'h, 's> {
             )?,
             leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
             frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
+            shared: self.shared_in(&rows)?,
         };
-        BlockProblem::new(coefficients.response(), coefficients.jumps(), coefficients.frictionless).ok()
+        let BlockNumbers { response, jumps, load } = coefficients.numbers();
+        BlockProblem::new(response, jumps, load).ok()
+    }
+
+    /// How redundant guides share their load, with the self-stresses in all these rows, those of the contacts first; the outer
+    /// `None` where the equations are singular.
+    fn shared_in(&self, rows: &[usize]) -> Option<Option<SharedLoad>> {
+        let Some(shared) = &self.held.setup.shared else { return Some(None) };
+        let size = self.held.load.len();
+        let units: Vec<DVector<f64>> = self.held.setup.assembled.layout.cut_units();
+        let units: Vec<DVector<f64>> =
+            units.into_iter().map(|unit| unit.resize_vertically(size, 0.0)).collect();
+        let stresses = self.held.answers(&units)?;
+        let contacts = shared.self_stress.nrows();
+        let force = |row: usize, stress: usize| {
+            if row < contacts { shared.self_stress[(row, stress)] } else { stresses[stress][rows[row]] }
+        };
+        let self_stress = DMatrix::from_fn(rows.len(), stresses.len(), force);
+        Some(Some(SharedLoad { self_stress, ..shared.clone() }))
     }
 
     fn leverage(&self, hinge: usize) -> f64 {

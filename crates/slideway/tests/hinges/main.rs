@@ -15,6 +15,7 @@ mod motion;
 mod random_linkages;
 mod reading;
 mod reference;
+mod shared_loads;
 mod standstill;
 mod tables;
 mod turning;

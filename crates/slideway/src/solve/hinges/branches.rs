@@ -6,13 +6,13 @@ use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::found::hinge_states;
 use super::spin::{does_not_turn, sense};
-use super::{answers, block_problem, check_determinate, coefficients_of};
-use crate::enclosure::TurningHinge;
+use super::{block_coefficients, exact_problem};
+use crate::enclosure::{BlockCoefficients, BlockNumbers, TurningHinge};
 use crate::fault::Faults;
 use crate::modes::branches::{BranchForces, Instance, Outputs};
 use crate::modes::existence::OutputBound;
 use crate::modes::{BySide, ContactState};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// The hinges of these friction circles, with the sense in which each turns; one that has no friction here may stand.
 ///
@@ -37,7 +37,7 @@ pub(crate) fn turning_hinges(stages: &Stages, circles: &[usize]) -> Result<Vec<T
 /// The block problem of these hinges, with the couples of guided sliders as outputs.
 ///
 /// # Errors
-/// Guides that share a load; numbers beyond the range of floating point.
+/// Nothing says how redundant guides share their load; numbers beyond the range of floating point.
 pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result<Instance, Faults> {
     GrowingFriction::new(stages, hinges)?.at(1.0)
 }
@@ -46,27 +46,23 @@ pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result
 pub(crate) struct GrowingFriction<'a> {
     stages: &'a Stages,
     hinges: &'a [TurningHinge],
-    /// As it is, with the couples of guided sliders as outputs.
-    now: Instance,
+    /// With the couples of guided sliders below.
+    coefficients: BlockCoefficients<f64>,
+    bounds: Vec<OutputBound>,
+    senses: Vec<i8>,
 }
 
 impl<'a> GrowingFriction<'a> {
     /// # Errors
-    /// Guides that share a load; numbers beyond the range of floating point.
+    /// Nothing says how redundant guides share their load.
     pub(crate) fn new(stages: &'a Stages, hinges: &'a [TurningHinge]) -> Result<Self, Faults> {
-        check_determinate(&stages.mechanism)?;
         let (bounds, rows): (Vec<OutputBound>, Vec<usize>) =
             couples(&stages.mechanism, &stages.influence).into_iter().unzip();
-        let data = stages.hinged();
-        let [positive, negative] = answers(data, &rows);
-        let outputs = coefficients_of(data, hinges, &rows, BySide { positive, negative });
-        let outputs =
-            Outputs { response: outputs.response(), jumps: outputs.jumps(), load: outputs.frictionless };
         let turning = hinges.iter().map(|hinge| hinge.sense);
         let sense = |sign: f64| i8::from(sign > 0.0) - i8::from(sign < 0.0);
         let senses = stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
-        let now = Instance { problem: block_problem(data, hinges)?, outputs, bounds, senses };
-        is_finite(&now.outputs).then_some(Self { stages, hinges, now }).ok_or_else(overflow)
+        let coefficients = block_coefficients(stages.hinged(), hinges, &rows)?;
+        Ok(Self { stages, hinges, coefficients, bounds, senses })
     }
 
     /// With this factor.
@@ -77,8 +73,27 @@ impl<'a> GrowingFriction<'a> {
         let mut factors = vec![factor; self.stages.mechanism.contacts.len()];
         let circle = |hinge: &TurningHinge| self.stages.mechanism.friction_circles[hinge.circle];
         factors.extend(self.hinges.iter().map(|hinge| circle(hinge).growth(factor)));
-        let instance = self.now.with_response_times(&factors).map_err(|_| overflow())?;
-        is_finite(&instance.outputs).then_some(instance).ok_or_else(overflow)
+        let numbers = self.coefficients.rougher(&factors);
+        let unknowns = numbers.load.len() - self.bounds.len();
+        let part = |matrix: &DMatrix<f64>, below: bool| {
+            if below { matrix.rows_range(unknowns..) } else { matrix.rows_range(..unknowns) }.into_owned()
+        };
+        let parts = |both: &BySide<DMatrix<f64>>, below: bool| BySide {
+            positive: part(&both.positive, below),
+            negative: part(&both.negative, below),
+        };
+        let outputs = Outputs {
+            response: parts(&numbers.response, true),
+            jumps: parts(&numbers.jumps, true),
+            load: numbers.load.rows_range(unknowns..).into_owned(),
+        };
+        let problem = exact_problem(BlockNumbers {
+            response: parts(&numbers.response, false),
+            jumps: parts(&numbers.jumps, false),
+            load: numbers.load.rows_range(..unknowns).into_owned(),
+        })?;
+        let (bounds, senses) = (self.bounds.clone(), self.senses.clone());
+        is_finite(&outputs).then_some(Instance { problem, outputs, bounds, senses }).ok_or_else(overflow)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::influence::HingeState;
 use crate::interval::{Interval, Real};
 use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
-use crate::modes::{Certificate, ContactState};
+use crate::modes::{Certificate, ContactState, Side};
 use crate::report::{Proof, SolveReport};
 use nalgebra::{DMatrix, DVector};
 
@@ -64,6 +64,8 @@ fn region_in_words(region: &OpenRegion) -> String {
 pub(super) struct HingedAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
+    /// The problem without friction.
+    pub(super) frictionless: &'a BlockProblem,
     pub(super) hinges: &'a [TurningHinge],
 }
 
@@ -76,7 +78,7 @@ impl HingedAnswer<'_> {
         let (mut solutions, mut gaps) = (Vec::new(), Vec::new());
         for solution in found.result.solutions.iter().take(found.most) {
             let directions = directions(self.problem, &solution.states, &solution.reactions);
-            let oriented = directions.determinant();
+            let oriented = self.oriented(&directions, solution);
             let signs: Vec<i8> = (0..solution.states.len())
                 .map(|k| if solution.on_boundary.contains(&k) { 0 } else { signs(&solution.states)[k] })
                 .collect();
@@ -96,12 +98,15 @@ impl HingedAnswer<'_> {
             };
             let Some(mut kept) = self.answer.kept(&state, &mut tipping) else { continue };
             kept.margin = growth.and_then(|growth| growth.margin(solution));
-            if !solution.gaps.is_empty() {
+            if !self.answer.mechanism.excess.open.is_solution(&solution.states) {
                 gaps.push(kept);
                 continue;
             }
+            if self.answer.shared.is_some() {
+                kept.oriented_determinant = oriented;
+            }
             kept.attainability = if solution.on_boundary.is_empty() && solution.unloaded.is_empty() {
-                elastic.of(directions)
+                elastic.of(directions, &solution.states)
             } else {
                 not_computed("a contact is about to change side, or a hinge with friction carries nothing")
             };
@@ -124,6 +129,27 @@ impl HingedAnswer<'_> {
             rejected: tipping.rejected,
             ..self.answer.report_without_solutions(open)
         }
+    }
+}
+
+impl HingedAnswer<'_> {
+    /// The determinant of `I - H D`; of guides that share a load relative to that of the same contacts without friction,
+    /// with the columns of open contacts in their places.
+    fn oriented(&self, directions: &DMatrix<f64>, solution: &BlockSolution) -> f64 {
+        if self.answer.shared.is_none() {
+            return directions.determinant();
+        }
+        let with_open = |mut matrix: DMatrix<f64>| {
+            for (k, _) in solution.states.iter().enumerate().filter(|(_, state)| state.side().is_none()) {
+                let [positive, negative] =
+                    Side::BOTH.map(|side| self.problem.jumps(side).centre().column(k).into_owned());
+                matrix.set_column(k, &(negative - positive));
+            }
+            matrix.determinant()
+        };
+        let without = self::directions(self.frictionless, &solution.states, &solution.reactions);
+        let [with, without] = [directions.clone(), without].map(with_open);
+        if without == 0.0 { 0.0 } else { with / without }
     }
 }
 

@@ -7,7 +7,9 @@ use crate::enclosure::{EnclosedBlockProblem, TurningHinge};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::modes::SearchOptions;
-use crate::modes::blocks::{self, BlockSolution, unique_for_every_load};
+use crate::modes::blocks::{
+    self, BlockProblem, BlockSolution, UniqueForEveryLoad, unique_for_every_load,
+};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
 use crate::progress::Work;
@@ -48,7 +50,7 @@ pub(super) struct Growth<'a> {
 
 impl<'a> Growth<'a> {
     /// # Errors
-    /// Guides that share a load.
+    /// Nothing says how redundant guides share their load.
     pub(super) fn new(
         stages: &'a Stages,
         hinges: &'a [TurningHinge],
@@ -113,17 +115,28 @@ impl<'a> Growth<'a> {
     fn number_at(&self, logarithm: f64) -> Option<Number> {
         let mut solutions = self.solutions(logarithm)?;
         let instance = self.at(logarithm).ok()?;
-        solutions.retain(|solution| solution.gaps.is_empty() && keeps_bounds(&instance, solution));
+        let open = &self.mechanism.excess.open;
+        solutions.retain(|solution| open.is_solution(&solution.states) && keeps_bounds(&instance, solution));
         let last = solutions.pop().filter(|_| solutions.is_empty());
         Some(last.map_or(Number::Another, |last| Number::One(Box::new(last))))
     }
 
     /// Whether every load has exactly one solution up to this logarithm of the factor: what proves it grows with
-    /// friction.
+    /// friction, but for press fits, whose open faces are no friction.
     fn is_unique(&self, logarithm: f64) -> bool {
-        self.at(logarithm).is_ok_and(|instance| {
-            instance.bounds.is_empty() && unique_for_every_load(&instance.problem).is_some()
-        })
+        self.mechanism.press_fits().is_empty()
+            && self.at(logarithm).is_ok_and(|instance| {
+                instance.bounds.is_empty() && self.unique_as_friction_grows(&instance.problem)
+            })
+    }
+
+    /// Why every load has exactly one solution, by what grows with friction: the scaled norm of guides that share a load
+    /// does not.
+    fn unique_as_friction_grows(&self, problem: &BlockProblem) -> bool {
+        match unique_for_every_load(problem) {
+            Some(UniqueForEveryLoad::ScaledNorm) => self.mechanism.excess.is_empty(),
+            why => why.is_some(),
+        }
     }
 
     /// A factor of all friction above 1 up to which every load has exactly one solution, rounded down; none if that does
@@ -147,7 +160,7 @@ impl<'a> Growth<'a> {
     /// mechanism; none if it is not proven. What proves it grows with friction, so that it holds below, too.
     pub(super) fn unique_at_least(&self, enclosed: &EnclosedBlockProblem) -> Option<f64> {
         let factor = self.unique_until()?;
-        unique_for_every_load(&enclosed.rougher(factor)?).map(|_| factor)
+        self.unique_as_friction_grows(&enclosed.rougher(factor)?).then_some(factor)
     }
 
     /// The number of solutions at the second of two logarithms of the factor, or in between if it is another one there,
@@ -226,7 +239,7 @@ fn rounded_down(number: f64) -> f64 {
 /// followed, and all are sought at the factors. None if that is not decided, or a hinge never turns.
 ///
 /// # Errors
-/// Hinges with friction that do not turn now; guides that share a load.
+/// Hinges with friction that do not turn now; nothing says how redundant guides share their load.
 pub(crate) fn factors_with_one_solution(
     stages: &Stages,
     factors: &[f64],
@@ -243,7 +256,7 @@ pub(crate) fn factors_with_one_solution(
 /// there always is one; where there is none as it is, the factor to which it has to fall. None if that was not found.
 ///
 /// # Errors
-/// Guides that share a load.
+/// Nothing says how redundant guides share their load.
 pub(crate) fn locking_factor(
     stages: &Stages,
     hinges: &[TurningHinge],

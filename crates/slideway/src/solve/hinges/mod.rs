@@ -17,12 +17,13 @@ use super::SolveOptions;
 use super::answer::Answer;
 use super::mode_problem::{none_stands, overflow, preload_columns, without_rounding};
 use super::stages::Stages;
-use super::standing;
+use super::{sharing, standing};
 use crate::configuration::Configuration;
 use crate::enclosure::{
-    BlockCoefficients, TurningHinge, UncertainParameters, enclosed_block_problem, enclosed_while,
+    BlockCoefficients, BlockNumbers, TurningHinge, UncertainParameters, enclosed_block_problem,
+    enclosed_while,
 };
-use crate::fault::{Fault, FaultKind, Faults, MOST_CONTACTS};
+use crate::fault::{Faults, MOST_CONTACTS};
 use crate::ids::JointId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
@@ -32,6 +33,8 @@ use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
 use crate::progress::{Callback, as_far_as_wanted};
 use crate::report::{MarginsMissing, SolveReport};
+use crate::sharing::{NO_STRESS, shared_load};
+use branches::GrowingFriction;
 pub(crate) use found::directions;
 use found::{BlocksFound, HingedAnswer};
 use margins::Growth;
@@ -44,7 +47,7 @@ use spin::{Spins, never_turn, spins};
 /// parameters leave certain.
 ///
 /// # Errors
-/// Hinges with friction that do not turn now, or more than one that never does; friction in hinges beside guides that share a load; numbers beyond the range
+/// Hinges with friction that do not turn now, or more than one that never does; numbers beyond the range
 /// of floating point.
 pub(super) fn solve(
     model: &Model,
@@ -64,11 +67,17 @@ pub(super) fn solve(
         enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning, work)
     });
     let enclosed_outputs = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
-    let answer = Answer { enclosed: enclosed_outputs, ..Answer::determinate(stages, equations) };
+    let answer = Answer {
+        enclosed: enclosed_outputs,
+        shared: stages.shared_load()?,
+        elasticity: stages.elasticity()?,
+        ..Answer::determinate(stages, equations)
+    };
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);
     let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
-    let answer = HingedAnswer { answer, problem: &problem, hinges: &turning };
+    let frictionless = GrowingFriction::new(stages, &turning)?.at(0.0)?.problem;
+    let answer = HingedAnswer { answer, problem: &problem, frictionless: &frictionless, hinges: &turning };
     let (report, _) = as_far_as_wanted(progress, |work| {
         let growth = options.margins.then(|| Growth::new(stages, &turning, work)).transpose()?;
         let unique_at_least = growth
@@ -77,10 +86,12 @@ pub(super) fn solve(
             .and_then(|growth| growth.unique_at_least(enclosed.as_ref().ok()?));
         Ok::<_, Faults>(SolveReport { unique_at_least, ..answer.report(&found, growth.as_ref()) })
     });
+    let mut report = report?;
+    sharing::add(&mut report, stages, false)?;
     Ok(SolveReport {
         margins_missing: options.margins.then_some(MarginsMissing::FrictionInHinges),
         uncertainty: answer.uncertainty(model, ranges, options, progress),
-        ..report?
+        ..report
     })
 }
 
@@ -93,7 +104,6 @@ pub(super) fn solve(
 pub fn exact_block_problem(model: &Model) -> Result<BlockProblem, Faults> {
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
-    check_determinate(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let Spins { turning, standing } = spins(&stages.mechanism, &stages.configuration, &stages.influence)?;
@@ -119,59 +129,47 @@ pub(crate) fn check_hinges(
 /// The hinges with friction: all of them turn, or there is one only, which never does.
 ///
 /// # Errors
-/// Guides that share a load; hinges that do not turn now, or never, but for that one.
+/// Hinges that do not turn now, or never, but for that one.
 fn accepted_spins(
     mechanism: &Mechanism,
     configuration: &Configuration,
     influence: &Influence,
 ) -> Result<Spins, Faults> {
-    check_determinate(mechanism)?;
     let spins = spins(mechanism, configuration, influence)?;
-    let has_few_contacts = mechanism.contacts.len() <= MOST_CONTACTS;
+    let has_few_contacts = mechanism.contacts.len() <= MOST_CONTACTS && mechanism.excess.is_empty();
     if !(spins.standing.len() == 1 && spins.turning.is_empty() && has_few_contacts) {
         never_turn(mechanism, &spins.standing)?;
     }
     Ok(spins)
 }
 
-/// Refuses friction in hinges where guides share a load.
-fn check_determinate(mechanism: &Mechanism) -> Result<(), Faults> {
-    if mechanism.excess.is_empty() {
-        return Ok(());
-    }
-    let hinges = mechanism.rough_hinges().map(|(_, joint)| mechanism.joints[joint.index()].name.to_string());
-    Err(Fault::general(FaultKind::FrictionInHingesOfRedundant { hinges: hinges.collect() }).into())
-}
-
 fn block_problem(data: HingedData<'_>, hinges: &[TurningHinge]) -> Result<BlockProblem, Faults> {
-    let numbers = block_coefficients(data, hinges);
-    BlockProblem::new(numbers.response(), numbers.jumps(), numbers.frictionless).map_err(|_| overflow())
+    exact_problem(block_coefficients(data, hinges, &[])?.numbers())
 }
 
-/// What the block mode problem is made of, in floating point.
-pub(super) fn block_coefficients(data: HingedData<'_>, hinges: &[TurningHinge]) -> BlockCoefficients<f64> {
-    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
-    let rows = data.influence.block_rows(&joints);
-    let eta = without_rounding(data.mechanism, answers(data, &rows));
-    coefficients_of(data, hinges, &rows, eta)
+fn exact_problem(BlockNumbers { response, jumps, load }: BlockNumbers<f64>) -> Result<BlockProblem, Faults> {
+    BlockProblem::new(response, jumps, load).map_err(|_| overflow())
 }
 
-/// What a unit friction force of each contact adds to these unknowns, at either face.
-pub(super) fn answers(data: HingedData<'_>, rows: &[usize]) -> [DMatrix<f64>; 2] {
-    let columns = &data.influence.columns;
-    [0, 1].map(|side| DMatrix::from_fn(rows.len(), columns.len(), |row, k| columns[k][side][rows[row]]))
-}
-
-/// What these unknowns are made of, with those answers to the friction of the contacts.
-pub(super) fn coefficients_of(
+/// What the block mode problem is made of, in floating point, with these unknowns below its rows.
+///
+/// # Errors
+/// Nothing says how redundant guides share their load.
+pub(super) fn block_coefficients(
     data: HingedData<'_>,
     hinges: &[TurningHinge],
-    rows: &[usize],
-    eta: BySide<DMatrix<f64>>,
-) -> BlockCoefficients<f64> {
+    below: &[usize],
+) -> Result<BlockCoefficients<f64>, Faults> {
     let HingedData { mechanism, influence, velocity_signs, .. } = data;
+    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
+    let own = influence.block_rows(&joints);
+    let rows = [&own, below].concat();
+    let eta = without_rounding(mechanism, answers(influence, &own));
+    let [positive, negative] = answers(influence, below);
+    let eta =
+        BySide { positive: stacked(&eta.positive, &positive), negative: stacked(&eta.negative, &negative) };
     let [mu, preload] = friction_of_contacts(&mechanism.contacts, &|_| true);
-    BlockCoefficients {
+    Ok(BlockCoefficients {
         eta_preload: preload_columns(mechanism, &eta),
         eta,
         mu,
@@ -185,7 +183,30 @@ pub(super) fn coefficients_of(
             -mechanism.friction_circles[circle].radius * sense
         }),
         frictionless: DVector::from_fn(rows.len(), |row, _| influence.frictionless[rows[row]]),
-    }
+        shared: shared_load(mechanism, stresses_in(influence, &rows))?,
+    })
+}
+
+/// What a unit friction force of each contact adds to these unknowns, at either face.
+fn answers(influence: &Influence, rows: &[usize]) -> [DMatrix<f64>; 2] {
+    let columns = &influence.columns;
+    [0, 1].map(|side| DMatrix::from_fn(rows.len(), columns.len(), |row, k| columns[k][side][rows[row]]))
+}
+
+/// The self-stresses in these unknowns.
+fn stresses_in(influence: &Influence, rows: &[usize]) -> DMatrix<f64> {
+    let stresses = &influence.self_stresses;
+    DMatrix::from_fn(rows.len(), stresses.len(), |row, stress| {
+        let force = stresses[stress][rows[row]];
+        if force.abs() <= NO_STRESS { 0.0 } else { force }
+    })
+}
+
+/// Two matrices of as many columns, one below the other.
+fn stacked(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut both = above.clone().resize_vertically(above.nrows() + below.nrows(), 0.0);
+    both.rows_mut(above.nrows(), below.nrows()).copy_from(below);
+    both
 }
 
 /// The friction coefficients and the preloads of contacts, zero where they have no part.

@@ -1,13 +1,13 @@
 //! The forces of each mode, affine in the friction that is free, and where it satisfies all inequalities.
 
-use super::super::hinges::{answers, block_coefficients, coefficients_of};
+use super::super::hinges::block_coefficients;
 use super::super::mode_problem::{NO_INFLUENCE, overflow};
 use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::circle::within_circle;
 use super::free::Free;
 use super::polyhedron::{Extremes, Polyhedron};
-use crate::enclosure::TurningHinge;
+use crate::enclosure::{BlockNumbers, TurningHinge};
 use crate::fault::Faults;
 use crate::law::COUPLE_TOLERANCE;
 use crate::modes::existence::OutputBound;
@@ -54,23 +54,10 @@ impl<'a> Modes<'a> {
         let data = stages.hinged();
         let (bounds, below): (Vec<OutputBound>, Vec<usize>) =
             couples(&stages.mechanism, &stages.influence).into_iter().unzip();
-        let [positive, negative] = answers(data, &below);
-        let numbers = block_coefficients(data, &hinges);
-        let outputs = coefficients_of(data, &hinges, &below, BySide { positive, negative });
+        let BlockNumbers { response, jumps, load } = block_coefficients(data, &hinges, &below)?.numbers();
         let mut places = stages.influence.block_rows(&joints);
         places.extend(below);
-        let modes = Self {
-            stages,
-            free,
-            response: stacked(&numbers.response(), &outputs.response()),
-            jumps: stacked(&numbers.jumps(), &outputs.jumps()),
-            load: DVector::from_iterator(
-                places.len(),
-                numbers.frictionless.iter().chain(&outputs.frictionless).copied(),
-            ),
-            places,
-            bounds,
-        };
+        let modes = Self { stages, free, response, jumps, load, places, bounds };
         let sides =
             [&modes.response, &modes.jumps].into_iter().flat_map(|both| [&both.positive, &both.negative]);
         let entries = sides.flat_map(|matrix| matrix.iter()).chain(&modes.load);
@@ -214,16 +201,4 @@ fn cut(interval: &Extremes, range: [f64; 2]) -> Option<Extremes> {
             growths: ends.into_iter().map(|end| point(end.signum())).collect(),
         }
     })
-}
-
-fn stacked(upper: &BySide<DMatrix<f64>>, lower: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
-    let one = |upper: &DMatrix<f64>, lower: &DMatrix<f64>| {
-        let mut both = upper.clone().resize_vertically(upper.nrows() + lower.nrows(), 0.0);
-        both.rows_mut(upper.nrows(), lower.nrows()).copy_from(lower);
-        both
-    };
-    BySide {
-        positive: one(&upper.positive, &lower.positive),
-        negative: one(&upper.negative, &lower.negative),
-    }
 }
