@@ -46,7 +46,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
 /// Modules of `slideway-modes`, floor by floor: a module knows only those of lower floors.
 const FLOORS_OF_MODES: &[&[&str]] = &[
     &["combinations", "error_free", "names", "printable", "progress", "random_numbers", "status"],
-    &["dense"],
+    &["dense", "scan"],
     &["interval", "simplex"],
     &["interval_matrix"],
     &["problem"],

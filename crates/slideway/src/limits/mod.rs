@@ -62,7 +62,6 @@ pub use report::{
     REST_SCHEMA, RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, VariedQuantity,
 };
 pub use rest::{rest_limits, rest_limits_with};
-pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
 pub use varied::{FRICTION, Variable, variables};
 pub(crate) use varied::{Varied, mechanism_with};
