@@ -16,8 +16,8 @@ use std::ops::ControlFlow;
 const SAME_ROW: f64 = 1e-9;
 /// Places nearer to zero than this share of the range are zero.
 const ROUNDING: f64 = 1e-12;
-/// Steps between which efforts that pass through infinity are sought.
-const STEPS: usize = 500;
+/// Steps between which efforts that pass through infinity, and changes of the number of solutions, are sought.
+pub(super) const STEPS: usize = 500;
 
 /// What can be missed.
 pub(super) struct Guarantee {

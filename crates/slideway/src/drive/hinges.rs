@@ -2,7 +2,7 @@
 //! rest moves: each row is solved by itself, and where the number of solutions changes, as about a dead centre,
 //! is sought between evenly spaced values.
 
-use super::course::{Guarantee, modes, nothing, rows_of, with_blow_ups};
+use super::course::{Guarantee, STEPS, modes, nothing, rows_of, with_blow_ups};
 use super::efforts::{grows, velocities};
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, LockedRange, Sense};
 use super::state::{self, AllEfforts};
@@ -18,8 +18,6 @@ use crate::solve::{
 };
 use std::ops::ControlFlow;
 
-/// Steps between which changes of the number of solutions are sought.
-const STEPS: usize = 500;
 /// How near to an end growth is judged, as fractions of the range.
 const NEAR: [f64; 2] = [1e-4, 1e-6];
 
