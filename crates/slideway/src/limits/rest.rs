@@ -5,7 +5,7 @@
 
 use super::answer::held_state;
 use super::found::SameEnds;
-use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
+use super::report::{REST_SCHEMA, RestLimitsReport, STEPS, SpanOfRest, VariedQuantity};
 use super::scan::kind;
 use super::vary::Vary;
 use crate::fault::Faults;
@@ -15,9 +15,6 @@ use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::scan::{Sample, Scan, Stretch, evenly, samples};
 use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
-
-/// Evenly spaced values that are tried: a heuristic.
-pub(super) const STEPS: usize = 100;
 
 /// The answer at a value: whether it can rest, if that was decided, or why there is no answer.
 type Found = Result<Option<bool>, Faults>;

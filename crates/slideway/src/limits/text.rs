@@ -2,9 +2,8 @@
 
 use super::report::{
     CountLimits, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    RangeWithoutProblem, RestLimitsReport, SpanOfRest, SpeedLimits,
+    RangeWithoutProblem, RestLimitsReport, STEPS, SpanOfRest, SpeedLimits,
 };
-use super::rest::STEPS;
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
