@@ -5,6 +5,7 @@ use crate::explain::listing;
 use crate::faulty_input::FaultyInput;
 use crate::halt::Halt;
 use crate::outcome::Outcome;
+use slideway::fault::CommandLine;
 use slideway::import::ImportFault;
 use slideway::limits::{FRICTION, Variable};
 use slideway::printable;
@@ -277,6 +278,7 @@ impl Failure {
             Self::FileFormat { known, .. } | Self::SeriesFormat { known, .. } => {
                 Some(format!("possible extensions: {}", known.join(", ")))
             }
+            Self::Drawing { fault, .. } => fault.hint_for(&CommandLine),
             Self::OutputExists { .. } => Some(OVERWRITE.to_owned()),
             Self::FolderExists { .. } => Some("name a folder that does not exist yet".to_owned()),
             Self::Table(error) => hint_on(error).map(str::to_owned),

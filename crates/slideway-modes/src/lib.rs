@@ -71,6 +71,7 @@
 //!
 //! - `combinations.rs` (choices of indices), `error_free.rs` (exact rounding errors), `dense.rs` (factorizations and products that can be
 //!   interrupted), `simplex/` (linear programs), `interval/`, `interval_matrix.rs`: numbers.
+//! - `progress.rs` (progress, and ending the work), `scan.rs` (values of a range, and bisection of what differs between them).
 //! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances
 //!   are pure numbers.
 //! - `certificate/`: proofs that decide one pattern, and proofs that sets of patterns are empty.
@@ -107,6 +108,7 @@ pub mod progress;
 #[cfg(test)]
 mod random_numbers;
 pub mod raw_problem;
+pub mod scan;
 pub mod screen;
 mod search;
 mod simplex;

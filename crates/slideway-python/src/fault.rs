@@ -4,7 +4,7 @@ use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use slideway::Faults;
-use slideway::fault::{Fault, FaultKind, Source};
+use slideway::fault::{Face, Fault, FaultKind, Source};
 use slideway::model::{SettingKind, Settings};
 use slideway::printable;
 use std::io;
@@ -37,7 +37,7 @@ impl Texts<'_> {
     fn fault<'py>(self, class: &Bound<'py, PyAny>, fault: &Fault) -> PyResult<Bound<'py, PyAny>> {
         let values = PyDict::new(class.py());
         values.set_item("message", printable::lines(&fault.kind.to_string()))?;
-        values.set_item("hint", fault.kind.hint().map(|hint| printable::lines(&in_python(&hint))))?;
+        values.set_item("hint", fault.kind.hint_for(&InPython).as_deref().map(printable::lines))?;
         values.set_item("is_warning", matches!(fault.kind, FaultKind::Doubt(_)))?;
         if let Some(place) = &fault.place {
             let (argument, text) = match &place.source {
@@ -90,44 +90,25 @@ pub(crate) fn in_file(py: Python<'_>, path: &Path, error: PyErr) -> PyErr {
     named.err().unwrap_or(error)
 }
 
-/// A text with what Python calls options and commands of the command line: `--max-steps` is `max_steps`,
-/// `--samples 10000` in a code span is `samples=10000`, `--rate x=1` is `rate={"x": 1}`, and `slideway hold` is
-/// `model.hold()`.
-pub(crate) fn in_python(text: &str) -> String {
-    let spans = text.split('`').enumerate().map(|(index, span)| match index % 2 {
-        0 => option_names(span),
-        _ => code(span),
-    });
-    spans.collect::<Vec<_>>().join("`")
-}
+/// Python: options are arguments, questions are methods.
+pub(crate) struct InPython;
 
-/// Options without their dashes, in words.
-fn option_names(words: &str) -> String {
-    let mut parts = words.split("--");
-    let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |told, part| {
-        let end = part.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(part.len());
-        told + &part[..end].replace('-', "_") + &part[end..]
-    })
-}
-
-/// A part of a command line.
-fn code(span: &str) -> String {
-    match span.strip_prefix("slideway ") {
-        Some("models") => return "slideway.gallery_models()".to_owned(),
-        Some(command) => return format!("model.{command}()"),
-        None if !span.starts_with("--") => return span.to_owned(),
-        None => (),
+impl Face for InPython {
+    fn option(&self, name: &str) -> String {
+        name.replace('-', "_")
     }
-    let words: Vec<&str> = span.split_whitespace().collect();
-    let entry = |value: &str| value.split_once('=').map(|(name, value)| format!("\"{name}\": {value}"));
-    let entries: Vec<String> = words.iter().filter_map(|word| entry(word)).collect();
-    match *words {
-        [option, ..] if !entries.is_empty() => {
-            format!("{}={{{}}}", option_names(option), entries.join(", "))
-        }
-        [option, value] if value.parse::<f64>().is_ok() => format!("{}={value}", option_names(option)),
-        [option, value] => format!("{}=\"{value}\"", option_names(option)),
-        _ => option_names(span),
+
+    fn option_with(&self, name: &str, value: &str) -> String {
+        let quote = if value.parse::<f64>().is_ok() { "" } else { "\"" };
+        format!("{}={quote}{value}{quote}", self.option(name))
+    }
+
+    fn rates(&self, coordinates: &[String]) -> String {
+        let rates: Vec<String> = coordinates.iter().map(|name| format!("\"{name}\": 1")).collect();
+        format!("rate={{{}}}", rates.join(", "))
+    }
+
+    fn question(&self, name: &str) -> String {
+        if name == "models" { "slideway.gallery_models()".to_owned() } else { format!("model.{name}()") }
     }
 }

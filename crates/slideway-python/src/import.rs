@@ -1,6 +1,6 @@
 //! Models to complete, from drawings.
 
-use crate::fault::in_python;
+use crate::fault::InPython;
 use crate::work::Watch;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -61,7 +61,10 @@ pub(crate) fn import_dxf(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let watch = Watch::new(time_limit, progress)?;
-    let refused = |fault: ImportFault| PyValueError::new_err(in_python(&fault.to_string()));
+    let refused = |fault: ImportFault| {
+        let hint = fault.hint_for(&InPython).map_or_else(String::new, |hint| format!("; {hint}"));
+        PyValueError::new_err(format!("{fault}{hint}"))
+    };
     let unit: Option<Unit> = unit.map(str::parse).transpose().map_err(PyValueError::new_err)?;
     if std::fs::metadata(&path)?.len() > DRAWING_LIMIT {
         return Err(refused(ImportFault::DrawingTooLarge { limit: DRAWING_LIMIT }));

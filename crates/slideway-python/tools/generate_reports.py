@@ -52,8 +52,8 @@ ITEM = re.compile(
     r"^pub (?P<kind>struct|enum) (?P<name>\w+)(?:<[^>]*>)? \{\n(?P<body>[\s\S]*?)^\}",
     re.MULTILINE,
 )
-# Enumerations that have a word each in tables are declared within a macro (choice.rs).
-WORDED = re.compile(r"^worded! \{\n([\s\S]*?)^\}\n", re.MULTILINE)
+# Enumerations that have a word each in tables, and the kinds of others, are declared within macros (choice.rs).
+WORDED = re.compile(r"^(?:worded|kinds)! \{\n([\s\S]*?)^\}\n", re.MULTILINE)
 SIMPLE = {"f64": "float", "bool": "bool", "String": "str", "str": "str", "Arc<str>": "str"}
 ARRAYS = {"Vec<f64>": "array", "Vec<Option<f64>>": "array", "Vec<[f64; 2]>": "pairs"}
 INTEGERS = {f"{sign}{size}" for sign in "iu" for size in ("8", "16", "32", "64", "128", "size")}

@@ -53,3 +53,23 @@ macro_rules! worded {
     };
 }
 pub(crate) use worded;
+
+/// Declares the kinds of another enumeration: its members, of the same names, without their values.
+macro_rules! kinds {
+    ($whole:ident => $(#[$about:meta])* pub enum $name:ident { $($(#[$meaning:meta])* $member:ident),+ $(,)? }) => {
+        $(#[$about])*
+        pub enum $name {
+            $($(#[$meaning])* $member),+
+        }
+
+        impl $whole {
+            /// Its name in reports.
+            pub fn kind(&self) -> $name {
+                match self {
+                    $(Self::$member { .. } => $name::$member),+
+                }
+            }
+        }
+    };
+}
+pub(crate) use kinds;

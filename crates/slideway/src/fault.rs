@@ -4,10 +4,12 @@
 
 mod axis;
 mod doubt;
+mod face;
 mod no_sliding;
 
 pub use axis::AxisProblem;
 pub use doubt::Doubt;
+pub use face::{CommandLine, Face};
 pub use no_sliding::NoSliding;
 pub(crate) use no_sliding::{MOST_CONTACTS, MOST_STANDING};
 pub use slideway_modes::names::nearest;
@@ -523,12 +525,25 @@ impl FaultKind {
         )
     }
 
-    /// What to do about it, where there is something better to say than the message itself.
+    /// What to do about it, in the words of the command line, where there is something better to say than the
+    /// message itself.
     pub fn hint(&self) -> Option<String> {
+        self.hint_for(&CommandLine)
+    }
+
+    /// What to do about it, in the words of an interface.
+    pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
+        self.hint_of_values(face)
+            .or_else(|| self.hint_of_face(face))
+            .or_else(|| self.fixed_hint().map(str::to_owned))
+    }
+
+    /// Hints that depend on the values.
+    fn hint_of_values(&self, face: &dyn Face) -> Option<String> {
         match self {
             Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
-            Self::Axis { problem, .. } => problem.hint(),
-            Self::Doubt(doubt) => Some(doubt.hint()),
+            Self::Axis { problem, .. } => problem.hint_for(face),
+            Self::Doubt(doubt) => Some(doubt.hint_for(face)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }
@@ -543,10 +558,6 @@ impl FaultKind {
                 Some(suggestion) => format!("the redundancy lies among {}; {suggestion}", joints.join(", ")),
                 None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
-            Self::SharedLoad { .. } => Some(
-                "`slideway simulate` cannot yet follow guides that share a load: ask `slideway solve` at instants of the motion, `sweep` along it, or `hold` where it stops"
-                    .to_owned(),
-            ),
             Self::ImpactTips { .. } => Some(
                 "its face is not pressed enough to bear its couple: with `type = \"block_slider\"` both ends of its block bear it"
                     .to_owned(),
@@ -561,10 +572,6 @@ impl FaultKind {
             Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
             Self::RigidWithoutPlay { .. } => Some(
                 "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"
-                    .to_owned(),
-            ),
-            Self::PressFit { .. } => Some(
-                "give a play of zero or more; press fits that slide under a given load are for `slideway solve`, `limits`, `drive`, `size`, `sweep` and `map`, those at rest for `hold`"
                     .to_owned(),
             ),
             Self::PressFitWithoutStiffness { .. } => Some(
@@ -592,29 +599,71 @@ impl FaultKind {
             Self::NotAssembled { reached: Some(reached), .. } => {
                 Some(format!("on the path from the drawing it can be assembled up to {reached}"))
             }
-            Self::ContradictoryPhase { possible, .. } if possible.is_empty() => {
-                Some("it cannot begin in any mode: `slideway solve` says why".to_owned())
-            }
-            Self::ContradictoryPhase { possible, .. } => {
+            Self::ContradictoryPhase { possible, .. } if !possible.is_empty() => {
                 let modes: Vec<String> = possible.iter().map(|mode| format!("`{mode}`")).collect();
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
-            Self::ZeroSlidingVelocity { why, .. } => Some(why.hint()),
-            Self::HingeDoesNotTurn { why, .. } => Some(why.hint_of_hinge()),
+            Self::ZeroSlidingVelocity { why, .. } => Some(why.hint(face)),
+            Self::HingeDoesNotTurn { why, .. } => Some(why.hint_of_hinge(face)),
             Self::LoadUnused { load } => Some(format!(
-                "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
+                "with `{}` or `{}` the load {load} is considered at rest",
+                face.option_with("against", "self-locking"),
+                face.option_with("against", "hold")
             )),
-            Self::LimitUnit { wanted: "", .. } => {
-                Some("some drives are forces, others torques: name one with --load".to_owned())
-            }
-            Self::LimitUnit { wanted, .. } => Some(format!("give it in {wanted}, or a multiple of it")),
+            Self::LimitUnit { wanted, .. } if !wanted.is_empty() => Some(format!("give it in {wanted}, or a multiple of it")),
             Self::NoDrives { coordinate } => Some(drive_hint(coordinate.as_deref().unwrap_or("q"))),
             Self::NoPad { joint, .. } => Some(format!(
                 "add the area in contact to the table [joints.{}]: `pad = {{ length = \"20 mm\", width = \"15 mm\" }}`",
                 joint.as_deref().unwrap_or("NAME")
             )),
-            _ => self.fixed_hint().map(str::to_owned),
+            _ => None,
         }
+    }
+
+    /// Hints that name options and questions.
+    fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
+        Some(match self {
+            Self::SharedLoad { .. } => format!(
+                "`{}` cannot yet follow guides that share a load: ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
+                face.question("simulate"),
+                face.question("solve")
+            ),
+            Self::PressFit { .. } => format!(
+                "give a play of zero or more; press fits that slide under a given load are for `{}`, `limits`, `drive`, `size`, `sweep` and `map`, those at rest for `hold`",
+                face.question("solve")
+            ),
+            Self::ContradictoryPhase { .. } => {
+                format!("it cannot begin in any mode: `{}` says why", face.question("solve"))
+            }
+            Self::LimitUnit { .. } => {
+                format!("some drives are forces, others torques: name one with {}", face.option("load"))
+            }
+            Self::Empty => {
+                format!("start from a model of the gallery: `{}` lists it", face.question("models"))
+            }
+            Self::MissingKey { key, .. } if key == "bodies" || key == "joints" => {
+                format!("start from a model of the gallery: `{}` lists it", face.question("models"))
+            }
+            Self::SingularPosition { .. } => format!(
+                "draw it in a nearby position; from a drawing that is not singular, {} can lead past this one",
+                face.option("at")
+            ),
+            Self::OverlapVanished { .. } => {
+                format!("the block has left its guide; choose {} closer to the drawing", face.option("at"))
+            }
+            Self::MotionWithoutInertia { .. } => format!(
+                "ask `{}` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
+                face.question("hold")
+            ),
+            Self::NoDirectionAtRest => format!("omit {}", face.option("both-directions")),
+            Self::NothingToSimulate { .. } => {
+                format!("choose a greater {}, or an earlier {}", face.option("until"), face.option("time"))
+            }
+            Self::HeldLoadNeeded { .. } => {
+                format!("name it with {}; the name of a drive stands for its effort", face.option("load"))
+            }
+            _ => return None,
+        })
     }
 
     /// What is wrong, and in parentheses what to do about it.
@@ -626,7 +675,6 @@ impl FaultKind {
     /// Hints that do not depend on the values.
     fn fixed_hint(&self) -> Option<&'static str> {
         match self {
-            Self::Empty => Some("start from a model of the gallery: `slideway models` lists it"),
             Self::NotUtf8 { .. } => Some("save it as UTF-8"),
             Self::MissingKey { key, .. } if key == "mu" => {
                 Some("write `mu = 0` for a contact without friction")
@@ -670,9 +718,6 @@ impl FaultKind {
                 Some("two dots stand between the ends of a range: FROM..TO")
             }
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
-            Self::SingularPosition { .. } => Some(
-                "draw it in a nearby position; from a drawing that is not singular, --at can lead past this one",
-            ),
             Self::TooFar { .. } => Some("draw the mechanism closer to this state"),
             Self::NotFollowed { .. } => Some(
                 "this is a dead centre of the coordinates or a point where branches meet: draw the mechanism beyond it, or choose coordinates that continue there",
@@ -683,30 +728,16 @@ impl FaultKind {
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
-            Self::OverlapVanished { .. } => {
-                Some("the block has left its guide; choose --at closer to the drawing")
-            }
-            Self::MotionWithoutInertia { .. } => Some(
-                "ask `slideway hold` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
-            ),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
-            Self::NoDirectionAtRest => Some("omit --both-directions"),
             Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
             Self::Overflow { .. } | Self::IllConditioned { .. } => {
                 Some("check for lengths, masses, forces or coefficients of absurd magnitude")
-            }
-            Self::MissingKey { key, .. } if key == "bodies" || key == "joints" => {
-                Some("start from a model of the gallery: `slideway models` lists it")
             }
             Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
             Self::MalformedMode { .. } => Some(
                 "+ and - are the signs of normal forces, for hinges those of angular velocities; 0 is a preload gap, = is a contact whose joint sticks, or a hinge that sticks",
             ),
-            Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
-            Self::HeldLoadNeeded { .. } => {
-                Some("name it with --load; the name of a drive stands for its effort")
-            }
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
                 "friction coefficients must be linear functions of it, and nothing else may depend on it",

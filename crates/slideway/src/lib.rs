@@ -104,7 +104,7 @@ pub use sweep::{Sweep, SweepOptions};
 pub use units::UnitSystem;
 
 pub use slideway_modes as modes;
-pub use slideway_modes::{interval, printable, progress};
+pub use slideway_modes::{interval, printable, progress, scan};
 
 /// The examples of the README run.
 #[cfg(doctest)]

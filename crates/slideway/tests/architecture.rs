@@ -38,7 +38,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ),
     ("attainability", &["configuration", "ids", "kinetics", "mechanism", "modes", "report", "sharing"]),
     ("pattern", &["ids", "mechanism", "model", "modes", "progress"]),
-    ("import", &["drawing", "expression", "model", "printable", "progress"]),
+    ("import", &["drawing", "expression", "fault", "model", "printable", "progress"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
     ("template", &["configuration", "fault", "mechanism", "model", "printable"]),
@@ -47,7 +47,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
 /// Modules of `slideway-modes`, floor by floor: a module knows only those of lower floors.
 const FLOORS_OF_MODES: &[&[&str]] = &[
     &["combinations", "error_free", "names", "printable", "progress", "random_numbers", "status"],
-    &["dense"],
+    &["dense", "scan"],
     &["interval", "simplex"],
     &["interval_matrix"],
     &["problem"],
@@ -131,6 +131,21 @@ fn a_floor_of_motion_imports_only_floors_below() {
                 let restricted = line.contains("pub(in crate::motion)");
                 assert!(restricted || used.into_iter().all(own), "{}: `{}`", file.display(), line.trim());
             }
+        }
+    }
+}
+
+/// Options and questions have other names in Python: only `Face` knows those of the command line.
+#[test]
+fn faults_do_not_speak_the_words_of_one_interface() {
+    let mut all = files(&source().join("fault"));
+    all.retain(|file| !file.ends_with("face.rs"));
+    all.extend([source().join("fault.rs"), source().join("import/mod.rs")]);
+    for file in all {
+        for line in code(&file) {
+            let option =
+                line.split("--").skip(1).any(|after| after.starts_with(|c: char| c.is_ascii_lowercase()));
+            assert!(!option && !line.contains("`slideway "), "{}: `{}`", file.display(), line.trim());
         }
     }
 }

@@ -5,6 +5,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use slideway::Model;
+use slideway::fault::CommandLine;
 use slideway::import::{ImportFault, ImportOptions, Unit, dxf, dxf_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::outline::polygon;
@@ -230,6 +231,8 @@ fn units_are_those_of_the_drawing() {
     assert!(has_corners(&plate, &[[-0.508, -0.762], [0.508, -0.762], [0.508, 0.762], [-0.508, 0.762]]));
     let unitless = PLATE.replace("$INSUNITS\n 70\n4\n", "$INSUNITS\n 70\n0\n");
     assert_eq!(dxf(&unitless, &ImportOptions::default()), Err(ImportFault::NoUnit));
+    let hint = ImportFault::NoUnit.hint_for(&CommandLine);
+    assert_eq!(hint.as_deref(), Some("say it, for instance with `--unit mm`"));
     let metres = ImportOptions { unit: Some(Unit::Metre), ..ImportOptions::default() };
     assert_eq!(dxf(&unitless, &metres), dxf(PLATE, &metres));
     let yards = PLATE.replace("$INSUNITS\n 70\n4\n", "$INSUNITS\n 70\n10\n");

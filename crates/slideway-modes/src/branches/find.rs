@@ -12,14 +12,13 @@ use super::place::Place;
 use super::samples::{Found, Sample};
 use crate::existence::EndCause;
 use crate::progress::{Progress, Work};
+use crate::scan::{self, Sample as Value, Scan, evenly};
 use crate::search::SearchOptions;
 
 /// Halvings between evenly spaced values where the numbers of solutions differ.
 const DEPTH: i32 = 8;
 /// Where all solutions are sought near a value that does not tell them, as shares of the way to the next one.
 const NEARBY: [f64; 4] = [0.0, 0.137, -0.211, 0.018];
-/// Halvings between two values: down to neighbouring numbers.
-const HALVINGS: usize = 100;
 /// How often stretches without a value are sought.
 const ROUNDS: usize = 6;
 /// Ends nearer to each other than this share of the range are one.
@@ -69,62 +68,35 @@ struct Stretch {
     causes: [EndCause; 2],
 }
 
-/// Neighbouring values, of which only the first is inside.
-fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) -> bool) -> [f64; 2] {
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(inside, outside);
-        if middle == inside || middle == outside {
-            break;
-        }
-        if is_inside(middle) { inside = middle } else { outside = middle }
-    }
-    [inside, outside]
-}
-
-fn even([from, to]: [f64; 2], values: usize) -> impl Iterator<Item = f64> {
-    (0..=values)
-        .map(move |step| if step == values { to } else { from + (to - from) * step as f64 / values as f64 })
-}
+/// The senses at a value, or why there is no problem.
+type Senses = Result<Vec<i8>, NoInstance>;
 
 /// The stretches of a range, and those without a problem.
 fn stretches(family: &Family<'_>, options: &BranchOptions) -> (Vec<Stretch>, Vec<Gap>) {
     let senses = |at: f64| family(at).map(|instance| instance.senses);
     let mut values: Vec<f64> =
-        even(options.range, options.values).chain(options.further.iter().copied()).collect();
+        evenly(options.range, options.values).chain(options.further.iter().copied()).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
-    let known: Vec<(f64, Result<Vec<i8>, NoInstance>)> = values.iter().map(|&at| (at, senses(at))).collect();
-    let (mut stretches, mut gaps): (Vec<Stretch>, Vec<Gap>) = (Vec::new(), Vec::new());
-    let [first, last] = options.range;
-    let (mut from, mut cause) = (first, EndCause::Range);
-    for (index, (at, here)) in known.iter().enumerate() {
-        let (next_at, next) = known.get(index + 1).map_or((last, None), |(at, next)| (*at, Some(next)));
-        if next == Some(here) {
-            continue;
-        }
-        let [to, beyond] = match next {
-            Some(_) => bisect(*at, next_at, |value| senses(value) == *here),
-            None => [last, last],
-        };
-        let why = |one: &Result<Vec<i8>, NoInstance>| match one {
-            Err(NoInstance::Other) => EndCause::NoProblem,
-            _ => EndCause::Reversal,
-        };
-        match here {
+    let known: Vec<Value<Senses>> = values.iter().map(|&at| Value { at, found: senses(at) }).collect();
+    let [from, to] = options.range;
+    let scan = Scan { answer: &senses, is_like: Senses::eq, narrowest: SAME * (to - from) };
+    let all = scan.stretches(&known);
+    let why = |beside: Option<&scan::Stretch<Senses>>| match beside.map(|stretch| &stretch.found) {
+        None => EndCause::Range,
+        Some(Err(NoInstance::Other)) => EndCause::NoProblem,
+        Some(_) => EndCause::Reversal,
+    };
+    let (mut stretches, mut gaps) = (Vec::new(), Vec::new());
+    for (index, scan::Stretch { from, to, at, found }) in all.iter().enumerate() {
+        let (from, to) = (*from, *to);
+        match found {
             Ok(senses) => {
-                let until = match next {
-                    None => EndCause::Range,
-                    Some(_) => why(&family(beyond).map(|instance| instance.senses)),
-                };
-                let causes = [std::mem::replace(&mut cause, EndCause::Reversal), until];
+                let causes = [index.checked_sub(1).map(|before| &all[before]), all.get(index + 1)].map(why);
                 stretches.push(Stretch { from, to, senses: senses.clone(), causes });
             }
-            Err(reason) => {
-                gaps.push(Gap { from, to, inside: *at });
-                cause = why(&Err(*reason));
-            }
+            Err(_) => gaps.push(Gap { from, to, inside: *at }),
         }
-        from = beyond;
     }
     (stretches, gaps)
 }
@@ -154,7 +126,7 @@ impl<'f> Finder<'f> {
     fn new(family: &'f Family<'f>, stretch: &'f Stretch, options: &'f BranchOptions, work: Work<'f>) -> Self {
         let load = |instance: &Instance| instance.problem.load().centre().amax();
         let loads =
-            even([stretch.from, stretch.to], 8).filter_map(|at| family(at).ok().map(|one| load(&one)));
+            evenly([stretch.from, stretch.to], 8).filter_map(|at| family(at).ok().map(|one| load(&one)));
         let greatest = loads.fold(0.0, f64::max);
         let unit = if greatest > 0.0 { greatest } else { 1.0 };
         Self { family, stretch, options, unit, samples: Vec::new(), known: RefCell::default(), work }
@@ -165,10 +137,10 @@ impl<'f> Finder<'f> {
     fn sample(&mut self) {
         let Stretch { from, to, .. } = *self.stretch;
         let is_inside = |at: &f64| (from..=to).contains(at);
-        let values = even(self.options.range, self.options.values).filter(is_inside).count().max(4);
+        let values = evenly(self.options.range, self.options.values).filter(is_inside).count().max(4);
         let spacing = (to - from) / values as f64;
         let further = self.options.further.iter().copied().filter(is_inside);
-        let wanted: Vec<f64> = even([from, to], values).chain(further).collect();
+        let wanted: Vec<f64> = evenly([from, to], values).chain(further).collect();
         for (index, &at) in wanted.iter().enumerate() {
             if self.work.tell(&Progress::of("values", index as u64, wanted.len() as u64)).is_break() {
                 return;

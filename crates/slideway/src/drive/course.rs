@@ -8,16 +8,16 @@ use crate::limits::{Method, ModesFound, Naming, RangeWithoutProblem, StateAt, Va
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Status, Verdict};
+use crate::scan::{bisect_until, evenly};
 use crate::solve::{Stages, pattern};
+use std::ops::ControlFlow;
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
 const SAME_ROW: f64 = 1e-9;
 /// Places nearer to zero than this share of the range are zero.
 const ROUNDING: f64 = 1e-12;
-/// Steps between which efforts that pass through infinity are sought.
-const STEPS: usize = 500;
-/// Halvings between two values: down to neighbouring numbers.
-const HALVINGS: usize = 100;
+/// Steps between which efforts that pass through infinity, and changes of the number of solutions, are sought.
+pub(super) const STEPS: usize = 500;
 
 /// What can be missed.
 pub(super) struct Guarantee {
@@ -70,8 +70,8 @@ pub(super) fn modes(rows: &[CourseRow], naming: &Naming) -> Vec<CourseMode> {
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes
 /// its sign between evenly spaced values without vanishing.
 fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &ModesFound) -> Vec<BlowUp> {
-    let values = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
-    let places: Vec<(f64, Option<Efforts>)> = values.map(|value| (value, at(value))).collect();
+    let places: Vec<(f64, Option<Efforts>)> =
+        evenly([from, to], STEPS).map(|value| (value, at(value))).collect();
     let mut poles = Vec::new();
     for mode in &found.existence.modes {
         let inside = places.iter().filter(|(value, _)| mode.from.at < *value && *value < mode.to.at);
@@ -114,22 +114,18 @@ fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Mode
 /// Where a function changes its sign through infinity between two values; none where it does not, or
 /// vanishes.
 fn pole([low, high]: [(f64, f64); 2], function: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let (mut below, mut above) = (low.0, high.0);
     if low.1 * high.1 >= 0.0 {
         return None;
     }
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(below, above);
-        if middle == below || middle == above {
-            break;
-        }
-        match function(middle) {
-            Some(value) if value * low.1 > 0.0 => below = middle,
-            Some(value) if value != 0.0 => above = middle,
-            Some(_) => return None,
-            None => return Some(middle),
-        }
-    }
+    let is_below = |middle: f64| match function(middle) {
+        Some(value) if value != 0.0 => ControlFlow::Continue(value * low.1 > 0.0),
+        Some(_) => ControlFlow::Break(None),
+        None => ControlFlow::Break(Some(middle)),
+    };
+    let below = match bisect_until(low.0, high.0, is_below) {
+        ControlFlow::Continue([below, _]) => below,
+        ControlFlow::Break(pole) => return pole,
+    };
     let greatest = low.1.abs().max(high.1.abs());
     (function(below)?.abs() > GROWTH * greatest).then_some(below)
 }
@@ -215,12 +211,6 @@ impl Tabulated<'_> {
         }
         rows
     }
-}
-
-/// The ends of a range and evenly spaced values between them.
-pub(super) fn evenly([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
-    (0..=steps)
-        .map(move |step| if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 })
 }
 
 /// Rows with those at which efforts grow without bound among them, in order.

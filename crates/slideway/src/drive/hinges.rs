@@ -2,7 +2,7 @@
 //! rest moves: each row is solved by itself, and where the number of solutions changes, as about a dead centre,
 //! is sought between evenly spaced values.
 
-use super::course::{Guarantee, evenly, modes, nothing, rows_of, with_blow_ups};
+use super::course::{Guarantee, STEPS, modes, nothing, rows_of, with_blow_ups};
 use super::efforts::{grows, velocities};
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, DriveSolution, LockedRange, Sense};
 use super::state::{self, AllEfforts};
@@ -12,12 +12,10 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{SolveReport, Status};
+use crate::scan::{bisect_until, evenly, samples};
 use crate::solve::{LastSolution, SolveOptions, Stages, Trail, hinged_states, solve_in};
+use std::ops::ControlFlow;
 
-/// Steps between which changes of the number of solutions are sought.
-const STEPS: usize = 500;
-/// Halvings between two values: down to neighbouring numbers.
-const HALVINGS: usize = 60;
 /// How near to an end growth is judged, as fractions of the range.
 const NEAR: [f64; 2] = [1e-4, 1e-6];
 
@@ -35,8 +33,8 @@ pub(super) fn direction(
     work: Work<'_>,
 ) -> Result<(Guarantee, CourseDirection), Faults> {
     let course = Sampled { varied, range, work };
-    let values = in_pieces(evenly(range, steps), steps + 1, work.part(0, 2));
-    let rows: Vec<CourseRow> = values.flat_map(|value| course.rows_at(value)).collect();
+    let rows = samples(evenly(range, steps), work.part(0, 2), |value, _| course.rows_at(value));
+    let rows: Vec<CourseRow> = rows.into_iter().flat_map(|row| row.found).collect();
     if rows.iter().all(|row| row.frictionless.is_none()) {
         course.at(f64::midpoint(range[0], range[1]))?;
     }
@@ -64,12 +62,6 @@ struct Changes {
     locked: Vec<LockedRange>,
     /// Changes from some solutions to another number of them.
     others: Vec<f64>,
-}
-
-/// Values one after another, until the work is to end.
-fn in_pieces(values: impl Iterator<Item = f64>, all: usize, work: Work<'_>) -> impl Iterator<Item = f64> {
-    let goes_on = move |(index, _): &(usize, f64)| work.piece("values", *index, all).is_continue();
-    values.enumerate().take_while(goes_on).map(|(_, value)| value)
 }
 
 struct Sampled<'c> {
@@ -125,7 +117,10 @@ impl Sampled<'_> {
         let mut changes = Changes::default();
         let mut open: Option<f64> = None;
         let mut last: Option<(f64, usize)> = None;
-        for value in in_pieces(evenly(self.range, STEPS), STEPS + 1, work) {
+        for (index, value) in evenly(self.range, STEPS).enumerate() {
+            if work.piece("values", index, STEPS + 1).is_break() {
+                break;
+            }
             let number = self.number(value, &mut before);
             match (last, number) {
                 (Some((known, was)), Some(is)) if was != is => {
@@ -151,19 +146,15 @@ impl Sampled<'_> {
     }
 
     /// Where the number of solutions changes between two values; `after` is that at the second.
-    fn change(&self, [mut low, mut high]: [f64; 2], after: usize, before: &mut (Trail, LastSolution)) -> f64 {
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(low, high);
-            if middle == low || middle == high {
-                break;
-            }
-            match self.number(middle, before) {
-                Some(is) if is == after => high = middle,
-                Some(_) => low = middle,
-                None => break,
-            }
+    fn change(&self, [low, high]: [f64; 2], after: usize, before: &mut (Trail, LastSolution)) -> f64 {
+        let has_changed = |middle: f64| match self.number(middle, before) {
+            Some(is) => ControlFlow::Continue(is == after),
+            None => ControlFlow::Break(middle),
+        };
+        match bisect_until(high, low, has_changed) {
+            ControlFlow::Continue([high, low]) => f64::midpoint(low, high),
+            ControlFlow::Break(middle) => middle,
         }
-        f64::midpoint(low, high)
     }
 
     /// The solution whose efforts grow without bound towards a value from one side.

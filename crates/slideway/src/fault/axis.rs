@@ -1,6 +1,6 @@
 //! What can be wrong with a quantity that is varied.
 
-use super::Faults;
+use super::{Face, FaultKind, Faults};
 
 /// What is wrong with a quantity that is varied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -22,7 +22,7 @@ pub enum AxisProblem {
     #[error("logarithmic spacing needs a range above zero, but it begins at {from}")]
     NotPositive { from: f64 },
     #[error("{message}")]
-    Value { message: String, hint: Option<String> },
+    Value { message: String, hint: Option<Box<FaultKind>> },
     #[error("the factor of friction cannot be negative, but it is {value}")]
     NegativeFriction { value: f64 },
     #[error("coefficients of friction cannot be negative, but from {from} to {to} they are")]
@@ -48,13 +48,13 @@ pub enum AxisProblem {
 impl AxisProblem {
     /// The first fault of a value, without its place: the text that is meant is no text of a setting.
     pub(crate) fn of(faults: &Faults) -> Self {
-        let first = faults.sorted().first().map(|fault| (fault.kind.to_string(), fault.kind.hint()));
-        let (message, hint) = first.unwrap_or_default();
-        Self::Value { message, hint }
+        let hint = faults.sorted().first().map(|fault| Box::new(fault.kind.clone()));
+        Self::Value { message: hint.as_ref().map_or_else(String::new, ToString::to_string), hint }
     }
 
-    /// What to do about it, where there is something better to say than the message itself.
-    pub fn hint(&self) -> Option<String> {
+    /// What to do about it in the words of an interface, where there is something better to say than the message
+    /// itself.
+    pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
         let hint = match self {
             Self::Malformed => "for instance `mu=0..0.8:801`, `mu=0.1,0.2,0.5` or `mu=normal(0.3, 0.05)`",
             Self::ThreeDots => "two dots stand between the ends of a range: FROM..TO",
@@ -62,9 +62,19 @@ impl AxisProblem {
             Self::Spacing { .. } => "evenly spaced values are usual; `:log` spaces them logarithmically",
             Self::Empty { .. } => "for one value write NAME=VALUE",
             Self::NotPositive { .. } => "omit `:log`, or begin above zero",
-            Self::WithoutSamples => "say how many, for instance `--samples 10000`",
-            Self::GridWithSamples => "omit the number of values: FROM..TO; without --samples it is a grid",
-            Self::Value { hint, .. } => return hint.clone(),
+            Self::WithoutSamples => {
+                return Some(format!(
+                    "say how many, for instance `{}`",
+                    face.option_with("samples", "10000")
+                ));
+            }
+            Self::GridWithSamples => {
+                return Some(format!(
+                    "omit the number of values: FROM..TO; without {} it is a grid",
+                    face.option("samples")
+                ));
+            }
+            Self::Value { hint, .. } => return hint.as_ref()?.hint_for(face),
             _ => return None,
         };
         Some(hint.to_owned())

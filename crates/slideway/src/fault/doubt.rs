@@ -1,5 +1,7 @@
 //! What makes sense, but is perhaps not what was meant: warnings.
 
+use super::{CommandLine, Face};
+
 /// What is perhaps not meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -50,8 +52,13 @@ impl Doubt {
         }
     }
 
-    /// What to do about it.
+    /// What to do about it, in the words of the command line.
     pub fn hint(&self) -> String {
+        self.hint_for(&CommandLine)
+    }
+
+    /// What to do about it, in the words of an interface.
+    pub fn hint_for(&self, face: &dyn Face) -> String {
         match self {
             Self::BareAngle { value, .. } => {
                 format!("write `{value} deg`, or `{value} rad` if that is meant")
@@ -73,7 +80,8 @@ impl Doubt {
                 "look for a wrong or missing unit in its `radius` or `friction_radius`".to_owned()
             }
             Self::RangeAtMiddle { name, from, to, .. } => format!(
-                "`slideway solve` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`"
+                "`{}` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`",
+                face.question("solve")
             ),
             Self::NothingPresses => {
                 "whether it jams can only be told under a load: add the resistance, the weight \

@@ -5,8 +5,7 @@
 pub(crate) const MOST_STANDING: usize = 3;
 pub(crate) const MOST_CONTACTS: usize = 12;
 
-/// What to ask of a joint at rest.
-const HOLD: &str = "`slideway hold` says whether it can stay at rest";
+use super::Face;
 
 /// Why a joint does not slide in a state.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,48 +25,55 @@ pub enum NoSliding {
 
 impl NoSliding {
     /// What to do about a hinge that does not turn.
-    pub(super) fn hint_of_hinge(&self) -> String {
+    pub(super) fn hint_of_hinge(&self, face: &dyn Face) -> String {
         let without = "without its friction (`mu = 0` or `friction_radius = 0` there) the answer exists";
         match self {
             Self::AtRest(coordinates) | Self::WithoutRate(coordinates) => {
-                format!("{}; {without}", hint_at_rest(coordinates))
+                format!("{}; {without}", hint_at_rest(coordinates, face))
             }
             Self::Here => format!(
                 "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
             ),
             Self::Never | Self::Stands => format!(
-                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `slideway solve`, `drive`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}"
+                "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `{}`, `drive`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}",
+                face.question("solve")
             ),
         }
     }
 
     /// What to do about it.
-    pub(super) fn hint(&self) -> String {
+    pub(super) fn hint(&self, face: &dyn Face) -> String {
         match self {
-            Self::AtRest(coordinates) => hint_at_rest(coordinates),
+            Self::AtRest(coordinates) => hint_at_rest(coordinates, face),
             Self::WithoutRate(coordinates) => format!(
-                "it slides with {} alone, which has no rate: give one, for instance with `{}`; {HOLD}",
+                "it slides with {} alone, which has no rate: give one, for instance with `{}`; {}",
                 super::listed(coordinates),
-                rates(coordinates)
+                face.rates(coordinates),
+                hold(face)
             ),
-            Self::Here => "sliding just begins, stops or reverses in this position: move the mechanism a little with --at, or change its rates".to_owned(),
+            Self::Here => format!(
+                "sliding just begins, stops or reverses in this position: move the mechanism a little with {}, or change its rates",
+                face.option("at")
+            ),
             Self::Never => format!(
-                "no motion of the mechanism makes it slide, so friction there only holds: {HOLD}; to leave that friction out write `mu = 0` there"
+                "no motion of the mechanism makes it slide, so friction there only holds: {}; to leave that friction out write `mu = 0` there",
+                hold(face)
             ),
             Self::Stands => format!(
-                "it stands still while the rest moves, so that its friction may be anything within its limits: the answer is a range, which `slideway solve`, `drive`, `limits`, `sweep` and `map` tell for up to {MOST_STANDING} such contacts among at most {MOST_CONTACTS}, without friction in hinges and guides that share a load; to leave that friction out write `mu = 0` there"
+                "it stands still while the rest moves, so that its friction may be anything within its limits: the answer is a range, which `{}`, `drive`, `limits`, `sweep` and `map` tell for up to {MOST_STANDING} such contacts among at most {MOST_CONTACTS}, without friction in hinges and guides that share a load; to leave that friction out write `mu = 0` there",
+                face.question("solve")
             ),
         }
     }
 }
 
 /// What to do about a joint at rest.
-fn hint_at_rest(coordinates: &[String]) -> String {
-    format!("{HOLD}; for friction in motion give it a velocity, for instance with `{}`", rates(coordinates))
+fn hint_at_rest(coordinates: &[String], face: &dyn Face) -> String {
+    let rates = face.rates(coordinates);
+    format!("{}; for friction in motion give it a velocity, for instance with `{rates}`", hold(face))
 }
 
-/// Arguments that give each coordinate a rate.
-fn rates(coordinates: &[String]) -> String {
-    let rates = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1"));
-    rates.collect::<Vec<_>>().join(" ")
+/// What to ask of a joint at rest.
+fn hold(face: &dyn Face) -> String {
+    format!("`{}` says whether it can stay at rest", face.question("hold"))
 }

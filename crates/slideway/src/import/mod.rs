@@ -17,6 +17,7 @@ mod groups;
 mod paths;
 mod written;
 
+use crate::fault::Face;
 use crate::model::SIZE_LIMIT;
 use crate::printable;
 use crate::progress::{Callback, Progress, Work, undisturbed, watched};
@@ -113,11 +114,9 @@ pub enum ImportFault {
     Number { line: usize, code: i32, entity: String, found: String },
     #[error("line {line}: {entity} has no group {code}")]
     Missing { line: usize, code: i32, entity: String },
-    #[error("the drawing does not say its unit of length ($INSUNITS); say it with --unit, such as --unit mm")]
+    #[error("the drawing does not say its unit of length ($INSUNITS)")]
     NoUnit,
-    #[error(
-        "the unit of the drawing, $INSUNITS = {code}, is not one of model files; scale the drawing, or say --unit"
-    )]
+    #[error("the unit of the drawing, $INSUNITS = {code}, is not one of model files")]
     UnknownUnit { code: i32 },
     #[error("no layer of the drawing has an outline or a point; what is in it: {}", in_words(left_out))]
     Nothing { left_out: Vec<String> },
@@ -129,6 +128,20 @@ pub enum ImportFault {
     TooManyEntities { limit: usize },
     #[error("the model would have {size} bytes, and at most {SIZE_LIMIT} are read; leave layers out")]
     TooLarge { size: usize },
+}
+
+impl ImportFault {
+    /// What to do about it in the words of an interface, where there is something better to say than the message
+    /// itself.
+    pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
+        match self {
+            Self::NoUnit => Some(format!("say it, for instance with `{}`", face.option_with("unit", "mm"))),
+            Self::UnknownUnit { .. } => {
+                Some(format!("scale the drawing, or say the unit with {}", face.option("unit")))
+            }
+            _ => None,
+        }
+    }
 }
 
 fn in_words(left_out: &[String]) -> String {

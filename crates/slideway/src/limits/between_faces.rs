@@ -9,10 +9,10 @@
 use super::closed_form::value_at;
 use super::examine::margin_of;
 use super::found::{Elsewhere, Knowledge, Method, ModesFound, PATTERNS, SingleValues};
-use super::scan::bisect;
 use super::varied::Varied;
 use crate::modes::existence::{CountInterval, EndCause, ExistenceOptions, ModeEnd, is_same_end};
 use crate::progress::Work;
+use crate::scan::{Sample, Scan};
 
 /// Values that are tried in each part of an interval that is not proven: a heuristic.
 const VALUES: usize = 32;
@@ -145,15 +145,14 @@ fn stretches(part: [f64; 2], candidates: &[f64], states: &dyn Fn(f64) -> usize) 
     let candidates = candidates.iter().copied().filter(|at| from < *at && *at < to);
     let mut values: Vec<f64> = (0..VALUES).map(value).chain(candidates).collect();
     values.sort_by(f64::total_cmp);
-    let tried: Vec<(f64, usize)> = values.into_iter().map(|at| (at, states(at))).collect();
+    let tried: Vec<Sample<usize>> = values.into_iter().map(|at| Sample { at, found: states(at) }).collect();
+    let scan = Scan { answer: states, is_like: usize::eq, narrowest: margin_of(part) };
     let mut found = Vec::new();
     let mut begin = from;
-    for equal in tried.chunk_by(|one, next| one.1 == next.1) {
-        let (last, states_here) = equal[equal.len() - 1];
-        let next = tried.iter().find(|(at, _)| *at > last);
-        let end = next.map_or(to, |next| bisect(last, next.0, |at| states(at) == states_here).0);
-        if states_here > 0 && end - begin > margin_of(part) {
-            found.push(Stretch { bounds: [begin, end], states: states_here });
+    for stretch in scan.stretches(&tried) {
+        let end = if stretch.to == tried[tried.len() - 1].at { to } else { stretch.to };
+        if stretch.found > 0 && end - begin > margin_of(part) {
+            found.push(Stretch { bounds: [begin, end], states: stretch.found });
         }
         begin = end;
     }

@@ -12,6 +12,7 @@ use crate::modes::SearchOptions;
 use crate::modes::branches::{Branch, BranchOptions, Branches, NoInstance, branches, over_radius};
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval, cells, counts_in, is_same_end};
 use crate::progress::Work;
+use crate::scan::evenly;
 
 /// Evenly spaced values at which all solutions are found.
 const VALUES: usize = 100;
@@ -69,8 +70,7 @@ pub(super) fn closed_form(
         }
     };
     let mut found = found.of(at);
-    let step = (to - from) / VALUES as f64;
-    found.tried = (0..=VALUES).map(|value| from + step * value as f64).collect();
+    found.tried = evenly(options.range, VALUES).collect();
     let options = BranchOptions {
         range: options.range,
         values: VALUES,

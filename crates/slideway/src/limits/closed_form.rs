@@ -6,7 +6,6 @@
 //! in the rounding of great ones.
 
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
-use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
 use crate::modes::ContactState;
@@ -14,6 +13,7 @@ use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, TooManyModes, counts,
 };
 use crate::progress::Work;
+use crate::scan::{bisect, evenly};
 
 /// Values at which it is tried whether the model allows them.
 const TRIED: usize = 64;
@@ -79,12 +79,9 @@ pub(super) fn closed_form(
 /// The interval of values that the model allows within a range; none if it has no extent or was not found.
 fn allowed(varied: &Varied, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let is_allowed = |at: f64| varied.parts(at).is_ok();
-    let value =
-        |step: usize| if step == TRIED { to } else { from + (to - from) * step as f64 / TRIED as f64 };
-    let even = (0..=TRIED).map(value);
     let present = varied.present().ok().filter(|value| (from..=to).contains(value));
-    let inside = even.chain(present).find(|&at| is_allowed(at))?;
-    let end = |end: f64| if is_allowed(end) { end } else { bisect(inside, end, is_allowed).0 };
+    let inside = evenly([from, to], TRIED).chain(present).find(|&at| is_allowed(at))?;
+    let end = |end: f64| if is_allowed(end) { end } else { bisect(inside, end, is_allowed)[0] };
     let ends = [end(from), end(to)];
     (ends[0] < ends[1]).then_some(ends)
 }

@@ -1,9 +1,9 @@
 //! What is found of modes in a range.
 
-use super::scan::HALVINGS;
 use crate::fault::Faults;
 use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, Existence, is_same_end, nothing_is_left};
+use crate::scan::HALVINGS;
 
 /// Bisected ends nearer to each other than this share of the range are one.
 const SAME: f64 = 1e-9;

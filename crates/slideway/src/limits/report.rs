@@ -252,6 +252,9 @@ impl CountLimits {
     }
 }
 
+/// Evenly spaced values at which rest is decided: a heuristic.
+pub(super) const STEPS: usize = 100;
+
 /// Version of the layout of a [`RestLimitsReport`]; changes whenever a field is renamed or removed.
 pub const REST_SCHEMA: &str = "slideway/hold-limits/1";
 

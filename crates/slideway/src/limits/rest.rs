@@ -5,20 +5,16 @@
 
 use super::answer::held_state;
 use super::found::SameEnds;
-use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
-use super::scan::{bisect, kind};
+use super::report::{REST_SCHEMA, RestLimitsReport, STEPS, SpanOfRest, VariedQuantity};
+use super::scan::kind;
 use super::vary::Vary;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
+use crate::scan::{Sample, Scan, Stretch, evenly, samples};
 use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
-
-/// Evenly spaced values that are tried: a heuristic.
-pub(super) const STEPS: usize = 100;
-/// The most stretches of other answers between two neighbouring values that are looked for.
-const BETWEEN: usize = 3;
 
 /// The answer at a value: whether it can rest, if that was decided, or why there is no answer.
 type Found = Result<Option<bool>, Faults>;
@@ -69,12 +65,8 @@ fn rest_limits_of(
     let range = vary.ends(&varied, || Err(varied.range_needed()))?;
     let found = |at: f64| -> Found { can_rest(&varied.model_at(at)?, options, work) };
     let same_ends = SameEnds::bisected(range);
-    let told = |span: SpanOfRest| SpanOfRest {
-        from: same_ends.told(span.from),
-        to: same_ends.told(span.to),
-        ..span
-    };
-    let spans: Vec<SpanOfRest> = spans((range, &same_ends), &found, work).into_iter().map(told).collect();
+    let tried = samples(evenly(range, STEPS), work, |at, _| found(at));
+    let spans = spans(&tried, &found, &same_ends);
     if spans.iter().all(|span| span.reason.is_some()) {
         // Nowhere an answer: the faults in the middle say why.
         found(f64::midpoint(range[0], range[1]))?;
@@ -87,7 +79,7 @@ fn rest_limits_of(
         units: model.units.clone(),
         load: options.load.clone(),
         guarantee: format!(
-            "Decided at values {} apart; where the answer changes between two of them it was bisected; what is closer than {} to an end of the range or to zero is told as there. Narrower stretches may be missed.",
+            "Decided at values {} apart; where the answer changes between two of them it was bisected; what is closer than {} to an end of the range or to zero counts as there. Narrower stretches may be missed.",
             varied.shown_in.precise((range[1] - range[0]) / STEPS as f64),
             varied.shown_in.with(&format!("{:.1e}", varied.shown_in.number_of(same_ends.within)))
         ),
@@ -96,49 +88,18 @@ fn rest_limits_of(
 }
 
 /// The range cut where the answer changes.
-fn spans(
-    ([from, to], same_ends): ([f64; 2], &SameEnds),
-    found: &dyn Fn(f64) -> Found,
-    work: Work<'_>,
-) -> Vec<SpanOfRest> {
-    let value =
-        |step: usize| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 };
-    let goes_on = |step: &usize| work.piece("values", *step, STEPS + 1).is_continue();
-    let tried = (0..=STEPS).take_while(goes_on).map(|step| (value(step), found(value(step))));
-    let tried: Vec<(f64, Found)> = tried.collect();
-    let mut spans: Vec<SpanOfRest> = Vec::new();
-    let begin = |spans: &[SpanOfRest]| spans.last().map_or(from, |span| span.to);
-    let mut runs = tried.chunk_by(|one, next| is_same(&one.1, &next.1)).peekable();
-    while let Some(run) = runs.next() {
-        let (last, _) = run[run.len() - 1];
-        let answer = &run[run.len() / 2].1;
-        let Some((next, at_next)) = runs.peek().map(|run| &run[0]) else {
-            spans.push(span([begin(&spans), last], answer));
-            break;
+fn spans(tried: &[Sample<Found>], answer: &dyn Fn(f64) -> Found, same_ends: &SameEnds) -> Vec<SpanOfRest> {
+    let scan = Scan { answer, is_like: is_same, narrowest: same_ends.within };
+    let mut end = None;
+    let span = |Stretch { from, to, found, .. }: Stretch<Found>| {
+        let (holds, reason) = match found {
+            Ok(holds) => (holds, None),
+            Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
         };
-        let (mut end, mut beyond) = bisect(last, *next, |at| is_same(&found(at), answer));
-        spans.push(span([begin(&spans), end], answer));
-        for _ in 0..BETWEEN {
-            let other = found(beyond);
-            if is_same(&other, at_next) {
-                break;
-            }
-            let start = end;
-            (end, beyond) = bisect(beyond, *next, |at| is_same(&found(at), &other));
-            if same_ends.are_two(start, end) {
-                spans.push(span([begin(&spans), end], &other));
-            }
-        }
-    }
-    spans
-}
-
-fn span([from, to]: [f64; 2], found: &Found) -> SpanOfRest {
-    let (holds, reason) = match found {
-        Ok(holds) => (*holds, None),
-        Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
+        let from = same_ends.told(end.replace(to).unwrap_or(from));
+        SpanOfRest { from, to: same_ends.told(to), holds, reason }
     };
-    SpanOfRest { from, to, holds, reason }
+    scan.stretches(tried).into_iter().map(span).collect()
 }
 
 /// True if two values have the same answer, or none for the same kind of reason.

@@ -13,13 +13,11 @@ use crate::modes::existence::{
     cells, counts_in,
 };
 use crate::progress::Work;
+use crate::scan::{bisect, evenly, runs, samples};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 /// Steps of the evenly spaced values.
 const STEPS: usize = 500;
-/// Halvings between two values: down to neighbouring numbers.
-pub(super) const HALVINGS: i32 = 100;
 /// How often the distance to where there is no mode problem is halved.
 const APPROACH: i32 = 40;
 /// Where in an interval between two ends values are tried, as fractions of it.
@@ -50,11 +48,8 @@ impl Scanner<'_> {
     /// # Errors
     /// More patterns than the options allow.
     pub(super) fn scan(&self, further: &[f64]) -> Result<ModesFound, TooManyModes> {
-        let [from, to] = self.options.range;
-        let even = (0..=STEPS)
-            .map(|step| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 });
         let mut places = Vec::new();
-        self.add(&mut places, even.chain(further.iter().copied()))?;
+        self.add(&mut places, evenly(self.options.range, STEPS).chain(further.iter().copied()))?;
         let edges = self.edges(&places);
         self.add(&mut places, edges.into_iter())?;
         let mut ends = Ends::new();
@@ -97,13 +92,13 @@ impl Scanner<'_> {
     }
 
     /// Adds places, in their order.
-    fn add(&self, places: &mut Vec<Tried>, values: impl Iterator<Item = f64>) -> Result<(), TooManyModes> {
-        let values: Vec<f64> = values.collect();
-        for (index, &at) in values.iter().enumerate() {
-            match self.work.part(0, 2).piece("values", index, values.len()) {
-                ControlFlow::Continue(_) => places.push(self.place(at)?),
-                ControlFlow::Break(()) => break,
-            }
+    fn add(
+        &self,
+        places: &mut Vec<Tried>,
+        values: impl Iterator<Item = f64> + Clone,
+    ) -> Result<(), TooManyModes> {
+        for sample in samples(values, self.work.part(0, 2), |at, _| self.place(at)) {
+            places.push(sample.found?);
         }
         places.sort_by(|one, other| one.at.total_cmp(&other.at));
         places.dedup_by(|next, kept| next.at == kept.at);
@@ -145,7 +140,7 @@ impl Scanner<'_> {
                 Ok(_) => inside.line.is_ok(),
                 Err(found) => inside.line.is_err() && kind(&found) != kind(faults),
             };
-            let (near, beyond) = bisect(inside.at, outside.at, is_inside);
+            let [near, beyond] = bisect(inside.at, outside.at, is_inside);
             values.extend([near, beyond]);
             if inside.line.is_ok() {
                 values.extend((1..APPROACH).map(|power| near + (inside.at - near) * 0.5_f64.powi(power)));
@@ -186,33 +181,19 @@ impl Scanner<'_> {
     /// The intervals of one pattern, from the places at which it is present.
     fn intervals(&self, pattern: &[ContactState], places: &[Tried], ends: &mut Ends) -> Vec<ModeInterval> {
         let present = |place: &Tried| place.present.iter().any(|other| other == pattern);
-        let mut end = |inside: f64, outside: f64| {
-            let key = (pattern.to_vec(), inside.to_bits(), outside.to_bits());
-            ends.entry(key).or_insert_with(|| self.end(pattern, inside, outside)).clone()
+        let mut end = |inside: &Tried, outside: Option<&Tried>| {
+            let Some(outside) = outside else { return self.range_end(pattern, inside.at) };
+            let key = (pattern.to_vec(), inside.at.to_bits(), outside.at.to_bits());
+            ends.entry(key).or_insert_with(|| self.end(pattern, inside.at, outside.at)).clone()
         };
-        let mut intervals = Vec::new();
-        let mut start: Option<ModeEnd> = None;
-        for (index, place) in places.iter().enumerate() {
-            match (present(place), &start) {
-                (true, None) => {
-                    start = Some(match index.checked_sub(1).map(|before| &places[before]) {
-                        None => self.range_end(pattern, place.at),
-                        Some(before) => end(place.at, before.at),
-                    });
-                }
-                (false, Some(from)) => {
-                    let to = end(places[index - 1].at, place.at);
-                    intervals.push(ModeInterval { pattern: pattern.to_vec(), from: from.clone(), to });
-                    start = None;
-                }
-                _ => {}
-            }
-        }
-        if let (Some(from), Some(last)) = (start, places.last()) {
-            let to = self.range_end(pattern, last.at);
-            intervals.push(ModeInterval { pattern: pattern.to_vec(), from, to });
-        }
-        intervals
+        runs(places, |one, next| present(one) == present(next))
+            .filter(|run| present(run.first()))
+            .map(|run| ModeInterval {
+                pattern: pattern.to_vec(),
+                from: end(run.first(), run.before),
+                to: end(run.last(), run.after),
+            })
+            .collect()
     }
 
     fn range_end(&self, pattern: &[ContactState], at: f64) -> ModeEnd {
@@ -235,7 +216,7 @@ impl Scanner<'_> {
     /// Where a mode ends between a place where it exists and one where it does not.
     fn end(&self, pattern: &[ContactState], inside: f64, outside: f64) -> ModeEnd {
         let exists = |at: f64| self.line(at).is_some_and(|line| line.exists(pattern, 0.0, &self.options));
-        let (near, beyond) = bisect(inside, outside, exists);
+        let [near, beyond] = bisect(inside, outside, exists);
         let (Some(line), Some(next)) = (self.line(near), self.line(beyond)) else {
             return self.lost(near, beyond);
         };
@@ -250,7 +231,7 @@ impl Scanner<'_> {
         let slack = |at: f64| self.line(at).and_then(|line| line.slack(pattern, &cause, &self.options));
         let at = match (slack(inside), slack(outside)) {
             (Some(one), Some(other)) if one * other < 0.0 => {
-                bisect(inside, outside, |at| slack(at).is_some_and(|value| value * one > 0.0)).0
+                bisect(inside, outside, |at| slack(at).is_some_and(|value| value * one > 0.0))[0]
             }
             _ => near,
         };
@@ -275,35 +256,15 @@ fn is_same_fault<T>(one: &Result<T, Faults>, other: &Result<T, Faults>) -> bool 
 /// The ranges without a mode problem, one for each reason, up to the last places where there is one. The
 /// reason is that of a place in the middle.
 fn gaps(places: &[Tried]) -> Vec<Gap> {
-    let mut gaps = Vec::new();
-    let stretches = places.chunk_by(|one, next| is_same_fault(&one.line, &next.line));
-    let mut first = 0;
-    for stretch in stretches {
-        let last = first + stretch.len() - 1;
-        if let Err(faults) = &stretch[stretch.len() / 2].line {
-            let edge = |neighbour: Option<&Tried>, own: f64| match neighbour {
-                Some(Tried { at, line: Ok(_), .. }) => *at,
-                _ => own,
-            };
-            gaps.push(Gap {
-                from: edge(first.checked_sub(1).map(|before| &places[before]), places[first].at),
-                to: edge(places.get(last + 1), places[last].at),
-                faults: faults.clone(),
-            });
-        }
-        first = last + 1;
-    }
-    gaps
-}
-
-/// Neighbouring places, of which only the first is inside.
-pub(crate) fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) -> bool) -> (f64, f64) {
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(inside, outside);
-        if middle == inside || middle == outside {
-            break;
-        }
-        if is_inside(middle) { inside = middle } else { outside = middle }
-    }
-    (inside, outside)
+    let edge = |neighbour: Option<&Tried>, own: f64| match neighbour {
+        Some(Tried { at, line: Ok(_), .. }) => *at,
+        _ => own,
+    };
+    runs(places, |one, next| is_same_fault(&one.line, &next.line))
+        .filter_map(|run| {
+            let faults = run.middle().line.as_ref().err()?.clone();
+            let (from, to) = (edge(run.before, run.first().at), edge(run.after, run.last().at));
+            Some(Gap { from, to, faults })
+        })
+        .collect()
 }

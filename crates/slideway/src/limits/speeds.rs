@@ -8,12 +8,12 @@
 use super::closed_form::value_at;
 use super::found::{Method, ModesFound};
 use super::report::SpeedLimits;
-use super::scan::bisect;
 use super::varied::Varied;
 use crate::modes::branches::{Branch, BranchForces};
 use crate::modes::existence::{ModeInterval, ModeProblemLine};
 use crate::progress::Work;
 use crate::report::{Solution, SpeedChange};
+use crate::scan::bisect;
 use crate::solve::{Stages, pattern};
 
 /// For each mode what becomes of the speed of each coordinate that no drive moves, from value to value; none
@@ -127,7 +127,7 @@ impl Along<'_> {
                 }
                 _ => self.sign(coordinate, at) == one,
             };
-            (one != other).then(|| bisect(inside, outside, is_inside).0)
+            (one != other).then(|| bisect(inside, outside, is_inside)[0])
         };
         tried.windows(2).filter_map(change).collect()
     }

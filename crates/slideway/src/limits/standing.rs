@@ -2,13 +2,12 @@
 //! zero of a determinant. The answers at evenly spaced values are compared, and what changes between them is bisected.
 
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
-use super::scan::bisect;
 use super::varied::Varied;
 use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};
 use crate::progress::Work;
 use crate::report::Status;
-use std::ops::ControlFlow;
+use crate::scan::{Scan, evenly, samples};
 
 /// Steps of the evenly spaced values.
 const STEPS: usize = 100;
@@ -20,26 +19,20 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
         return None;
     }
     let counting = Counting { varied, work };
-    let even = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
-    let mut places: Vec<(f64, Result<CountInterval, Faults>)> = Vec::new();
-    for (index, at) in even.enumerate() {
-        let ControlFlow::Continue(_) = work.piece("values", index, STEPS + 1) else { break };
-        places.push((at, counting.at(at)));
-    }
+    let answer = |at: f64| counting.at(at);
+    let tried = samples(evenly([from, to], STEPS), work, |at, _| answer(at));
     let same_ends = SameEnds::bisected([from, to]);
+    let scan = Scan { answer: &answer, is_like, narrowest: same_ends.within };
     let (mut counts, mut gaps) = (Vec::new(), Vec::new());
     let mut begin = from;
-    for stretch in places.chunk_by(|one, next| is_like(&one.1, &next.1)) {
-        let (Some(first), Some(last)) = (stretch.first(), stretch.last()) else { continue };
-        let next = places.iter().find(|place| place.0 > last.0);
-        let end =
-            next.map_or(last.0, |next| bisect(last.0, next.0, |at| is_like(&counting.at(at), &last.1)).0);
-        match &first.1 {
+    for stretch in scan.stretches(&tried) {
+        let end = stretch.to;
+        match stretch.found {
             Ok(numbers) if same_ends.are_two(begin, end) => {
-                counts.push(CountInterval { from: begin, to: end, ..*numbers });
+                counts.push(CountInterval { from: begin, to: end, ..numbers });
             }
             Ok(_) => {}
-            Err(faults) => gaps.push(Gap { from: begin, to: end, faults: faults.clone() }),
+            Err(faults) => gaps.push(Gap { from: begin, to: end, faults }),
         }
         begin = end;
     }
@@ -50,7 +43,7 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
         counts,
         gaps,
         method: Method::Bracketing,
-        tried: places.iter().map(|place| place.0).collect(),
+        tried: tried.iter().map(|sample| sample.at).collect(),
         same_ends,
         between_faces: SingleValues::Impossible,
         branches: Vec::new(),

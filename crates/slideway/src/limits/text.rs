@@ -2,9 +2,8 @@
 
 use super::report::{
     CountLimits, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    RangeWithoutProblem, RestLimitsReport, SpanOfRest, SpeedLimits,
+    RangeWithoutProblem, RestLimitsReport, STEPS, SpanOfRest, SpeedLimits,
 };
-use super::rest::STEPS;
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -55,7 +54,7 @@ impl Report for RestLimitsReport {
         if text.is_verbose() {
             text.line(&self.guarantee);
         } else {
-            text.line(&format!("Sampled: ranges narrower than {narrower} could be missed."));
+            text.line(&could_be_missed(&narrower));
         }
         text.text()
     }
@@ -168,12 +167,17 @@ impl LimitsReport {
             Some(Known::Undecided) => "Not all of it is decided.".to_owned(),
             Some(_) => {
                 let spacing = counts().filter_map(|count| count.spacing).fold(0.0, f64::max);
-                format!("Sampled: ranges narrower than {} could be missed.", at_most(spacing, unit))
+                could_be_missed(&at_most(spacing, unit))
             }
         };
         let same = format!("It does not depend on {}. ", self.vary.name);
         if self.method == LimitsMethod::Independent { same + &known } else { known }
     }
+}
+
+/// What scans can miss, in a sentence: what begins and ends within this width.
+pub(crate) fn could_be_missed(width: &str) -> String {
+    format!("Sampled: ranges narrower than {width} could be missed.")
 }
 
 /// Where there is no mode problem, and why.

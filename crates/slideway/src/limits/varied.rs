@@ -1,6 +1,5 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
-use super::vary::Vary;
 use crate::configuration::Follower;
 use crate::enclosure::{
     EnclosedBlockProblem, TurningHinge, UncertainParameters, enclosed_block_problem, enclosure_within,
@@ -63,7 +62,7 @@ pub struct Variable {
     pub value: String,
 }
 
-/// The quantities of a model that [`Vary`] can name, with their present values: parameters and coordinates in the order
+/// The quantities of a model that [`Vary`](super::Vary) can name, with their present values: parameters and coordinates in the order
 /// of the file, at last [`FRICTION`], the factor on all coefficients of friction.
 ///
 /// ```
@@ -130,8 +129,8 @@ impl Varied {
     }
 
     /// The same, whose faults lie in this argument.
-    pub(super) fn given_by(self, argument: &Vary) -> Self {
-        Self { argument: Arc::from(argument.to_string()), ..self }
+    pub(super) fn given_by(self, argument: &str) -> Self {
+        Self { argument: Arc::from(argument), ..self }
     }
 
     /// The same, shown in the unit of both ends of a range as they were typed, if they have one.

@@ -24,6 +24,7 @@
 //! `standstill` at rest; `level.rs`: efforts, normal forces, bearing pressures and efficiency, whose margin
 //! is how many times they keep their limit) and brackets it over what `limits::Varied` varies (`search.rs`).
 
+mod answer;
 mod level;
 mod margin;
 mod report;
@@ -239,7 +240,7 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     if let Against::Pressure { contact } = &options.against {
         pad_of(model, contact.as_deref())?;
     }
-    let unit = report::unit(model, &options.against);
+    let unit = answer::unit(model, &options.against);
     if let Some(typed) = options.typed_in.as_ref().filter(|typed| typed.si() != unit) {
         let typed = typed.name().to_owned();
         return Err(Fault::general(FaultKind::LimitUnit { typed, wanted: unit }).into());
@@ -261,8 +262,8 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
         question.margin(f64::midpoint(range[0], range[1]), work)?;
     }
     let state = held_state(&Mechanism::new(model)?, &varied);
-    let sought = report::Sought { question, range, steps, value, present, tipping, found };
-    finite(report::report(model, state, options, &sought))
+    let sought = answer::Sought { question, range, steps, value, present, tipping, found };
+    finite(answer::report(model, state, options, &sought))
 }
 
 /// # Errors

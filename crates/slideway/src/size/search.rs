@@ -3,8 +3,8 @@
 
 use super::margin::{Margin, MarginQuestion};
 use crate::fault::Faults;
-use crate::limits::bisect;
 use crate::progress::Work;
+use crate::scan::{bisect, evenly, runs, samples};
 
 /// Steps towards the extremum of a dip or hump.
 const GOLDEN_STEPS: usize = 40;
@@ -76,17 +76,10 @@ pub(super) struct MarginSearch<'q> {
 
 impl MarginSearch<'_> {
     pub(super) fn run(&self) -> SizesFound {
-        let [from, to] = self.range;
-        // Both ends of the range stay exact.
-        let value = |step: usize| {
-            if step == self.steps { to } else { from + (to - from) * step as f64 / self.steps as f64 }
-        };
-        let place = |step: usize| {
-            let piece = self.work.part(0, 2).piece("values", step, self.steps + 1);
-            let margin = piece.continue_value().and_then(|work| self.question.margin(value(step), work).ok());
-            Tried { at: value(step), margin }
-        };
-        let mut places: Vec<Tried> = (0..=self.steps).map(place).collect();
+        let values = evenly(self.range, self.steps);
+        let tried = samples(values, self.work.part(0, 2), |at, work| self.question.margin(at, work).ok());
+        let mut places: Vec<Tried> =
+            tried.into_iter().map(|sample| Tried { at: sample.at, margin: sample.found }).collect();
         self.follow_extrema(&mut places);
         SizesFound { met: self.met(&places), gaps: self.gaps(&places), places }
     }
@@ -152,32 +145,19 @@ impl MarginSearch<'_> {
 
     /// The intervals in which the margin is met.
     fn met(&self, places: &[Tried]) -> Vec<[End; 2]> {
-        let mut intervals = Vec::new();
-        let mut start: Option<End> = None;
-        for (index, place) in places.iter().enumerate() {
-            match (self.is_met(place), start) {
-                (true, None) => {
-                    start = Some(match index.checked_sub(1) {
-                        None => End { at: place.at, cause: MetCause::Range },
-                        Some(before) => self.end(place.at, places[before].at),
-                    });
-                }
-                (false, Some(from)) => {
-                    intervals.push([from, self.end(places[index - 1].at, place.at)]);
-                    start = None;
-                }
-                _ => {}
-            }
-        }
-        if let (Some(from), Some(last)) = (start, places.last()) {
-            intervals.push([from, End { at: last.at, cause: MetCause::Range }]);
-        }
-        intervals
+        let end = |inside: &Tried, outside: Option<&Tried>| match outside {
+            None => End { at: inside.at, cause: MetCause::Range },
+            Some(outside) => self.end(inside.at, outside.at),
+        };
+        runs(places, |one, next| self.is_met(one) == self.is_met(next))
+            .filter(|run| self.is_met(run.first()))
+            .map(|run| [end(run.first(), run.before), end(run.last(), run.after)])
+            .collect()
     }
 
     /// Where the margin ceases to be met between a value where it is and one where it is not.
     fn end(&self, inside: f64, outside: f64) -> End {
-        let (near, beyond) = bisect(inside, outside, |at| self.is_met(&self.place(at)));
+        let [near, beyond] = bisect(inside, outside, |at| self.is_met(&self.place(at)));
         let cause = match (self.place(near).margin, self.place(beyond).margin) {
             (Some(one), Some(other)) => {
                 let change = (one.demand(self.wanted) - other.demand(self.wanted)).abs();
@@ -190,25 +170,17 @@ impl MarginSearch<'_> {
 
     /// The ranges in which the mechanism cannot be assembled or solved.
     fn gaps(&self, places: &[Tried]) -> Vec<SizeGap> {
-        let mut gaps: Vec<SizeGap> = Vec::new();
         let has_position = |at: f64| self.refined(at).is_ok();
-        for (index, place) in places.iter().enumerate().filter(|(_, place)| place.margin.is_none()) {
-            let edge = |neighbour: Option<&Tried>| match neighbour {
-                Some(neighbour) if neighbour.margin.is_some() => {
-                    bisect(neighbour.at, place.at, has_position).1
-                }
-                _ => place.at,
-            };
-            let before = index.checked_sub(1).map(|before| &places[before]);
-            let to = edge(places.get(index + 1));
-            match gaps.last_mut() {
-                Some(last) if before.is_some_and(|before| before.margin.is_none()) => last.to = to,
-                _ => {
-                    let faults = self.refined(place.at).err().unwrap_or_default();
-                    gaps.push(SizeGap { from: edge(before), to, faults });
-                }
-            }
-        }
-        gaps
+        let edge = |own: &Tried, neighbour: Option<&Tried>| {
+            neighbour.map_or(own.at, |neighbour| bisect(neighbour.at, own.at, has_position)[1])
+        };
+        runs(places, |one, next| one.margin.is_some() == next.margin.is_some())
+            .filter(|run| run.first().margin.is_none())
+            .map(|run| SizeGap {
+                from: edge(run.first(), run.before),
+                to: edge(run.last(), run.after),
+                faults: self.refined(run.first().at).err().unwrap_or_default(),
+            })
+            .collect()
     }
 }

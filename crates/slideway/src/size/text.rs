@@ -2,6 +2,7 @@
 
 use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::{level, subject};
+use crate::limits::could_be_missed;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::{CoordinateState, Report, Style};
@@ -44,7 +45,7 @@ impl Page<'_, SizeReport> {
             self.line(&report.guarantee);
         } else {
             let step = report.vary.shown_in.brief(report.narrowest);
-            self.line(&format!("Sampled and refined: what is narrower than {step} could be missed."));
+            self.line(&could_be_missed(&step));
         }
     }
 

@@ -1,6 +1,7 @@
 //! Why a phase ends.
 
 use super::watch::Watched;
+use crate::choice::kinds;
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
@@ -73,47 +74,50 @@ pub enum Cause {
     },
 }
 
-/// What an event tells of, in reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum CauseKind {
-    /// The motion begins.
-    Start,
-    /// A normal force vanishes.
-    NormalForceZero,
-    /// A preload gap closes.
-    PreloadGapEnds,
-    /// A joint stops sliding.
-    Stops,
-    /// Sticking joints begin to slip.
-    Slips,
-    /// A hinge with friction stops turning.
-    StopsTurning,
-    /// The mode locks.
-    Locks,
-    /// The solution of the mode ends at a fold.
-    Folds,
-    /// A normal force reaches its limit.
-    ReactionLimit,
-    /// A guided slider tips.
-    Tips,
-    /// A block leaves its guide.
-    OverlapVanishes,
-    /// A joint reaches a limit of its travel.
-    TravelLimit,
-    /// A joint hits its stop.
-    Hits,
-    /// A joint meets the pad of its stop.
-    MeetsPad,
-    /// A joint leaves the pad of its stop.
-    LeavesPad,
-    /// A load or drive jumps.
-    LoadJumps,
-    /// A function that is watched vanishes.
-    User,
-    /// It jams, and an impulse acts.
-    Jams,
+kinds! {
+    Cause =>
+    /// What an event tells of, in reports.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum CauseKind {
+        /// The motion begins.
+        Start,
+        /// A normal force vanishes.
+        NormalForceZero,
+        /// A preload gap closes.
+        PreloadGapEnds,
+        /// A joint stops sliding.
+        Stops,
+        /// Sticking joints begin to slip.
+        Slips,
+        /// A hinge with friction stops turning.
+        StopsTurning,
+        /// The mode locks.
+        Locks,
+        /// The solution of the mode ends at a fold.
+        Folds,
+        /// A normal force reaches its limit.
+        ReactionLimit,
+        /// A guided slider tips.
+        Tips,
+        /// A block leaves its guide.
+        OverlapVanishes,
+        /// A joint reaches a limit of its travel.
+        TravelLimit,
+        /// A joint hits its stop.
+        Hits,
+        /// A joint meets the pad of its stop.
+        MeetsPad,
+        /// A joint leaves the pad of its stop.
+        LeavesPad,
+        /// A load or drive jumps.
+        LoadJumps,
+        /// A function that is watched vanishes.
+        User,
+        /// It jams, and an impulse acts.
+        Jams,
+    }
 }
 
 impl Cause {
@@ -141,30 +145,6 @@ impl Cause {
             Watched::User(index, _) => Self::User(index, names(index)),
             Watched::Relation(_) | Watched::HeldReactions => return None,
         })
-    }
-
-    /// Its name in reports.
-    pub fn kind(&self) -> CauseKind {
-        match self {
-            Self::Start => CauseKind::Start,
-            Self::NormalForceZero(_) => CauseKind::NormalForceZero,
-            Self::PreloadGapEnds(..) => CauseKind::PreloadGapEnds,
-            Self::Stops(_) => CauseKind::Stops,
-            Self::Slips => CauseKind::Slips,
-            Self::StopsTurning(_) => CauseKind::StopsTurning,
-            Self::Locks => CauseKind::Locks,
-            Self::Folds => CauseKind::Folds,
-            Self::ReactionLimit(_) => CauseKind::ReactionLimit,
-            Self::Tips(_) => CauseKind::Tips,
-            Self::OverlapVanishes(_) => CauseKind::OverlapVanishes,
-            Self::TravelLimit { .. } => CauseKind::TravelLimit,
-            Self::Hits { .. } => CauseKind::Hits,
-            Self::MeetsPad { .. } => CauseKind::MeetsPad,
-            Self::LeavesPad { .. } => CauseKind::LeavesPad,
-            Self::LoadJumps(_) => CauseKind::LoadJumps,
-            Self::User(..) => CauseKind::User,
-            Self::Jams { .. } => CauseKind::Jams,
-        }
     }
 
     /// The joint, contact or function of which it tells.

@@ -1,6 +1,6 @@
 //! Why a motion ends, as a kind and as a sentence.
 
-use super::report::{EndKind, EndReport, is_told};
+use super::report::{EndReport, is_told};
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::Event;
@@ -9,76 +9,46 @@ use crate::report::count;
 
 /// How a motion ends.
 pub(super) fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
-    let (kind, words) = end_in_words(history, options);
     let locked =
         matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
-    EndReport { kind, words, locked }
+    EndReport { kind: history.end.kind(), words: end_in_words(history, options), locked }
 }
 
-/// The kind of the end for reports, and a sentence.
-fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, String) {
+/// The end in a sentence.
+fn end_in_words(history: &History, options: &SimulateOptions) -> String {
     let mechanism = &history.mechanism;
     let time = history.mechanism.units.of("s").brief(history.stop());
     let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
-        End::Finished => (EndKind::Finished, finished(history, &time)),
-        End::TravelLimit(id) => {
-            (EndKind::TravelLimit, format!("It ends at {time}: {} reaches a limit of its travel.", joint(id)))
-        }
-        End::OverlapVanished(id) => {
-            (EndKind::OverlapVanished, format!("It ends at {time}: {} leaves its guide.", joint(id)))
-        }
-        End::ReactionLimit(id) => {
-            let contact = &mechanism.contacts[id.index()].name;
-            let words = format!(
-                "It ends at {time}: the normal force of {contact} reaches its limit, which counts as a jam."
-            );
-            (EndKind::ReactionLimit, words)
-        }
-        End::UserEvent(_) => {
-            (EndKind::UserEvent, format!("It ends at {time}, as the model asks: {}.", last_words(history)))
-        }
-        End::NoSuchBranch { branching } => (
-            EndKind::NoSuchBranch,
-            format!(
-                "It ends at {time}: at decision {branching} there is no branch with the number asked for."
-            ),
+        End::Finished => finished(history, &time),
+        End::TravelLimit(id) => format!("It ends at {time}: {} reaches a limit of its travel.", joint(id)),
+        End::OverlapVanished(id) => format!("It ends at {time}: {} leaves its guide.", joint(id)),
+        End::ReactionLimit(id) => format!(
+            "It ends at {time}: the normal force of {} reaches its limit, which counts as a jam.",
+            mechanism.contacts[id.index()].name
         ),
-        End::Tips(id) => (
-            EndKind::Tips,
-            format!("It ends at {time}: {} tips; model it as a block slider to go on.", joint(id)),
+        End::UserEvent(_) => format!("It ends at {time}, as the model asks: {}.", last_words(history)),
+        End::NoSuchBranch { branching } => format!(
+            "It ends at {time}: at decision {branching} there is no branch with the number asked for."
         ),
-        End::NoContinuation => {
-            (EndKind::NoContinuation, format!("It ends at {time}: it can neither stick nor start to slide."))
+        End::Tips(id) => {
+            format!("It ends at {time}: {} tips; model it as a block slider to go on.", joint(id))
         }
-        End::Jammed => (
-            EndKind::Jammed,
-            format!("It jams at {time}: not even an impulse leads to a motion that goes on."),
+        End::NoContinuation => format!("It ends at {time}: it can neither stick nor start to slide."),
+        End::Jammed => format!("It jams at {time}: not even an impulse leads to a motion that goes on."),
+        End::Accumulation => format!("It ends at {time}: events follow each other faster and faster."),
+        End::StepLimit => format!(
+            "Not finished: it was followed to {time}, in {} steps, the most allowed. The equations are stiff there, or the \
+             tolerance is small.",
+            options.most_steps
         ),
-        End::Accumulation => {
-            let words = format!("It ends at {time}: events follow each other faster and faster.");
-            (EndKind::Accumulation, words)
-        }
-        End::StepLimit => {
-            let words = format!(
-                "Not finished: it was followed to {time}, in {} steps, the most allowed. The equations are stiff there, or the \
-                 tolerance is small.",
-                options.most_steps
-            );
-            (EndKind::StepLimit, words)
-        }
-        End::EventLimit => {
-            let words = format!(
-                "Not finished: it was followed to {time}, over {} events, the most allowed.",
-                options.most_events
-            );
-            (EndKind::EventLimit, words)
-        }
-        End::NoValue(faults) => (EndKind::NoValue, format!("It ends at {time}: {}.", first(faults))),
-        End::Undecided(faults) => {
-            (EndKind::Undecided, format!("Not decided what follows after {time}: {}.", first(faults)))
-        }
-        End::Interrupted => (EndKind::Interrupted, format!("Interrupted at {time}.")),
+        End::EventLimit => format!(
+            "Not finished: it was followed to {time}, over {} events, the most allowed.",
+            options.most_events
+        ),
+        End::NoValue(faults) => format!("It ends at {time}: {}.", first(faults)),
+        End::Undecided(faults) => format!("Not decided what follows after {time}: {}.", first(faults)),
+        End::Interrupted => format!("Interrupted at {time}."),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::end::end_report;
 use super::series::Series;
+use crate::choice::kinds;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
@@ -9,7 +10,7 @@ use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, NOTHING};
-use crate::motion::record::history::{Energy, History, PhaseInterval};
+use crate::motion::record::history::{End, Energy, History, PhaseInterval};
 use crate::pattern::phase::JointPhase;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
@@ -134,41 +135,44 @@ pub struct PhaseReport {
     pub turning: Vec<i8>,
 }
 
-/// Why a motion ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum EndKind {
-    /// The requested time has been reached.
-    Finished,
-    /// A joint reaches a limit of its travel.
-    TravelLimit,
-    /// A block leaves its guide.
-    OverlapVanished,
-    /// A normal force reaches its limit.
-    ReactionLimit,
-    /// An event of the model that stops the motion.
-    UserEvent,
-    /// The requested branch does not exist.
-    NoSuchBranch,
-    /// A guided slider tips.
-    Tips,
-    /// At rest, neither sticking nor sliding is possible.
-    NoContinuation,
-    /// It jams, and no impulse leads to a state from which it can continue.
-    Jammed,
-    /// Events come closer and closer together.
-    Accumulation,
-    /// The permitted number of steps is reached.
-    StepLimit,
-    /// The permitted number of events is reached.
-    EventLimit,
-    /// A load or drive has no value.
-    NoValue,
-    /// What follows cannot be decided.
-    Undecided,
-    /// It was interrupted.
-    Interrupted,
+kinds! {
+    End =>
+    /// Why a motion ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum EndKind {
+        /// The requested time has been reached.
+        Finished,
+        /// A joint reaches a limit of its travel.
+        TravelLimit,
+        /// A block leaves its guide.
+        OverlapVanished,
+        /// A normal force reaches its limit.
+        ReactionLimit,
+        /// An event of the model that stops the motion.
+        UserEvent,
+        /// The requested branch does not exist.
+        NoSuchBranch,
+        /// A guided slider tips.
+        Tips,
+        /// At rest, neither sticking nor sliding is possible.
+        NoContinuation,
+        /// It jams, and no impulse leads to a state from which it can continue.
+        Jammed,
+        /// Events come closer and closer together.
+        Accumulation,
+        /// The permitted number of steps is reached.
+        StepLimit,
+        /// The permitted number of events is reached.
+        EventLimit,
+        /// A load or drive has no value.
+        NoValue,
+        /// What follows cannot be decided.
+        Undecided,
+        /// It was interrupted.
+        Interrupted,
+    }
 }
 
 /// How a motion ends.
