@@ -122,10 +122,10 @@ impl Attainability {
             Verdict::NotComputed => format!("Stability not computed: {reason}"),
         };
         if self.depends_on_stiffness == Some(true) {
-            words += "; depends on the stiffness of the guides";
+            words += "; another stiffness of the guides may change this";
         }
         if self.depends_on_mass_ratios == Some(true) {
-            words += "; depends on the ratios of vanishing masses";
+            words += "; other ratios of the vanishing masses may change this";
         }
         words + "."
     }

@@ -64,6 +64,13 @@ impl Page<'_, SizeReport> {
 
     fn margins(&mut self) {
         let report = self.report;
+        let is_constant = report
+            .samples
+            .windows(2)
+            .all(|pair| (pair[0].is, pair[0].margin) == (pair[1].is, pair[1].margin));
+        if is_constant && !self.is_verbose() {
+            return;
+        }
         self.line("");
         let what = subject(report);
         self.headline(&if report.against.is_limit() {
@@ -82,7 +89,8 @@ impl Page<'_, SizeReport> {
         };
         let header = report.limit_shown_in.title(&what);
         let row = |sample: &super::Sample| vec![unit.precise_number(sample.at), margin(sample)];
-        let rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
+        let mut rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
+        rows.dedup();
         self.table(&[&name, &header], &rows);
     }
 }

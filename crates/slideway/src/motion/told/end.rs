@@ -51,10 +51,9 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, Strin
         End::NoContinuation => {
             (EndKind::NoContinuation, format!("It ends at {time}: it can neither stick nor start to slide."))
         }
-        End::Jammed => (
-            EndKind::Jammed,
-            format!("It jams at {time}: not even an impulse leads to a motion that goes on."),
-        ),
+        End::Jammed => {
+            (EndKind::Jammed, format!("It jams at {time}: no motion can follow, not even after an impulse."))
+        }
         End::Accumulation => {
             let words = format!("It ends at {time}: events follow each other faster and faster.");
             (EndKind::Accumulation, words)
@@ -78,7 +77,11 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, Strin
         End::Undecided(faults) => {
             (EndKind::Undecided, format!("Not decided what follows after {time}: {}.", first(faults)))
         }
-        End::Interrupted => (EndKind::Interrupted, format!("Interrupted at {time}.")),
+        End::Interrupted => {
+            let words =
+                format!("Not finished: it was followed to {time}, then interrupted. Allow it more time.");
+            (EndKind::Interrupted, words)
+        }
     }
 }
 
