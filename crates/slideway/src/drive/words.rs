@@ -45,11 +45,14 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
             .directions
             .iter()
             .any(|other| other.direction == Sense::Model && other.tips == direction.tips);
-    std::iter::once(needs(report, direction)).chain(jam(direction, is_advised)).map(whole).collect()
+    std::iter::once(needs(report, direction, is_advised))
+        .chain(jam(direction, is_advised))
+        .map(whole)
+        .collect()
 }
 
 /// The efforts and the efficiency, or that it jams.
-fn needs(report: &DriveReport, direction: &DriveDirection) -> String {
+fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> String {
     if let Some(range) = &direction.range {
         return undetermined(report, direction, range);
     }
@@ -58,14 +61,17 @@ fn needs(report: &DriveReport, direction: &DriveDirection) -> String {
             "infinitely many states are possible, and their efforts are not known.".to_owned()
         }
         ([], Status::Unknown) => "it is not decided whether it moves.".to_owned(),
-        ([], _) => stuck(report, direction),
+        ([], _) => stuck(report, direction, is_advised),
         ([only], _) => format!("{}.{}", needs_one(report, direction, only), unsettled(only.attainability)),
         (several, _) => needs_several(report, several),
     }
 }
 
 /// "it jams: no force moves it.", "bed tips: model it as a block slider ..."
-fn stuck(report: &DriveReport, direction: &DriveDirection) -> String {
+fn stuck(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> String {
+    if !direction.tips.is_empty() && is_advised {
+        return format!("{}, too.", tip("tips", "tip", direction));
+    }
     if !direction.tips.is_empty() {
         return format!(
             "{}; {} to see whether it still moves.",

@@ -148,7 +148,7 @@ impl Page<'_, LimitsReport> {
         let mut titles = vec![from.as_str(), &to, "contact mode", "ends with"];
         if verbose {
             titles = vec!["signs", &from, &to, "begins with", "ends with"];
-            titles.extend(has_orientation.then_some("orientation"));
+            titles.extend(has_orientation.then_some("oriented"));
         }
         let row = |mode: &ModeLimits| {
             let mut row = mode_row(mode, unit, verbose);

@@ -81,6 +81,7 @@ impl SolveReport {
         }
         let all = match self.status {
             Status::None => "there is no solution",
+            Status::Unknown => "no other contact mode has a solution",
             Status::One | Status::PreloadGap if self.solutions.len() + self.preload_gap_states.len() == 1 => {
                 "it is the only solution"
             }

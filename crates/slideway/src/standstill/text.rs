@@ -181,6 +181,7 @@ impl Text<'_> {
             .collect();
         self.gap();
         self.table(&["", "", "acceleration", "unit"], &rows);
+        self.gap();
         self.reactions(&release.reactions);
     }
 
@@ -205,7 +206,6 @@ impl Text<'_> {
         });
         let rows: Vec<Vec<String>> = rows.collect();
         if !rows.is_empty() {
-            self.gap();
             self.table(&header, &rows);
         }
         let has_friction = reactions.hinges.iter().any(|hinge| hinge.couple.is_some());
@@ -221,7 +221,9 @@ impl Text<'_> {
             let mut header = vec![String::new(), String::new(), force.title("x"), force.title("y")];
             header.extend(has_friction.then(|| torque.title("friction couple")));
             let header: Vec<&str> = header.iter().map(String::as_str).collect();
-            self.gap();
+            if !reactions.contacts.is_empty() {
+                self.gap();
+            }
             self.table(&header, &rows);
         }
         for drive in &reactions.drives {
