@@ -51,7 +51,7 @@ impl CheckReport {
         self.questions.iter().filter(|question| !question.ready).filter(asked)
     }
 
-    /// What stands in the way, each once, with the questions that it concerns.
+    /// The hindrances, each once, with the questions that it concerns.
     fn hindrances(&self) -> Vec<(&Finding, Vec<&str>)> {
         let mut all: Vec<(&Finding, Vec<&str>)> = Vec::new();
         for question in self.hindered() {
@@ -248,7 +248,7 @@ impl Text<'_> {
         }
     }
 
-    /// What the tables do not show: friction over velocity, end stops.
+    /// Facts that the tables do not show: friction over velocity, end stops.
     fn speeds_and_stops(&mut self) {
         let report = self.report;
         let depends = report.contacts.iter().filter(|contact| contact.mu_depends_on_speed);

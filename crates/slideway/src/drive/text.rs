@@ -15,7 +15,7 @@ impl Report for DriveReport {
         self.conclusion.join(" ")
     }
 
-    /// What it comes to, the efforts in the state, and those over what is varied.
+    /// The conclusion, the efforts in the state, and those over what is varied.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
         text.heading();
@@ -90,7 +90,7 @@ impl Page<'_, DriveReport> {
         }
     }
 
-    /// Whether other states are excluded.
+    /// The proof that there are no other states, or its absence.
     fn proof(&mut self) {
         let proven = self.report.directions.iter().all(|one| one.complete == Proof::Proven);
         self.line("");

@@ -46,7 +46,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
             .iter()
             .any(|other| other.direction == Sense::Model && other.tips == direction.tips);
     std::iter::once(needs(report, direction, is_advised))
-        .chain(jam(direction, is_advised))
+        .chain(jam(report, direction, is_advised))
         .map(whole)
         .collect()
 }
@@ -79,10 +79,14 @@ fn stuck(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
             as_block(direction)
         );
     }
+    format!("it jams: no {} moves it.", kind_of_all(report))
+}
+
+/// "force", "torque", or "effort" of drives of several kinds.
+fn kind_of_all(report: &DriveReport) -> &'static str {
     let kinds: Vec<Option<&str>> = report.drives.iter().map(|drive| effort::kind(drive.unit)).collect();
     let is_one = kinds.windows(2).all(|pair| pair[0] == pair[1]);
-    let what = kinds.first().copied().flatten().filter(|_| is_one).unwrap_or("effort");
-    format!("it jams: no {what} moves it.")
+    kinds.first().copied().flatten().filter(|_| is_one).unwrap_or("effort")
 }
 
 /// "bed tips", "bed and die tip"
@@ -169,7 +173,7 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
 }
 
 /// When it would jam, or that it never does; none where that is not known.
-fn jam(direction: &DriveDirection, is_advised: bool) -> Option<String> {
+fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Option<String> {
     if let Some(below) = &direction.moves_below {
         let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
         return Some(format!("{what} below {}.", times_friction(below.factor, below.mu)));
@@ -189,7 +193,11 @@ fn jam(direction: &DriveDirection, is_advised: bool) -> Option<String> {
     // A jam that no growing effort announces.
     let grows = |blow_ups: &Vec<BlowUp>| blow_ups.iter().any(|one| precise(one.at) == precise(factor));
     let is_sudden = direction.blow_ups.as_ref().is_some_and(|blow_ups| !grows(blow_ups));
-    let warning = if is_sudden { ", and the force gives no warning before" } else { "" };
+    let warning = if is_sudden {
+        format!(", and the {} gives no warning before", kind_of_all(report))
+    } else {
+        String::new()
+    };
     Some(format!("it would jam from {at}{warning}."))
 }
 

@@ -103,7 +103,7 @@ fn bound_unit(title: &str) -> String {
     }
 }
 
-/// Whether the cells that are not empty are numbers, for the most part: some may be "infinite" or "any".
+/// True if the cells that are not empty are numbers, for the most part: some may be "infinite" or "any".
 fn are_numbers<'c>(cells: impl Iterator<Item = &'c String>) -> bool {
     let (mut numbers, mut words) = (0, 0);
     for cell in cells.filter(|cell| !cell.is_empty()) {

@@ -11,7 +11,7 @@ impl Report for SizeReport {
         self.conclusion.iter().take(2).cloned().collect::<Vec<_>>().join(" ")
     }
 
-    /// What it comes to, where the margin is met, and a table of margins.
+    /// The conclusion, where the margin is met, and a table of margins.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
         text.heading();
