@@ -212,7 +212,7 @@ fn self_locking_over_all_friction_is_that_without_a_parameter() {
     let all = "Self-locking: it holds any `Q` from mu_static = 0.08749 (now 0.15).";
     assert_eq!(over("wedge", "friction").unwrap(), all);
     assert_eq!(held("wedge", &[], Some("Q")), all);
-    let named = gallery::find("wedge").unwrap().text.replace("\nmu = ", "\nfriction = 2\nmu = ");
+    let named = gallery::find("wedge").unwrap().text.replace("[parameters]", "[parameters]\nfriction = 2");
     assert!(over(&named, "friction").is_err(), "no friction depends on this parameter");
 }
 
