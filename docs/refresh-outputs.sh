@@ -12,7 +12,7 @@
 #   ```console paragraphs=2           the first two paragraphs;
 #   ```console lines=9                the first nine lines.
 #   ```console once                   of a help, names the options that an earlier block of the page shows with the same words, and
-#                                     leaves out the examples.
+#                                     leaves out the examples and the exit codes.
 #   ```toml file=docs/src/examples/engine.toml        shows the file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -39,7 +39,7 @@ part() {
         END { if (NR > to) print "..." }'
 }
 
-# once: a help on standard input without its examples, and without the arguments and options that are in $scratch/options, to
+# once: a help on standard input without its examples and exit codes, and without the arguments and options that are in $scratch/options, to
 # which it adds the others.
 once() {
     awk -v known="$scratch/options" '
@@ -60,7 +60,7 @@ once() {
             named = ""
         }
         BEGIN { while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] } }
-        /^[^ ]/ { end_section(); left_out = /^Examples:/ }
+        /^[^ ]/ { end_section(); left_out = /^(Examples|Exit codes):/ }
         left_out { next }
         /^(  -[a-zA-Z], |      )--|^  [<[]/ { end_option(); option = $0 "\n"; next }
         option != "" { option = option $0 "\n"; next }

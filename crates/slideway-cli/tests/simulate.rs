@@ -198,7 +198,7 @@ fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
     let path = file.to_str().unwrap();
     let run = slideway(&["simulate", KLEPP, "--until", "1e6 s", "--time-limit", "300ms", "--output", path]);
     assert_eq!(run.code, 3, "{}", run.stderr);
-    assert_tells(&run.stdout, &["Interrupted at ", "At the end: q = "]);
+    assert_tells(&run.stdout, &["Not finished: it was followed to ", "At the end: q = "]);
     assert!(std::fs::read_to_string(&file).unwrap().lines().count() > 1);
 }
 
@@ -221,7 +221,10 @@ fn an_interrupted_motion_keeps_its_table_beside() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert_tells(&String::from_utf8(output.stdout).unwrap(), &["Interrupted at ", "At the end: q = "]);
+    assert_tells(
+        &String::from_utf8(output.stdout).unwrap(),
+        &["Not finished: it was followed to ", "At the end: q = "],
+    );
     assert_tells(&said, &["the table of the motion so far is in", "motion.csv.partial"]);
     assert!(!file.exists() && !plot.exists());
     let partial = folder.path().join("motion.csv.partial");

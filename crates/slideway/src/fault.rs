@@ -449,7 +449,7 @@ pub enum FaultKind {
     HingeDoesNotTurn { hinge: String, why: NoSliding },
 
     // Standstill.
-    #[error("the load {load} vanishes at rest, so no factor changes it")]
+    #[error("the load {load} is zero at rest, so no factor changes it")]
     NoLoadAtRest { load: String },
     #[error("self-locking is asked of one load, and the model has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     HeldLoadNeeded { known: Vec<String> },
@@ -487,7 +487,7 @@ pub enum FaultKind {
     BetweenFaces,
     #[error("at rest there is no direction of motion to reverse")]
     NoDirectionAtRest,
-    #[error("the model has no drives, so no effort is unknown")]
+    #[error("the model has no drive, so there is no drive force to find")]
     NoDrives { coordinate: Option<String> },
     #[error("{} `pad`, so there is no bearing pressure", contact.as_ref().map_or("no contact has a".to_owned(), |name| format!("the contact {name} has no")))]
     NoPad { contact: Option<String>, joint: Option<String> },

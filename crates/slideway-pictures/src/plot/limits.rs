@@ -196,7 +196,8 @@ pub(super) fn without_empty_ends(panels: &mut [Panel]) {
             for (is_cut, end, way) in [(before, zone.from, "down"), (beyond, zone.to, "up")] {
                 let is_outside = end < shown[0] || end > shown[1];
                 if is_cut && is_outside && (end == from || end == to) {
-                    zone.meaning = format!("{}, {way} to {}", zone.meaning, precise(end));
+                    zone.meaning =
+                        format!("{}, {way} to {} (the axis ends before)", zone.meaning, precise(end));
                 }
             }
         }

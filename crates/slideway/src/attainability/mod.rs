@@ -287,7 +287,14 @@ fn reversed(mechanism: &Mechanism) -> String {
     };
     let coordinate = &mechanism.coordinates[drive.coordinate.index()].name;
     let measure = match drive.effort {
-        Effort::Force { at, .. } => format!("x = \"{}.POINT\"", mechanism.frame_name(at.frame)),
+        Effort::Force { at, direction, .. } => {
+            let axis = if direction.x.abs() >= direction.y.abs() { "x" } else { "y" };
+            let body = at.frame.body().map(|body| &mechanism.bodies[body.index()]);
+            let points = body.into_iter().flat_map(|body| &body.points);
+            let point =
+                points.filter(|(_, position)| *position == at.position).map(|(name, _)| &**name).next();
+            format!("{axis} = \"{}.{}\"", mechanism.frame_name(at.frame), point.unwrap_or("POINT"))
+        }
         Effort::Torque { body, .. } => format!("rotation = \"{}\"", mechanism.frame_name(body)),
     };
     format!(

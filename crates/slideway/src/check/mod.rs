@@ -1,4 +1,4 @@
-//! What a model consists of, and whether it can be solved: degrees of freedom, determinacy, inertia, sliding.
+//! The parts of a model, and the questions that it can answer: degrees of freedom, determinacy, inertia, sliding.
 //!
 //! Stands beside [`mod@crate::solve`]: where that stops at the first thing that makes no sense, a check goes
 //! on as far as it can and gathers what it finds.
@@ -41,7 +41,7 @@ pub const SCHEMA: &str = "slideway/check/1";
 /// less (rad), have not: that is the rounding of its closed joints.
 const MOVED: f64 = 1e-9;
 
-/// What a model consists of, and what stands in the way of solving it.
+/// The parts of a model, and the hindrances to solving it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CheckReport {
@@ -52,14 +52,14 @@ pub struct CheckReport {
     /// The units in which texts show its numbers.
     #[serde(skip)]
     pub units: Units,
-    /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings.
+    /// True if nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings.
     /// (What only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
     pub sound: bool,
     /// Everything for which that would be refused.
     pub findings: Vec<Finding>,
     /// The questions, and which of them the model can answer in this state.
     pub questions: Vec<Question>,
-    /// What is perhaps not meant, though it does not stand in the way.
+    /// Warnings of what is perhaps not meant, though it does not stand in the way.
     pub warnings: Vec<WarningReport>,
     /// Degrees of freedom and determinacy.
     pub mobility: MobilitySummary,
@@ -70,7 +70,7 @@ pub struct CheckReport {
     pub inertia: InertiaSummary,
     /// Ratio of the greatest to the least pivot of the kinetic equations, if they can be solved.
     pub condition: Option<f64>,
-    /// Whether the state could be assembled; if not, what depends on it is told of the drawing.
+    /// True if the state could be assembled; if not, what depends on it is that of the drawing.
     pub assembled: bool,
     /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
     /// branch; absent where they are those of the drawing.
@@ -94,9 +94,9 @@ pub struct CheckReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Finding {
-    /// What is wrong.
+    /// The fault in words.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub hint: Option<String>,
 }
 
@@ -112,13 +112,13 @@ pub struct MobilitySummary {
     pub independent: usize,
     /// Motions that the joints leave.
     pub degrees_of_freedom: usize,
-    /// Whether all constraints are independent, so that the reactions are determinate.
+    /// True if all constraints are independent, so that the reactions are determinate.
     pub determinate: bool,
-    /// Whether dependent constraints are so in this position only.
+    /// True if dependent constraints are so in this position only.
     pub singular_position: bool,
     /// The joints among which the excess lies.
     pub joints_in_excess: Vec<String>,
-    /// What would make the structure determinate.
+    /// Changes that would make the structure determinate.
     pub suggestion: Option<String>,
 }
 
@@ -126,7 +126,7 @@ pub struct MobilitySummary {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct InertiaSummary {
-    /// Whether the mass matrix is regular on them: every motion has kinetic energy.
+    /// True if the mass matrix is regular on them: every motion has kinetic energy.
     pub regular: bool,
     /// The motions that have none.
     pub motions_without: Vec<String>,
@@ -154,7 +154,7 @@ pub struct BodySummary {
 pub struct JointSummary {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: JointForm,
     /// The bodies it joins; of a sliding joint first the block, then the guide.
     pub joins: [String; 2],
@@ -162,7 +162,7 @@ pub struct JointSummary {
     pub constraints: usize,
     /// Direction `u` of a sliding joint in this state: that of `along`, turned with the guide.
     pub direction: Option<[f64; 2]>,
-    /// What it means that it slides in its positive direction, in words.
+    /// Its positive direction of sliding, in words.
     pub positive: Option<String>,
     /// Displacement of a sliding joint (m).
     pub displacement: Option<f64>,
@@ -176,7 +176,7 @@ pub struct JointSummary {
     pub friction_radii: Option<[f64; 2]>,
 }
 
-/// What a joint is.
+/// The kind of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum JointForm {
@@ -205,7 +205,7 @@ impl fmt::Display for JointForm {
     }
 }
 
-/// What a coordinate measures.
+/// The kind of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -236,7 +236,7 @@ pub struct ContactSummary {
     pub name: String,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
     pub mu: [f64; 2],
-    /// Whether it depends on the sliding speed; it is told at that of the state.
+    /// True if it depends on the sliding speed; it is given at that of the state.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub mu_depends_on_speed: bool,
     /// Static friction coefficient, likewise.
@@ -279,9 +279,9 @@ pub struct DriveSummary {
 pub struct CoordinateSummary {
     /// Its name.
     pub name: String,
-    /// What it measures.
+    /// Its kind.
     pub kind: CoordinateForm,
-    /// What it means that it grows, in words.
+    /// Its positive direction, in words.
     pub positive: String,
     /// "m" or "rad".
     pub unit: &'static str,
@@ -291,7 +291,7 @@ pub struct CoordinateSummary {
     pub rate: f64,
 }
 
-/// What a model consists of, and everything that stands in the way of solving it.
+/// Lists the parts of a model and everything that hinders solving it.
 ///
 /// # Errors
 /// Values that are not finite or not allowed: then there is nothing to check.
@@ -362,7 +362,7 @@ impl Finding {
 }
 
 impl CheckReport {
-    /// Whether some question can be answered in this state.
+    /// True if some question can be answered in this state.
     pub fn is_ready(&self) -> bool {
         self.questions.iter().any(|question| question.ready)
     }

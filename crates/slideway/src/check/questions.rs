@@ -16,11 +16,11 @@ use std::ops::ControlFlow;
 pub struct Question {
     /// The command that asks it: "solve" (and with it "limits", "size", "sweep", "map"), "drive", "hold", "simulate".
     pub name: &'static str,
-    /// Whether nothing stands in its way.
+    /// True if nothing stands in its way.
     pub ready: bool,
     /// Everything for which it would be refused.
     pub findings: Vec<Finding>,
-    /// What it needs, in a few words, if that is little: "a rate".
+    /// Its needs in a few words, if that is little: "a rate".
     pub needs: Vec<&'static str>,
 }
 
@@ -38,7 +38,7 @@ impl Question {
     }
 }
 
-/// What a model lacks, if that is easily given.
+/// Something that a model lacks, if that is easily given.
 fn need(kind: &FaultKind) -> Option<&'static str> {
     match kind {
         FaultKind::ZeroSlidingVelocity { .. } => Some("a rate"),

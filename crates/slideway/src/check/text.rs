@@ -1,6 +1,6 @@
 //! The findings of a check as text for people.
 
-use super::{CheckReport, ContactFit, ContactSummary, Finding, Question};
+use super::{CheckReport, ContactFit, ContactSummary, Finding, JointSummary, Question};
 use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -51,7 +51,7 @@ impl CheckReport {
         self.questions.iter().filter(|question| !question.ready).filter(asked)
     }
 
-    /// What stands in the way, each once, with the questions that it concerns.
+    /// The hindrances, each once, with the questions that it concerns.
     fn hindrances(&self) -> Vec<(&Finding, Vec<&str>)> {
         let mut all: Vec<(&Finding, Vec<&str>)> = Vec::new();
         for question in self.hindered() {
@@ -99,20 +99,23 @@ impl Text<'_> {
         self.painted(colour.on_default().bold(), &report.answer());
         for (finding, questions) in report.hindrances() {
             let of_some = report.is_ready().then(|| format!("For {}: ", questions.join(", ")));
-            self.line(&format!("  - {}{}", of_some.unwrap_or_default(), finding.message));
-            if let Some(hint) = &finding.hint {
-                self.line(&format!("    help: {hint}"));
-            }
-        }
-        if !report.warnings.is_empty() {
-            let warnings = count(report.warnings.len(), "warning", "warnings");
-            self.painted(AnsiColor::Yellow.on_default().bold(), &format!("{warnings}:"));
+            self.item(
+                &format!("{}{}", of_some.unwrap_or_default(), finding.message),
+                finding.hint.as_deref(),
+            );
         }
         for warning in &report.warnings {
-            self.line(&format!("  - {}", warning.message));
-            self.line(&format!("    help: {}", warning.hint));
+            self.item(&warning.message, Some(&warning.hint));
         }
         self.line("");
+    }
+
+    /// A finding of a list, and what helps.
+    fn item(&mut self, message: &str, hint: Option<&str>) {
+        self.hung(&format!("  - {message}"), "- ");
+        if let Some(hint) = hint {
+            self.hung(&format!("    help: {hint}"), "help: ");
+        }
     }
 
     fn mobility(&mut self) {
@@ -142,7 +145,9 @@ impl Text<'_> {
         };
         self.line(&determinacy);
         if let Some(sharing) = &self.report.sharing {
-            sharing.in_words(&self.report.units).iter().for_each(|line| self.line(line));
+            let units = &self.report.units;
+            let lines = if self.is_verbose() { sharing.in_words(units) } else { sharing.in_brief(units) };
+            lines.iter().for_each(|line| self.line(line));
         }
     }
 
@@ -243,31 +248,31 @@ impl Text<'_> {
         }
     }
 
-    /// What the tables do not show: friction over velocity, end stops.
+    /// Facts that the tables do not show: friction over velocity, end stops.
     fn speeds_and_stops(&mut self) {
         let report = self.report;
         let depends = report.contacts.iter().filter(|contact| contact.mu_depends_on_speed);
         let names: Vec<&str> = depends.map(|contact| &*contact.name).collect();
         if !names.is_empty() {
+            self.line("");
             self.line(&format!(
                 "mu depends on the sliding speed at {}; it is that of this state.",
                 names.join(", ")
             ));
         }
         let length = report.units.of("m");
+        let circle = |joint: &JointSummary| {
+            let [turning, at_rest] = joint.friction_radii?;
+            let rest = if at_rest == turning { String::new() } else { length.number(at_rest) };
+            Some(vec![joint.name.clone(), length.number(turning), rest])
+        };
+        let circles: Vec<Vec<String>> = report.joints.iter().filter_map(circle).collect();
+        let header = ["hinge", &length.title("friction circle, radius"), &length.title("radius at rest")];
+        self.rows(&header, &circles);
+        if report.joints.iter().any(|joint| joint.stops.into_iter().flatten().any(|stop| stop.is_some())) {
+            self.line("");
+        }
         for joint in &report.joints {
-            if let Some([turning, at_rest]) = joint.friction_radii {
-                let at_rest = if at_rest == turning {
-                    String::new()
-                } else {
-                    format!(", {} at rest", length.show(at_rest))
-                };
-                let turning = length.show(turning);
-                self.line(&format!(
-                    "The hinge {} has a friction circle of radius {turning}{at_rest}.",
-                    joint.name
-                ));
-            }
             for (stop, end) in joint.stops.into_iter().flatten().zip(["least", "greatest"]) {
                 let told = match stop {
                     None => continue,

@@ -7,7 +7,7 @@ use super::report::{
 use super::words::{advice, is_stable, percents, sentences, share, without_limit};
 use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::page::Page;
-use crate::report::{OpenRange, Proof, Report, Style, Verdict, precise, spaced};
+use crate::report::{OpenRange, Proof, Report, Style, Verdict, joints_in_words, precise, spaced};
 use crate::units::Unit;
 
 impl Report for DriveReport {
@@ -15,7 +15,7 @@ impl Report for DriveReport {
         self.conclusion.join(" ")
     }
 
-    /// What it comes to, the efforts in the state, and those over what is varied.
+    /// The conclusion, the efforts in the state, and those over what is varied.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
         text.heading();
@@ -60,14 +60,12 @@ impl Page<'_, DriveReport> {
         let columns = Columns {
             signs: all,
             stable: all || states.iter().any(|one| one.attainability != Verdict::Attainable),
-            contact: states.iter().any(|one| !one.joints.is_empty()),
         };
         let mut header = vec![String::new()];
         header.extend(columns.signs.then(|| "signs".to_owned()));
         header.extend(self.effort_titles());
         header.extend([self.report.units.of("W").title("power"), "efficiency".to_owned()]);
         header.extend(columns.stable.then(|| "stable".to_owned()));
-        header.extend(columns.contact.then(|| "contact".to_owned()));
         let mut rows = vec![self.frictionless(direction, columns)];
         for (index, state) in states.iter().enumerate() {
             let name =
@@ -76,9 +74,13 @@ impl Page<'_, DriveReport> {
         }
         rows.extend(direction.range.as_ref().map(|range| self.range(range, columns)));
         self.table(&header, &rows);
+        for (index, state) in states.iter().enumerate().filter(|(_, state)| !state.joints.is_empty()) {
+            let name = if states.len() == 1 { String::new() } else { format!("state {}: ", index + 1) };
+            self.hung(&format!("  {name}{}", joints_in_words(&state.joints)), "  ");
+        }
         for blow_up in direction.blow_ups.iter().flatten().filter(|_| all) {
-            let told = without_limit(self.report, blow_up, true);
-            self.line(&format!("  At {} times this friction {told}.", precise(blow_up.at)));
+            let at = format!("{} times this friction", precise(blow_up.at));
+            self.line(&format!("  {}.", without_limit(self.report, blow_up, &at, true)));
         }
         for factor in direction.no_solution.iter().filter(|_| all) {
             self.line(&format!(
@@ -88,7 +90,7 @@ impl Page<'_, DriveReport> {
         }
     }
 
-    /// Whether other states are excluded.
+    /// The proof that there are no other states, or its absence.
     fn proof(&mut self) {
         let proven = self.report.directions.iter().all(|one| one.complete == Proof::Proven);
         self.line("");
@@ -112,15 +114,13 @@ impl Page<'_, DriveReport> {
     fn frictionless(&self, direction: &DriveDirection, columns: Columns) -> Vec<String> {
         let mut row = columns.first("without friction".to_owned(), String::new());
         row.extend(self.numbers(&direction.frictionless.efforts, direction.frictionless.power));
-        columns.last(row, String::new(), [String::new(), String::new()])
+        columns.last(row, String::new(), String::new())
     }
 
     fn state(&self, name: String, state: &DriveSolution, columns: Columns) -> Vec<String> {
         let mut row = columns.first(name, spaced(&state.pattern));
         row.extend(self.numbers(&state.efforts, state.power));
-        let words = state.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode));
-        let words = words.collect::<Vec<_>>().join("; ");
-        columns.last(row, share(state.efficiency), [is_stable(state.attainability).to_owned(), words])
+        columns.last(row, share(state.efficiency), is_stable(state.attainability).to_owned())
     }
 
     fn range(&self, range: &EffortRange, columns: Columns) -> Vec<String> {
@@ -129,7 +129,7 @@ impl Page<'_, DriveReport> {
         let power = |end: Option<f64>| end.map(|power| self.report.units.of("W").number(power));
         row.push(ends_in_words(range.power.map(power)));
         let efficiency = range.efficiency.map_or(String::new(), percents);
-        columns.last(row, efficiency, [String::new(), String::new()])
+        columns.last(row, efficiency, String::new())
     }
 
     /// The efforts and their power.
@@ -145,9 +145,8 @@ impl Page<'_, DriveReport> {
             self.headline(&format!("{}, over {}", title(direction.direction), course.vary.name));
             self.course_table(course, direction);
             for blow_up in &direction.blow_ups {
-                let told = without_limit(self.report, blow_up, details);
-                let at = course.vary.shown_in.precise(blow_up.at);
-                self.line(&format!("  At {} = {at} {told}.", course.vary.name));
+                let at = format!("{} = {}", course.vary.name, course.vary.shown_in.precise(blow_up.at));
+                self.line(&format!("  {}.", without_limit(self.report, blow_up, &at, details)));
             }
             for LockedRange { from, to } in &direction.locked {
                 let unit = &course.vary.shown_in;
@@ -189,12 +188,11 @@ impl Page<'_, DriveReport> {
     }
 }
 
-/// Which columns a table has beside efforts, power and efficiency.
+/// The columns of a table beside efforts, power and efficiency.
 #[derive(Clone, Copy)]
 struct Columns {
     signs: bool,
     stable: bool,
-    contact: bool,
 }
 
 impl Columns {
@@ -204,10 +202,9 @@ impl Columns {
     }
 
     /// A row with its last cells.
-    fn last(self, mut row: Vec<String>, efficiency: String, [stable, contact]: [String; 2]) -> Vec<String> {
+    fn last(self, mut row: Vec<String>, efficiency: String, stable: String) -> Vec<String> {
         row.push(efficiency);
         row.extend(self.stable.then_some(stable));
-        row.extend(self.contact.then_some(contact));
         row
     }
 }

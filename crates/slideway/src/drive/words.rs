@@ -39,11 +39,20 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
         }
         Sense::Model => clause,
     };
-    std::iter::once(needs(report, direction)).chain(jam(direction)).map(whole).collect()
+    // The advice on a joint that tips is given once, for the motion of the model.
+    let is_advised = direction.direction == Sense::Reversed
+        && report
+            .directions
+            .iter()
+            .any(|other| other.direction == Sense::Model && other.tips == direction.tips);
+    std::iter::once(needs(report, direction, is_advised))
+        .chain(jam(report, direction, is_advised))
+        .map(whole)
+        .collect()
 }
 
 /// The efforts and the efficiency, or that it jams.
-fn needs(report: &DriveReport, direction: &DriveDirection) -> String {
+fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> String {
     if let Some(range) = &direction.range {
         return undetermined(report, direction, range);
     }
@@ -52,14 +61,17 @@ fn needs(report: &DriveReport, direction: &DriveDirection) -> String {
             "infinitely many states are possible, and their efforts are not known.".to_owned()
         }
         ([], Status::Unknown) => "it is not decided whether it moves.".to_owned(),
-        ([], _) => stuck(report, direction),
+        ([], _) => stuck(report, direction, is_advised),
         ([only], _) => format!("{}.{}", needs_one(report, direction, only), unsettled(only.attainability)),
         (several, _) => needs_several(report, several),
     }
 }
 
 /// "it jams: no force moves it.", "bed tips: model it as a block slider ..."
-fn stuck(report: &DriveReport, direction: &DriveDirection) -> String {
+fn stuck(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> String {
+    if !direction.tips.is_empty() && is_advised {
+        return format!("{}, too.", tip("tips", "tip", direction));
+    }
     if !direction.tips.is_empty() {
         return format!(
             "{}; {} to see whether it still moves.",
@@ -67,10 +79,14 @@ fn stuck(report: &DriveReport, direction: &DriveDirection) -> String {
             as_block(direction)
         );
     }
+    format!("it jams: no {} moves it.", kind_of_all(report))
+}
+
+/// "force", "torque", or "effort" of drives of several kinds.
+fn kind_of_all(report: &DriveReport) -> &'static str {
     let kinds: Vec<Option<&str>> = report.drives.iter().map(|drive| effort::kind(drive.unit)).collect();
     let is_one = kinds.windows(2).all(|pair| pair[0] == pair[1]);
-    let what = kinds.first().copied().flatten().filter(|_| is_one).unwrap_or("effort");
-    format!("it jams: no {what} moves it.")
+    kinds.first().copied().flatten().filter(|_| is_one).unwrap_or("effort")
 }
 
 /// "bed tips", "bed and die tip"
@@ -157,7 +173,7 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
 }
 
 /// When it would jam, or that it never does; none where that is not known.
-fn jam(direction: &DriveDirection) -> Option<String> {
+fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Option<String> {
     if let Some(below) = &direction.moves_below {
         let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
         return Some(format!("{what} below {}.", times_friction(below.factor, below.mu)));
@@ -171,12 +187,17 @@ fn jam(direction: &DriveDirection) -> Option<String> {
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {
         let tips = tip("would tip", "would tip", direction);
-        return Some(format!("{tips} from {at}; {} to go on.", as_block(direction)));
+        let advice = if is_advised { String::new() } else { format!("; {} to go on", as_block(direction)) };
+        return Some(format!("{tips} from {at}{advice}."));
     }
     // A jam that no growing effort announces.
     let grows = |blow_ups: &Vec<BlowUp>| blow_ups.iter().any(|one| precise(one.at) == precise(factor));
     let is_sudden = direction.blow_ups.as_ref().is_some_and(|blow_ups| !grows(blow_ups));
-    let warning = if is_sudden { ", and the effort gives no warning before" } else { "" };
+    let warning = if is_sudden {
+        format!(", and the {} gives no warning before", kind_of_all(report))
+    } else {
+        String::new()
+    };
     Some(format!("it would jam from {at}{warning}."))
 }
 
@@ -210,27 +231,29 @@ pub(super) fn is_stable(verdict: Verdict) -> &'static str {
     }
 }
 
-/// "the effort of push grows without limit"; with details also where: "(mode + -, below), with the normal
-/// forces of guide.front, guide.rear".
-pub(super) fn without_limit(report: &DriveReport, blow_up: &BlowUp, details: bool) -> String {
+/// "Just below mu = 0.5 the force of push grows without limit"; with details also which normal forces do, and the signs.
+pub(super) fn without_limit(report: &DriveReport, blow_up: &BlowUp, at: &str, details: bool) -> String {
     let growing = report.drives.iter().zip(&blow_up.efforts).filter(|(_, sign)| **sign != 0);
-    let growing: Vec<&str> = growing.map(|(drive, _)| &*drive.name).collect();
-    let [what, verb] = if growing.len() == 1 { ["effort", "grows"] } else { ["efforts", "grow"] };
-    let what = format!("the {what} of {} {verb} without limit", growing.join(", "));
+    let growing: Vec<String> = growing
+        .map(|(drive, _)| format!("the {} of {}", effort::kind(drive.unit).unwrap_or("effort"), drive.name))
+        .collect();
+    let verb = if growing.len() == 1 { "grows" } else { "grow" };
     let side = match blow_up.side {
-        Approach::Below => "below it",
-        Approach::Above => "above it",
+        Approach::Below => "below",
+        Approach::Above => "above",
     };
+    let what = format!("Just {side} {at} {} {verb} without limit", growing.join(" and "));
     if !details {
-        return format!("{what} just {side}");
+        return what;
     }
     let also = match blow_up.contacts.as_slice() {
         [] => String::new(),
-        contacts => format!(", with the normal forces of {}", contacts.join(", ")),
+        [one] => format!("; so does the normal force of {one}"),
+        contacts => format!("; so do the normal forces of {}", contacts.join(", ")),
     };
-    // Hinges alone have no modes.
+    // Hinges alone have no signs.
     match blow_up.pattern.as_str() {
-        "" => format!("{what} just {side}{also}"),
-        pattern => format!("{what} just {side} in the mode {}{also}", spaced(pattern)),
+        "" => what + &also,
+        pattern => format!("{what} (signs {}){also}", spaced(pattern)),
     }
 }

@@ -317,6 +317,9 @@ fn domain_hint(operation: &str, arguments: &[f64]) -> Option<&'static str> {
 }
 
 fn listed(arguments: &[f64]) -> String {
-    let written: Vec<String> = arguments.iter().map(|argument| format!("{argument:?}")).collect();
-    written.join(" and ")
+    // More digits than that are rounding to whoever reads them.
+    let brief = |argument: &f64| Some(argument.to_string()).filter(|exact| exact.len() <= 10);
+    let written =
+        arguments.iter().map(|argument| brief(argument).unwrap_or_else(|| format!("{argument:.4e}")));
+    written.collect::<Vec<_>>().join(" and ")
 }

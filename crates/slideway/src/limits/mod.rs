@@ -50,6 +50,7 @@ mod text;
 mod varied;
 mod vary;
 
+pub use crate::model::FRICTION;
 pub(crate) use answer::{Naming, held_state};
 pub(crate) use curves::StateAt;
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
@@ -63,7 +64,7 @@ pub use report::{
 };
 pub use rest::{rest_limits, rest_limits_with};
 pub(crate) use text::{could_be_missed, no_answer};
-pub use varied::{FRICTION, Variable, variables};
+pub use varied::{Variable, variables};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
 pub(crate) use vary::range_around;

@@ -79,7 +79,7 @@ fn rest_limits_of(
         units: model.units.clone(),
         load: options.load.clone(),
         guarantee: format!(
-            "Decided at values {} apart; where the answer changes between two of them it was bisected; what is closer than {} to an end of the range or to zero counts as there. Narrower stretches may be missed.",
+            "Decided at values {} apart; where the answer changes between two of them it was bisected; ends closer than {} to an end of the range or to zero are placed there. Narrower stretches may be missed.",
             varied.shown_in.precise((range[1] - range[0]) / STEPS as f64),
             varied.shown_in.with(&format!("{:.1e}", varied.shown_in.number_of(same_ends.within)))
         ),

@@ -7,7 +7,7 @@ use super::report::{
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, spaced};
+use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, joints_in_words, spaced};
 use crate::standstill::CoordinateValue;
 use crate::units::Unit;
 
@@ -113,6 +113,31 @@ impl Page<'_, LimitsReport> {
         which: &str,
         (modes, counts, gaps): (&[ModeLimits], &[CountLimits], &[RangeWithoutProblem]),
     ) {
+        // Without contacts, a mode throughout the range says nothing more.
+        let ends_in_range = |mode: &ModeLimits| [mode.from_is, mode.to_is] == [ModeEndCause::Range; 2];
+        let is_whole = |mode: &ModeLimits| mode.joints.is_empty() && ends_in_range(mode);
+        let verbose = self.is_verbose();
+        if verbose || !modes.iter().all(is_whole) {
+            self.modes(which, modes);
+        }
+        let unit = &self.report.vary.shown_in;
+        if verbose {
+            self.line("");
+            self.headline(&format!("Number of solutions{which}"));
+            let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
+            let [from, to] = ["from", "to"].map(|end| unit.title(end));
+            self.table(&[&from, &to, "solutions", "preload gaps", "known"], &rows);
+        }
+        if !gaps.is_empty() {
+            self.line("");
+        }
+        for RangeWithoutProblem { from, to, reason } in gaps {
+            self.line(&no_answer([*from, *to], unit, reason));
+        }
+    }
+
+    /// Where each contact mode exists.
+    fn modes(&mut self, which: &str, modes: &[ModeLimits]) {
         self.line("");
         self.headline(&format!("Contact modes{which}"));
         let unit = &self.report.vary.shown_in;
@@ -121,8 +146,8 @@ impl Page<'_, LimitsReport> {
         let has_orientation = modes.iter().any(|mode| mode.orientation.is_some());
         let mut titles = vec![from.as_str(), &to, "contact mode", "ends with"];
         if verbose {
-            titles = vec!["signs", &from, &to, "contact mode", "begins with", "ends with"];
-            titles.extend(has_orientation.then_some("orientation"));
+            titles = vec!["signs", &from, &to, "begins with", "ends with"];
+            titles.extend(has_orientation.then_some("oriented"));
         }
         let row = |mode: &ModeLimits| {
             let mut row = mode_row(mode, unit, verbose);
@@ -131,21 +156,16 @@ impl Page<'_, LimitsReport> {
         };
         let rows: Vec<Vec<String>> = modes.iter().map(row).collect();
         self.table(&titles, &rows);
-        for mode in modes.iter().filter(|mode| verbose && !mode.speeds.is_empty()) {
+        for mode in modes.iter().filter(|_| verbose) {
             let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
-            self.line(&format!("  {}: {}", name.trim(), speeds_in_words(&mode.speeds, unit)));
+            let parts = [joints_in_words(&mode.joints), speeds_in_words(&mode.speeds, unit)];
+            let words = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ");
+            if !words.is_empty() {
+                self.hung(&format!("  {}: {words}", name.trim()), "  ");
+            }
         }
         if verbose && modes.iter().any(|mode| mode.orientation == Some(-1)) {
             self.line("  With slightly elastic joints the mechanism leaves solutions of negative orientation; with drives, if it is stable without friction (see `slideway solve`).");
-        }
-        if verbose {
-            self.line("");
-            self.headline(&format!("Number of solutions{which}"));
-            let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
-            self.table(&[&from, &to, "solutions", "preload gaps", "known"], &rows);
-        }
-        for RangeWithoutProblem { from, to, reason } in gaps {
-            self.line(&no_answer([*from, *to], unit, reason));
         }
     }
 }
@@ -191,8 +211,6 @@ pub(crate) fn no_answer([from, to]: [f64; 2], unit: &Unit, reason: &str) -> Stri
 
 fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {
     let end = |at: Option<f64>| at.map_or("infinity".to_owned(), |at| unit.precise_number(at));
-    let words: Vec<String> =
-        mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
     let contacts =
         |grows: fn(&EndReaction) -> i8| mode.reactions.iter().map(move |one| (&*one.contact, grows(one)));
     let hinges = |grows: fn(&EndHingeForce) -> bool| {
@@ -204,11 +222,11 @@ fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {
         contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows)),
     );
     let ends = cause(mode.to_is, &mode.to_at, contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows)));
-    let (from, to, words) = (end(mode.from), end(mode.to), words.join("; "));
+    let (from, to) = (end(mode.from), end(mode.to));
     if verbose {
-        vec![spaced(&mode.pattern), from, to, words, begins, ends]
+        vec![spaced(&mode.pattern), from, to, begins, ends]
     } else {
-        vec![from, to, words, ends]
+        vec![from, to, joints_in_words(&mode.joints), ends]
     }
 }
 
@@ -237,11 +255,14 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
         ModeEndCause::Locking | ModeEndCause::WithoutBound => {
             let growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
             match (growing.as_slice(), is) {
-                ([], is) => is.in_words().to_owned(),
-                (list, ModeEndCause::Locking) => {
-                    format!("locking: force on {} without bound", list.join(", "))
+                ([], ModeEndCause::Locking) => "it jams".to_owned(),
+                ([], _) => "its forces grow without limit".to_owned(),
+                (list, is) => {
+                    let jams = if is == ModeEndCause::Locking { "it jams: " } else { "" };
+                    let [forces, grow] =
+                        if list.len() == 1 { ["force", "grows"] } else { ["forces", "grow"] };
+                    format!("{jams}{forces} on {} {grow} without limit", list.join(", "))
                 }
-                (list, _) => format!("force on {} without bound", list.join(", ")),
             }
         }
         ModeEndCause::SideChange if several => format!("{at} change side"),
@@ -250,7 +271,7 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
         ModeEndCause::Tipping if several => format!("{at} tip"),
         ModeEndCause::Tipping => format!("{at} tips"),
         ModeEndCause::GreatestReaction => format!("{at} at the greatest reaction"),
-        ModeEndCause::Fold => "a fold".to_owned(),
+        ModeEndCause::Fold => "it merges with another solution".to_owned(),
         ModeEndCause::HingeUnloaded if several => format!("the forces of {at} vanish"),
         ModeEndCause::HingeUnloaded => format!("the force of {at} vanishes"),
         ModeEndCause::NotFollowed => "not followed".to_owned(),
@@ -273,7 +294,7 @@ fn known(count: &CountLimits, unit: &Unit) -> String {
     let rest = match (count.known, count.spacing) {
         (Known::Proven, _) => {
             let left_out = count.left_out();
-            let except = format!("proven except within {} of ends", at_most(left_out, unit));
+            let except = format!("proven, except within {} of the ends", at_most(left_out, unit));
             return if left_out > 0.0 { except } else { "proven".to_owned() };
         }
         (Known::Undecided, _) => return "not decided".to_owned(),

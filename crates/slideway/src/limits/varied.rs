@@ -9,7 +9,7 @@ use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
 use crate::kinetics::coordinate_rows;
 use crate::mechanism::{Coordinate, Mechanism};
-use crate::model::{Dependence, Model, Setting, SettingKind, Value};
+use crate::model::{Dependence, FRICTION, Model, Setting, SettingKind, Value};
 use crate::modes::blocks::{self, BlockProblem, BlockResult};
 use crate::modes::branches::{Branch, BranchForces, Instance, NoInstance};
 use crate::modes::existence::ModeProblemLine;
@@ -22,9 +22,6 @@ use crate::solve::{
 };
 use crate::units::Unit;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-/// The name under which all coefficients of friction are scaled together.
-pub const FRICTION: &str = "friction";
 
 /// What is varied in a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -76,6 +76,9 @@ use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
 use crate::units::{UnitSystem, Units};
 use std::sync::Arc;
 
+/// The name under which all coefficients of friction are scaled together.
+pub const FRICTION: &str = "friction";
+
 /// Largest model file that is read, in bytes.
 pub const SIZE_LIMIT: u64 = 4 << 20;
 

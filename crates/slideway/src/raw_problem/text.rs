@@ -103,7 +103,7 @@ impl Text<'_> {
         }
     }
 
-    /// What there is for numbers that differ by rounding alone.
+    /// The solutions for numbers that differ by rounding alone.
     fn within_rounding(&mut self) {
         let Some(WithinRounding { relative, answer, unknowns, .. }) = &self.report.within_rounding else {
             return;
@@ -122,7 +122,7 @@ impl Text<'_> {
         self.unknowns(unknowns, &[]);
     }
 
-    /// What is known of all right-hand sides.
+    /// Results for all right-hand sides.
     fn every_right_hand_side(&mut self) {
         let Some(EveryRightHandSide { answer, patterns, reason, .. }) = &self.report.every_right_hand_side
         else {
@@ -367,7 +367,7 @@ fn signs(solution: &RawSolution) -> String {
     format!("signs{}", signs.collect::<String>())
 }
 
-/// What a part of a continuum looks like.
+/// The shape of a part of a continuum.
 fn shape(part: &ContinuumPart) -> String {
     match (part.vertex_count, part.direction_count) {
         (0, 0) => {
@@ -425,7 +425,7 @@ fn rows(
     (header, rows)
 }
 
-/// What a person wants to see, with its place: of a mode problem the normal forces alone, whose sizes are the
+/// The numbers to show, each with its place: of a mode problem the normal forces alone, whose sizes are the
 /// `y`.
 fn shown(report: &RawReport) -> Vec<(usize, NamedRange)> {
     let most = if report.kind == RawKind::Modes { 1 } else { usize::MAX };

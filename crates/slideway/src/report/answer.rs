@@ -4,13 +4,18 @@ use super::effort::{self, times_friction};
 use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
+/// The remedy where a search ended early.
+const MORE_TIME: &str = "Allow it more time.";
+/// The remedy at a boundary.
+const NEARBY: &str = "Ask again with slightly more or less friction or load.";
+
 impl SolveReport {
     /// The verdict in a sentence: "It moves: push needs 36.36 N (20 N without friction)."
     pub fn verdict_in_words(&self) -> String {
         if self.partial && matches!(self.status, Status::One | Status::Several | Status::PreloadGap) {
             let states = if self.count == "0" { &self.gap_state_count } else { &self.count };
             let found = if states == "1" { "one solution" } else { &format!("{states} solutions") };
-            return format!("Found so far: {found}. The search is not finished.");
+            return format!("Not decided: the search is not finished; so far it found {found}. {MORE_TIME}");
         }
         match self.status {
             Status::None => match self.tipping() {
@@ -22,17 +27,23 @@ impl SolveReport {
             Status::Continuum => self.open_in_words(),
             Status::PreloadGap => self.gap_in_words(),
             Status::Unknown if self.partial => {
-                "Not decided: nothing was found, but the search is not finished.".to_owned()
+                format!("Not decided: the search is not finished; so far it found no solution. {MORE_TIME}")
             }
             Status::Unknown => {
-                "Not decided: it is at a boundary, and rounding hides whether it moves or jams.".to_owned()
+                format!(
+                    "Not decided: it is at a boundary, and rounding hides whether it moves or jams. {NEARBY}"
+                )
             }
         }
     }
 
     /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667 (2.222 times this
-    /// friction)." Empty where nothing is known, or nothing changes.
+    /// friction)." Empty where nothing is known, or nothing changes, and where it is not decided whether it moves: there
+    /// a factor would be read as a promise.
     pub fn safety_in_words(&self) -> Vec<String> {
+        if self.partial || self.status == Status::Unknown || !self.open.is_empty() {
+            return Vec::new();
+        }
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
             let below = margins.moves_below.map(|below| times_friction(below.factor, below.mu));
@@ -70,6 +81,7 @@ impl SolveReport {
         }
         let all = match self.status {
             Status::None => "there is no solution",
+            Status::Unknown => "no other contact mode has a solution",
             Status::One | Status::PreloadGap if self.solutions.len() + self.preload_gap_states.len() == 1 => {
                 "it is the only solution"
             }
@@ -187,7 +199,7 @@ impl SolveReport {
     /// "It moves in a preload gap, pin pressed by its preload alone: push needs 3 N (2 N without friction)."
     fn gap_in_words(&self) -> String {
         if self.partial || !self.undecided_modes.is_empty() {
-            return "A state in a preload gap; whether it has another solution is not decided.".to_owned();
+            return format!("Not decided whether its state in a preload gap is the only solution. {NEARBY}");
         }
         let [state] = self.preload_gap_states.as_slice() else {
             return format!("{} states, each in a preload gap.", self.gap_state_count);

@@ -1,10 +1,10 @@
-//! Whether a mechanism with slightly elastic guides settles on a solution, as plain data.
+//! Verdicts on whether a mechanism with slightly elastic guides settles on a solution, as plain data.
 
 use crate::choice::worded;
 use serde::Serialize;
 
 worded! {
-    /// What becomes of a solution when the guides are slightly elastic (theory, section 7).
+    /// The fate of a solution when the guides are slightly elastic (theory, section 7).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
     #[serde(rename_all = "snake_case")]
     pub enum Verdict {
@@ -50,11 +50,11 @@ pub struct Attainability {
     pub eigenvalue_unit: EigenvalueUnit,
     /// Number of motions without mass that elastic guides allow; their masses tend to zero from above.
     pub massless_motions: usize,
-    /// Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent
+    /// True if the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent
     /// if not tried.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depends_on_stiffness: Option<bool>,
-    /// Whether the verdict depends on the ratios of the vanishing masses.
+    /// True if the verdict depends on the ratios of the vanishing masses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depends_on_mass_ratios: Option<bool>,
     /// For flutter: the damping of the contacts that suppresses it.
@@ -76,7 +76,7 @@ pub struct FlutterDamping {
     pub time: Option<f64>,
 }
 
-/// What becomes of a mechanism that starts beside an unattainable solution.
+/// The fate of a mechanism that starts beside an unattainable solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
@@ -122,10 +122,10 @@ impl Attainability {
             Verdict::NotComputed => format!("Stability not computed: {reason}"),
         };
         if self.depends_on_stiffness == Some(true) {
-            words += "; depends on the stiffness of the guides";
+            words += "; another stiffness of the guides may change this";
         }
         if self.depends_on_mass_ratios == Some(true) {
-            words += "; depends on the ratios of vanishing masses";
+            words += "; other ratios of the vanishing masses may change this";
         }
         words + "."
     }

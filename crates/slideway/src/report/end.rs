@@ -1,9 +1,9 @@
-//! What ends a mode.
+//! The ends of modes.
 
 use serde::Serialize;
 use slideway_modes::existence::EndCause;
 
-/// What ends a mode where something is varied.
+/// The cause of the end of a mode where something is varied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

@@ -25,7 +25,7 @@ pub(crate) fn indented<T: Serialize>(report: &T) -> String {
     written(report, serde_json::to_string_pretty)
 }
 
-/// The same in one line.
+/// Writes a report as JSON in one line.
 pub(crate) fn in_one_line<T: Serialize>(report: &T) -> String {
     written(report, serde_json::to_string)
 }

@@ -1,4 +1,4 @@
-//! What is told: answers as plain data, and their forms as text, JSON and CSV.
+//! Reports: answers as plain data, and their forms as text, JSON and CSV.
 //!
 //! Last stage of the pipeline. Every face of slideway (command line, library, later Python) gets the same
 //! [`SolveReport`]; its fields are the JSON output, documented in the book under "Output".
@@ -30,7 +30,7 @@ pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
 pub use text::followed;
-pub(crate) use text::{count, spaced};
+pub(crate) use text::{count, joints_in_words, spaced};
 pub use tipping::Tipping;
 pub(crate) use tipping::without_solution;
 pub use undetermined::{OpenRange, Undetermined};
@@ -40,7 +40,7 @@ use crate::units::{Unit, Units};
 use serde::Serialize;
 pub use slideway_modes::{Proof, Status};
 
-/// What every report can do. Its fields are the JSON output.
+/// The forms of a report. Its fields are the JSON output.
 ///
 /// ```
 /// use slideway::report::Style;
@@ -73,7 +73,7 @@ pub trait Report: Serialize {
         json::indented(&json::Answered::of(self))
     }
 
-    /// The same JSON in one line.
+    /// JSON in one line.
     ///
     /// # Panics
     /// As [`Report::json`].
@@ -96,11 +96,11 @@ pub struct SolveReport {
     pub schema: &'static str,
     /// How many solutions there are; of those that were found if the search ended early.
     pub status: Status,
-    /// Whether these are certainly all solutions of the mechanism, rounding included.
+    /// Proof that these are all solutions of the mechanism, rounding included.
     pub complete: Proof,
-    /// Whether the search ended before every possibility was dealt with.
+    /// True if the search ended before every possibility was dealt with.
     pub partial: bool,
-    /// What remains open, in words; empty if `complete` is [`Proof::Proven`].
+    /// The open questions, in words; empty if `complete` is [`Proof::Proven`].
     pub open: Vec<String>,
     /// Number of solutions, as decimal text: it may be beyond any integer type, and more than are listed.
     pub count: String,
@@ -110,7 +110,7 @@ pub struct SolveReport {
     pub strategy: String,
     /// Nodes of the search that were visited.
     pub nodes: u64,
-    /// What the model is.
+    /// A summary of the model.
     pub model: ModelSummary,
     /// The state: chosen coordinates and their rates.
     pub state: Vec<CoordinateState>,
@@ -164,7 +164,7 @@ pub struct SolveReport {
     /// How redundant guides share their load; absent if no constraint is redundant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sharing: Option<LoadSharing>,
-    /// What parameters known within bounds leave certain; absent if there are none. Everything else in the
+    /// The results that hold for all values of parameters known within bounds; absent if there are none. Everything else in the
     /// report holds for the middle of their ranges.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<Uncertainty>,
@@ -174,7 +174,7 @@ pub struct SolveReport {
     pub condition: f64,
 }
 
-/// What a model is.
+/// A summary of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ModelSummary {
@@ -263,13 +263,13 @@ pub struct Solution {
     pub patterns: Vec<String>,
     /// Sign of each normal force, 0 where it vanishes.
     pub signs: Vec<i8>,
-    /// Whether some contact is about to change side: its normal force is zero within rounding.
+    /// True if some contact is about to change side: its normal force is zero within rounding.
     pub on_boundary: bool,
     /// Contacts of redundant guides without normal force that do not settle where the block is within its play: it
     /// floats.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub floating: Vec<String>,
-    /// What is proven of it.
+    /// The kind of its proof.
     pub certificate: CertificateKind,
     /// By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at
     /// once.
@@ -280,7 +280,7 @@ pub struct Solution {
     /// D times the product of the signs; positive without friction (theory, section 5). Of redundant guides the mean
     /// of those of their determinate parts, 1 without friction (theory, eq. (R4)).
     pub oriented_determinant: f64,
-    /// Whether a mechanism with slightly elastic guides settles on it.
+    /// The verdict on whether a mechanism with slightly elastic guides settles on it.
     pub attainability: Attainability,
     /// The contacts, in the order of the model.
     pub contacts: Vec<Contact>,
@@ -292,7 +292,7 @@ pub struct Solution {
     pub bodies: Vec<Body>,
     /// The accelerations of the chosen coordinates.
     pub coordinates: Vec<CoordinateAcceleration>,
-    /// Whether it is proven that the loads and weights push the motion and friction takes more power than they
+    /// True if it is proven that the loads and weights push the motion and friction takes more power than they
     /// give; never with drives.
     pub friction_exceeds_loads: bool,
     /// The efforts of the drives.
@@ -313,7 +313,7 @@ impl Solution {
         contacts.chain(hinges).chain(self.drives.iter().map(|drive| (drive.unit, drive.effort)))
     }
 
-    /// What it has at a contact.
+    /// A state at a contact.
     ///
     /// # Panics
     /// If the mechanism has no such contact.
@@ -346,7 +346,7 @@ impl Solution {
     }
 }
 
-/// What is proven of a solution.
+/// The kind of proof of a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CertificateKind {
@@ -474,13 +474,13 @@ pub struct ModeMargin {
     /// The factor; absent if the mode never ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// What ends it.
+    /// The cause of its end.
     pub ends_with: ModeEndCause,
     /// The contacts that end it.
     pub contacts: Vec<String>,
 }
 
-/// What is certain for all values of parameters that are known within bounds only.
+/// Results for all values of parameters that are known within bounds only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Uncertainty {
@@ -642,7 +642,7 @@ pub struct CoordinateAcceleration {
     /// Proven bounds of its acceleration; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub acceleration_bounds: Option<[f64; 2]>,
-    /// What becomes of its speed; absent if a drive prescribes its motion.
+    /// The change of its speed; absent if a drive prescribes its motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<SpeedChange>,
     /// If it slows down: when and where it stops if its acceleration stays as it is.
@@ -676,7 +676,7 @@ pub struct Continuum {
     /// Efforts and accelerations at each vertex; none where a preload may rub at either face.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<DrivenMotion>,
-    /// What a unit of each direction adds to them.
+    /// The contributions of a unit of each direction to them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub motion_along: Vec<DrivenMotion>,
     /// The guided sliders that would tip in a part of it.
@@ -699,7 +699,7 @@ pub struct HeldFriction {
     pub unit: &'static str,
     /// At each vertex: the friction force, positive against positive sliding, or the couple on the hinge's first body.
     pub at: Vec<f64>,
-    /// What a unit of each direction adds to it.
+    /// The contributions of a unit of each direction to it.
     pub along: Vec<f64>,
 }
 
@@ -769,7 +769,7 @@ pub struct ClosestMode {
     pub oriented_determinant: f64,
     /// The contact mode of each sliding joint.
     pub joints: Vec<JointMode>,
-    /// What the mode's equations give for |N| of each contact (N); a negative value contradicts the mode.
+    /// The value of |N| in the equations of the mode, of each contact (N); a negative value contradicts the mode.
     pub absolute_normal_forces: Vec<f64>,
 }
 
@@ -785,6 +785,6 @@ pub struct InfluenceSummary {
     pub drives: Vec<Drive>,
     /// eta_jk for friction at the faces of positive normal force; row j is the contact that answers.
     pub eta_positive: Vec<Vec<f64>>,
-    /// The same at the faces of negative normal force.
+    /// As above, at the faces of negative normal force.
     pub eta_negative: Vec<Vec<f64>>,
 }

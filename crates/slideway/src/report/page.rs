@@ -115,7 +115,7 @@ impl<'r, R> Page<'r, R> {
 }
 
 /// A line in pieces of a width at most, but for words that are longer; all but the first are indented.
-fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
+pub(super) fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
     if line.is_empty() {
         return vec![String::new()];
     }
@@ -130,21 +130,39 @@ fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
     wrap(line.trim_start(), options).into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 
-/// The pieces between which a line may be broken: words, but "mu = 0.3" is one, and "55 %".
+/// The pieces between which a line may be broken: words, but "mu = 0.3" is one, and "55 %", and "2 N m".
 fn words(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
     let mut pieces = Vec::new();
-    let (mut start, mut end, mut is_joined) = (0, 0, true);
+    let (mut start, mut end, mut last) = (0, 0, "=");
+    let mut follows_number = false;
     for word in WordSeparator::AsciiSpace.find_words(line) {
-        let is_equals = word.word == "=";
-        if !(is_joined || is_equals || word.word.starts_with('%')) {
+        let is_unit = follows_number && is_unit(word.word);
+        if !(last == "=" || word.word == "=" || is_unit) {
             pieces.push(Word::from(&line[start..end]));
             start = end;
         }
         end += word.word.len() + word.whitespace.len();
-        is_joined = is_equals;
+        last = word.word;
+        follows_number = is_unit && word.word.ends_with(char::is_alphanumeric) || is_number(word.word);
     }
     pieces.push(Word::from(&line[start..end]));
     Box::new(pieces.into_iter())
+}
+
+/// True for "0.3", "(2" and "-1e5".
+fn is_number(word: &str) -> bool {
+    let first = word.trim_start_matches(['(', '-']).chars().next();
+    first.is_some_and(|first| first.is_ascii_digit()) && word.ends_with(|last: char| last.is_ascii_digit())
+}
+
+/// True for the symbols of units, and their products and ratios: "mm", "N/mm", "m/s^2", "%".
+fn is_unit(word: &str) -> bool {
+    const SYMBOLS: [&str; 25] = [
+        "m", "mm", "cm", "um", "km", "N", "kN", "MN", "mN", "Pa", "kPa", "MPa", "GPa", "J", "kJ", "mJ", "W",
+        "kW", "mW", "kg", "s", "ms", "rad", "deg", "rpm",
+    ];
+    let word = word.trim_end_matches(['.', ',', ';', ':', ')']);
+    word == "%" || word.split('/').all(|part| SYMBOLS.contains(&part.split('^').next().unwrap_or(part)))
 }
 
 #[cfg(test)]
@@ -160,6 +178,17 @@ mod tests {
         page.line("efficiency 55 %.");
         page.line("share of 55 %");
         assert_eq!(page.text(), "jams from\nmu = 0.5 on\n  a x = y\nefficiency\n55 %.\nshare of\n55 %\n");
+    }
+
+    #[test]
+    fn a_number_stays_with_its_unit() {
+        let mut page = Page::new(&(), Style { width: 14, ..Style::PLAIN });
+        page.line("from 10 to 250 mm.");
+        page.line("it needs a 2 N m torque");
+        page.line("(up to the 5 m/s^2) it is");
+        page.line("at 12 of them a b m");
+        let expected = "from 10 to\n250 mm.\nit needs a\n2 N m torque\n(up to the\n5 m/s^2) it is\nat 12 of them\na b m\n";
+        assert_eq!(page.text(), expected);
     }
 
     #[test]

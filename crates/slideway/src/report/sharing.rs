@@ -4,7 +4,7 @@ use super::text::spaced;
 use crate::units::Units;
 use serde::Serialize;
 
-/// What is taken for the elasticity of contacts that share a load.
+/// The assumed elasticity of contacts that share a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elasticity {
@@ -25,12 +25,12 @@ pub struct LoadSharing {
     pub self_stresses: usize,
     /// The contacts that share a load, in groups that do not act on one another by self-stresses.
     pub groups: Vec<Vec<String>>,
-    /// What is taken for their elasticity.
+    /// Their assumed elasticity.
     pub elasticity: Elasticity,
     /// The press fits.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub press_fits: Vec<PressFit>,
-    /// Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for rigid
+    /// True if other ratios of stiffnesses would change the contact modes; absent if that was not asked, for rigid
     /// faces, and where there are too many patterns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_ratios: Option<StiffnessRatios>,
@@ -54,7 +54,7 @@ pub struct StiffnessRatios {
     /// How many combinations of 1/10, 1 and 10 were tried, in rounded numbers; beyond four contacts they are a
     /// sample of all.
     pub tried: usize,
-    /// Whether each has the same contact modes as the model.
+    /// True if each has the same contact modes as the model.
     pub same: bool,
     /// The other contact modes that were met: one sign or 0 for each contact.
     pub others: Vec<String>,
@@ -80,7 +80,7 @@ impl LoadSharing {
         (!fits.is_empty()).then(told)
     }
 
-    /// What decides how the load is shared, in a line, and a warning if the stiffness ratios matter.
+    /// The causes that share the load, in a line, and a warning if the stiffness ratios matter.
     pub(crate) fn in_brief(&self, units: &Units) -> Vec<String> {
         let mut lines = Vec::new();
         if self.self_stresses > 0 {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What becomes of the speed of a coordinate, from the signs of its rate and of proven bounds of its
+/// The change of the speed of a coordinate, from the signs of its rate and of proven bounds of its
 /// acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -25,13 +25,13 @@ pub enum SpeedChange {
 }
 
 impl SpeedChange {
-    /// What becomes of a coordinate with this rate and these bounds of its acceleration.
+    /// The change for a coordinate with this rate and these bounds of its acceleration.
     pub fn of(rate: f64, acceleration: Option<[f64; 2]>) -> Self {
         let sign = |[least, greatest]: [f64; 2]| i8::from(least > 0.0) - i8::from(greatest < 0.0);
         Self::of_sign(rate, acceleration.map(sign))
     }
 
-    /// What becomes of a coordinate with this rate and this sign of its acceleration, if that is known.
+    /// The change for a coordinate with this rate and this sign of its acceleration, if that is known.
     pub(crate) fn of_sign(rate: f64, sign: Option<i8>) -> Self {
         let Some(sign) = sign else { return Self::Undecided };
         let direction = i8::from(rate > 0.0) - i8::from(rate < 0.0);
@@ -86,7 +86,7 @@ impl Stopping {
     }
 }
 
-/// What the loads do with a mechanism that has stopped, as standstill in the same position tells.
+/// The effect of the loads on a mechanism that has stopped, by the analysis of standstill in the same position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

@@ -3,9 +3,9 @@
 /// How the text of a report looks: with colours or without, how wide, with or without the details.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Style {
-    /// Whether it has ANSI colours, for terminals.
+    /// True if it has ANSI colours, for terminals.
     pub colour: bool,
-    /// Whether it holds the details: signs, determinants, residuals, how an answer was found.
+    /// True if it holds the details: signs, determinants, residuals, how an answer was found.
     pub verbose: bool,
     /// Columns of a line; prose and tables are wrapped to fit.
     pub width: usize,

@@ -174,7 +174,7 @@ impl Text<'_> {
                 tried(patterns, report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
             }
             None => {
-                format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
+                format!("Search of {}: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
             }
         });
         for group in &report.jammed_groups {
@@ -465,7 +465,7 @@ fn slows_though_pushed(solution: &Solution) -> bool {
     solution.friction_exceeds_loads && solution.coordinates.iter().any(slows)
 }
 
-/// "This contact mode ends at 1.1 times this friction: locking."
+/// "This contact mode ends at 1.1 times this friction: it jams."
 fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let Some(factor) = margin.factor else {
         let but = if slows_though_pushed { ", but the motion slows down in it" } else { "" };
@@ -473,8 +473,8 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     };
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {
-        ModeEndCause::Locking => "locking".to_owned(),
-        ModeEndCause::WithoutBound => "its forces grow without bound".to_owned(),
+        ModeEndCause::Locking => "it jams".to_owned(),
+        ModeEndCause::WithoutBound => "its forces grow without limit".to_owned(),
         ModeEndCause::SideChange if margin.contacts.len() > 1 => format!("{contacts} change side"),
         ModeEndCause::SideChange => format!("{contacts} changes side"),
         ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
@@ -504,11 +504,9 @@ fn uncertain_row(report: &SolveReport, mode: &UncertainMode) -> Vec<String> {
 }
 
 fn closest_row(mode: &ClosestMode) -> Vec<String> {
-    let modes: Vec<String> =
-        mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
     let verdict =
         if mode.oriented_determinant < 0.0 { "beyond locking" } else { "not locked, contradicts its signs" };
-    vec![spaced(&mode.pattern), modes.join("; "), number(mode.determinant), verdict.to_owned()]
+    vec![spaced(&mode.pattern), joints_in_words(&mode.joints), number(mode.determinant), verdict.to_owned()]
 }
 
 fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<String>>) {
@@ -577,9 +575,14 @@ fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<
         let unit = units.of("N");
         row(&hinge.name, &what, pair(hinge.force, force_scale, &unit), &unit);
         if let Some(friction) = hinge.friction {
-            let (moment, radius) = (units.of("N m"), units.of("m").show(friction.radius));
-            let what = format!("friction couple on {}, circle of {radius}", hinge.on);
-            row(&hinge.name, &what, moment.number(friction.couple), &moment);
+            let [moment, length] = ["N m", "m"].map(|si| units.of(si));
+            row(
+                &hinge.name,
+                &format!("friction couple on {}", hinge.on),
+                moment.number(friction.couple),
+                &moment,
+            );
+            row(&hinge.name, "radius of its friction circle", length.number(friction.radius), &length);
         }
     }
     if !verbose {
@@ -620,6 +623,12 @@ fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
         [name] => Some(format!("{name} is")),
         names => Some(format!("{} are", names.join(", "))),
     }
+}
+
+/// "guide tipped: lower right, upper left; wall flat on the right guide"
+pub(crate) fn joints_in_words(joints: &[JointMode]) -> String {
+    let words: Vec<String> = joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
+    words.join("; ")
 }
 
 /// How positions were reached from the drawing.

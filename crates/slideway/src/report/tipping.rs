@@ -3,13 +3,13 @@
 use super::{SolveReport, Status};
 use serde::Serialize;
 
-/// What tips where there is no solution: a guided slider has no state in which it is tipped.
+/// The guided sliders that tip where there is no solution: a guided slider has no state in which it is tipped.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Tipping {
     /// The guided sliders that would tip in a solution of the equations: as block sliders they show whether it moves.
     pub joints: Vec<String>,
-    /// Whether there is such a solution wherever that was asked: then friction does not lock it.
+    /// True if there is such a solution wherever that was asked: then friction does not lock it.
     pub throughout: bool,
 }
 
@@ -37,13 +37,13 @@ impl Tipping {
     }
 }
 
-/// What it means that there is no solution: "it jams", or what tips.
+/// The meaning of no solution: "it jams", or what tips.
 pub(crate) fn without_solution(tipping: Option<&Tipping>) -> String {
     tipping.map_or_else(|| "it jams".to_owned(), Tipping::in_words)
 }
 
 impl SolveReport {
-    /// What tips, if there is no solution for that reason.
+    /// The guided sliders that tip, if there is no solution for that reason.
     pub fn tipping(&self) -> Option<Tipping> {
         let joints = self.rejected.iter().map(|rejection| rejection.joint.clone()).collect();
         if self.status == Status::None { Tipping::of(std::iter::once(joints)) } else { None }

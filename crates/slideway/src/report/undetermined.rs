@@ -1,4 +1,4 @@
-//! What infinitely many solutions leave open.
+//! Ranges that infinitely many solutions leave open.
 
 use super::effort::kind;
 use crate::units::{Unit, Units};
@@ -19,7 +19,7 @@ pub struct OpenRange {
 }
 
 impl OpenRange {
-    /// Whether all solutions have the same value.
+    /// True if all solutions have the same value.
     pub fn is_one_value(&self) -> bool {
         self.from.is_some() && self.from == self.to
     }
@@ -49,7 +49,7 @@ impl OpenRange {
     }
 }
 
-/// What infinitely many solutions leave open, and between which values.
+/// The quantities that infinitely many solutions leave open, and their ranges.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Undetermined {

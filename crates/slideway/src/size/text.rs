@@ -12,7 +12,7 @@ impl Report for SizeReport {
         self.conclusion.iter().take(2).cloned().collect::<Vec<_>>().join(" ")
     }
 
-    /// What it comes to, where the margin is met, and a table of margins.
+    /// The conclusion, where the margin is met, and a table of margins.
     fn text(&self, style: Style) -> String {
         let mut text = Page::new(self, style);
         text.heading();
@@ -65,6 +65,13 @@ impl Page<'_, SizeReport> {
 
     fn margins(&mut self) {
         let report = self.report;
+        let is_constant = report
+            .samples
+            .windows(2)
+            .all(|pair| (pair[0].is, pair[0].margin) == (pair[1].is, pair[1].margin));
+        if is_constant && !self.is_verbose() {
+            return;
+        }
         self.line("");
         let what = subject(report);
         self.headline(&if report.against.is_limit() {
@@ -83,7 +90,8 @@ impl Page<'_, SizeReport> {
         };
         let header = report.limit_shown_in.title(&what);
         let row = |sample: &super::Sample| vec![unit.precise_number(sample.at), margin(sample)];
-        let rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
+        let mut rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
+        rows.dedup();
         self.table(&[&name, &header], &rows);
     }
 }

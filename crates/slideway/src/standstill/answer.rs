@@ -9,7 +9,8 @@ use crate::units::number::brief;
 /// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from
 /// mu_static = 0.1667 (now 0.2)."
 pub(super) fn answer(report: &HoldReport) -> String {
-    let Some(load) = &report.load else { return verdict(report) };
+    let is_decided = report.undecided == 0 || report.holds;
+    let Some(load) = report.load.as_ref().filter(|_| is_decided) else { return verdict(report) };
     let is_all = load.held == [Range { least: None, greatest: None }];
     let mut sentences = Vec::new();
     // That it holds is said by what it holds.
@@ -31,7 +32,9 @@ pub(super) fn answer(report: &HoldReport) -> String {
 /// The verdict on rest.
 fn verdict(report: &HoldReport) -> String {
     if report.undecided > 0 && !report.holds {
-        return "Not decided: no state of rest was found, but not all could be examined.".to_owned();
+        return "Not decided: no state of rest was found, but some states could not be examined. Ask again with \
+                slightly more or less friction or load."
+            .to_owned();
     }
     match report.verdict {
         HoldVerdict::Holds | HoldVerdict::MayHold => "It holds.".to_owned(),
@@ -107,9 +110,14 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
     match load.held.as_slice() {
         [] if load.unit.is_empty() => format!("It does not hold with any multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
-        [Range { least: Some(0.0), greatest: Some(0.0) }] => format!("It holds no `{name}`."),
+        held if holds_none(held) => format!("It holds no `{name}`, however small."),
         ranges => format!("It {holds} {}.", ranges.iter().map(one).collect::<Vec<_>>().join(", or ")),
     }
+}
+
+/// True if only none of the load is held.
+fn holds_none(held: &[Range]) -> bool {
+    held == [Range { least: Some(0.0), greatest: Some(0.0) }]
 }
 
 /// The friction from which on it is self-locking, and whether it is now.
@@ -133,6 +141,11 @@ fn locks(report: &HoldReport, load: &LoadReport, holds_all: bool) -> String {
             let from = from.map_or_else(String::new, |from| format!(" {from}"));
             format!("While wedged it holds any `{name}`{from}, but `{name}` alone need not wedge it.")
         }
+        // That a great enough one moves it has been said.
+        (false, _, Some(from)) if load.held.is_empty() => {
+            format!("`{name}` alone would be held, however great, {from}.")
+        }
+        (false, _, Some(from)) if holds_none(&load.held) => format!("It would be self-locking {from}."),
         (false, _, None) => format!("Not self-locking: no {} makes it so.", load.threshold.varied),
         (false, _, Some(from)) => {
             format!("Not self-locking: a great enough `{name}` moves it. It would be self-locking {from}.")

@@ -91,8 +91,8 @@ pub struct HoldOptions {
     /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m,
     /// "gravity" all weights together.
     pub load: Option<String>,
-    /// The parameter of static friction that is varied for the threshold of self-locking; without it all
-    /// static coefficients are multiplied by a factor. Without a load it is that for the only one, weights
+    /// The parameter of static friction that is varied for the threshold of self-locking; without it, and with
+    /// [`FRICTION`](crate::model::FRICTION), all static coefficients are multiplied by a factor. Without a load it is that for the only one, weights
     /// together being one.
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.

@@ -89,9 +89,12 @@ impl Text<'_> {
     fn wedging(&mut self) {
         let Some(wedging) = &self.report.wedging else { return };
         let details = self.is_verbose();
-        wedges(wedging).iter().for_each(|line| self.line(line));
-        if details {
-            coefficients_in_words(&wedging.threshold).iter().for_each(|line| self.line(line));
+        let lines = wedges(wedging);
+        lines.iter().for_each(|line| self.line(line));
+        if let Some(coefficients) = coefficients_in_words(&wedging.threshold).filter(|_| details)
+            && !lines.iter().any(|line| line.contains(&coefficients))
+        {
+            self.line(&format!("There {coefficients}."));
         }
     }
 
@@ -105,8 +108,8 @@ impl Text<'_> {
         }
         report.motions_without_inertia.iter().for_each(|motion| self.line(&format!("  {motion}")));
         if let Some(load) = &report.load {
-            self.line(&threshold_in_words(load));
-            coefficients_in_words(&load.threshold).iter().for_each(|line| self.line(line));
+            let coefficients = coefficients_in_words(&load.threshold).map(|list| format!(": {list}"));
+            self.line(&format!("{}{}.", threshold_in_words(load), coefficients.unwrap_or_default()));
         }
     }
 
@@ -176,7 +179,9 @@ impl Text<'_> {
                 vec![coordinate.name.clone(), "coordinate".to_owned(), value, unit.name().to_owned()]
             }))
             .collect();
+        self.gap();
         self.table(&["", "", "acceleration", "unit"], &rows);
+        self.gap();
         self.reactions(&release.reactions);
     }
 
@@ -216,6 +221,9 @@ impl Text<'_> {
             let mut header = vec![String::new(), String::new(), force.title("x"), force.title("y")];
             header.extend(has_friction.then(|| torque.title("friction couple")));
             let header: Vec<&str> = header.iter().map(String::as_str).collect();
+            if !reactions.contacts.is_empty() {
+                self.gap();
+            }
             self.table(&header, &rows);
         }
         for drive in &reactions.drives {
@@ -231,7 +239,7 @@ impl Text<'_> {
         self.line("");
         self.line(match report.undecided {
             0 => "Every state of joints and contacts was examined, in rounded numbers.",
-            _ => "Not decided: some states of joints and contacts could not be examined.",
+            _ => "Some states of joints and contacts could not be examined.",
         });
         if !self.is_verbose() {
             return;
@@ -260,25 +268,25 @@ fn at_factor(load: &LoadReport) -> String {
 /// From which friction on the load alone is held, however great.
 fn threshold_in_words(LoadReport { name, threshold, .. }: &LoadReport) -> String {
     match threshold.value {
-        None => format!("{name} alone is not held by any {}, however great.", threshold.varied),
-        Some(0.0) => format!("{name} alone is held without friction, however great."),
+        None => format!("{name} alone is not held by any {}, however great", threshold.varied),
+        Some(0.0) => format!("{name} alone is held without friction, however great"),
         Some(value) if threshold.varied == "static friction" => {
             format!(
-                "{name} alone is held, however great, from {} times the static friction on.",
+                "{name} alone is held, however great, from {} times this static friction on",
                 number(value)
             )
         }
         Some(value) => {
             let (at, now) = (number(value), number(threshold.present));
-            format!("{name} alone is held, however great, from {} = {at} on (now {now}).", threshold.varied)
+            format!("{name} alone is held, however great, from {} = {at} on (now {now})", threshold.varied)
         }
     }
 }
 
-/// The static coefficients at the threshold; nothing without contacts.
+/// The static coefficients at the threshold, "mu_static = 0.5"; none without contacts, or where no friction is needed.
 fn coefficients_in_words(threshold: &Threshold) -> Option<String> {
     let Threshold { coefficients, friction_in_hinges, .. } = threshold;
-    if coefficients.is_empty() {
+    if coefficients.is_empty() || threshold.value == Some(0.0) {
         return None;
     }
     let list = |[plus, minus]: [f64; 2]| {
@@ -289,12 +297,12 @@ fn coefficients_in_words(threshold: &Threshold) -> Option<String> {
     let coefficients = if let [one] = found.as_slice() {
         one.clone()
     } else {
-        let named = coefficients.iter().map(|c| format!("{}: {}", c.contact, list(c.mu_static)));
+        let named = coefficients.iter().map(|c| format!("{} ({})", list(c.mu_static), c.contact));
         named.collect::<Vec<_>>().join(", ")
     };
     // Hinges have coefficients of their own, or friction circles without any.
     let whose = if *friction_in_hinges { " of the sliding joints" } else { "" };
-    Some(format!("There mu_static{whose} is {coefficients}."))
+    Some(format!("mu_static{whose} = {coefficients}"))
 }
 
 /// Greatest finite magnitude among the ends.

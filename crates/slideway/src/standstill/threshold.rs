@@ -24,7 +24,7 @@ use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::mechanism::FrictionCircle;
-use crate::model::Model;
+use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
 use crate::progress::Work;
 
@@ -106,7 +106,8 @@ pub(super) fn wedging(
 
 /// How static friction depends on what is varied.
 fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Faults> {
-    match &options.vary {
+    let is_factor = |name: &str| name == FRICTION && model.parameters.iter().all(|one| &*one.name != name);
+    match options.vary.as_deref().filter(|name| !is_factor(name)) {
         None => Ok(Law {
             varied: "static friction".to_owned(),
             present: 1.0,

@@ -1,4 +1,4 @@
-//! What a sliding joint does on release, in words.
+//! The motion of a sliding joint on release, in words.
 
 use super::setup::Setup;
 use crate::ids::JointId;

@@ -1,4 +1,4 @@
-//! What a sweep comes to, as text for people.
+//! The summary of a sweep as text for people.
 
 use super::{PointStatus, Probability, Sweep, SweepState};
 use crate::report::number::number;
@@ -6,7 +6,7 @@ use crate::report::page::Page;
 use crate::report::{Status, Style};
 use crate::units::number::brief;
 
-/// What to do about guided sliders that tip.
+/// The advice on guided sliders that tip.
 const AS_BLOCK: &str = "Model it as a block slider to see whether it still moves.";
 
 impl Sweep {
@@ -50,7 +50,7 @@ impl Sweep {
         sentences.join(" ")
     }
 
-    /// What the points that are done come to, as text for people. With samples also the probability that it
+    /// A summary of the points that are done, as text for people. With samples also the probability that it
     /// jams.
     pub fn text(&self, state: &SweepState, style: Style) -> String {
         let mut text = Page::new(state, style);

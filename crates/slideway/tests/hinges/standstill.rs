@@ -129,8 +129,8 @@ fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     let press = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
     let at = Settings::default().position("alpha", "1 deg");
     let press = hold(&press.with(&at).unwrap(), &HoldOptions::default().load("work")).unwrap();
-    let both = press.text(Style::PLAIN.verbose(true));
-    assert!(both.contains("There mu_static of the sliding joints is 0.060759."), "{both}");
+    let both = press.text(Style::PLAIN.verbose(true).width(400));
+    assert!(both.contains("mu_static of the sliding joints = 0.060759."), "{both}");
 }
 
 /// Two links and a block (reference `toggle_hold_0.1`): the knee is pressed down with a factor times 1 N against 500 N.

@@ -242,7 +242,7 @@ fn the_coordinate_that_a_drive_holds_decides_and_is_told() {
     let words = undecided.in_words();
     assert!(
         words.contains("in another place or direction than pull acts")
-            && words.contains("`x = \"carriage.POINT\"` in [coordinates.x]"),
+            && words.contains("`x = \"carriage.belt\"` in [coordinates.x]"),
         "{words}"
     );
     // (c - a) c > -J / m: the carriage as the template has it does not mind.

@@ -527,7 +527,7 @@ fn sticking_and_slipping_joints_coexist() {
 
 #[rstest]
 #[case(options("Q"), "there is no load named `Q`")]
-#[case(options("spring"), "the load spring vanishes at rest, so no factor changes it")]
+#[case(options("spring"), "the load spring is zero at rest, so no factor changes it")]
 #[case(options("P").vary("mu_9"), "there is no parameter named `mu_9`")]
 #[case(options("P").vary("alpha"), "`alpha` is not a parameter of static friction alone")]
 fn faulty_questions_are_refused(#[case] options: HoldOptions, #[case] message: &str) {

@@ -35,7 +35,7 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> String {
             format!("It ends at {time}: {} tips; model it as a block slider to go on.", joint(id))
         }
         End::NoContinuation => format!("It ends at {time}: it can neither stick nor start to slide."),
-        End::Jammed => format!("It jams at {time}: not even an impulse leads to a motion that goes on."),
+        End::Jammed => format!("It jams at {time}: no motion can follow, not even after an impulse."),
         End::Accumulation => format!("It ends at {time}: events follow each other faster and faster."),
         End::StepLimit => format!(
             "Not finished: it was followed to {time}, in {} steps, the most allowed. The equations are stiff there, or the \
@@ -48,7 +48,9 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> String {
         ),
         End::NoValue(faults) => format!("It ends at {time}: {}.", first(faults)),
         End::Undecided(faults) => format!("Not decided what follows after {time}: {}.", first(faults)),
-        End::Interrupted => format!("Interrupted at {time}."),
+        End::Interrupted => {
+            format!("Not finished: it was followed to {time}, then interrupted. Allow it more time.")
+        }
     }
 }
 

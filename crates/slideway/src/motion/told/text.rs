@@ -186,12 +186,12 @@ impl Page<'_, SimulateReport> {
         let below = columns("", "");
         let mut line = |text: &str| self.hung(&format!("  {below}{text}"), "");
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
-            let jump = if branch.continues { "" } else { ", with a jump of the forces" };
+            let jump = if branch.continues { "" } else { "; its forces jump" };
             let sticks = branch.mode.chars().all(|sign| sign == '=');
             let otherwise = if sticks { "stick" } else { "go on in another contact mode" };
             let signs = if details { format!(", signs {}", spaced(&branch.mode)) } else { String::new() };
             line(&format!(
-                "branch {}: it could also {otherwise}{signs}{jump}{}",
+                "or branch {}: it could also {otherwise}{}{signs}{jump}",
                 branch.number,
                 verdict(branch.attainable),
             ));
@@ -257,15 +257,19 @@ impl Page<'_, SimulateReport> {
             ));
         }
         self.line(&format!(
-            "Joints had drifted by at most {:.1e} of the size of the mechanism before each correction.",
-            report.position_drift
+            "Joints had drifted by at most {} of the size of the mechanism before each correction.",
+            if report.position_drift == 0.0 {
+                "0".to_owned()
+            } else {
+                format!("{:.1e}", report.position_drift)
+            }
         ));
         self.line(&format!(
             "{} ({} repeated), {} evaluations of the equations, {}; tolerance {}.",
             count(statistics.steps, "step", "steps"),
             statistics.repeated,
             statistics.evaluations,
-            count(statistics.events, "event", "events"),
+            count(statistics.events, "event with the start", "events with the start"),
             number(report.tolerance)
         ));
     }
