@@ -334,7 +334,10 @@ fn a_payoff_too_small_for_floating_point_numbers_is_not_zero() {
     let [solution] = report.solutions.as_slice() else { panic!("one solution") };
     let told: Vec<(RawUnknown, &str)> =
         solution.beyond_range.iter().map(|one| (one.name, one.value.as_str())).collect();
-    assert_eq!(told, [(RawUnknown::X, "3.0000000000000002e-616"), (RawUnknown::Payoff2, "-9.0000000000000012e-924")]);
+    assert_eq!(
+        told,
+        [(RawUnknown::X, "3.0000000000000002e-616"), (RawUnknown::Payoff2, "-9.0000000000000012e-924")]
+    );
 }
 
 /// The end of the ray is (1e310, 0), its direction (1, 1).

@@ -80,7 +80,7 @@ use crate::interval::Interval;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
-use crate::progress::Callback;
+use crate::progress::{Callback, Progress};
 use crate::report::{SolveReport, finite};
 use std::ops::ControlFlow;
 
@@ -152,7 +152,8 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
-    let (stages, equations) = Stages::with_standing(mechanism, configuration)?;
+    let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
+    let (stages, equations) = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
     let ranges = model.ranges()?;
     let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
     if has_rough_hinges || !stages.standing.is_empty() {
