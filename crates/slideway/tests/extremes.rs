@@ -105,6 +105,44 @@ fn the_way_from_the_drawing_ends_where_the_callback_says_so() {
     assert!(held.unwrap().is_none());
 }
 
+/// Bars, one hanging on the other, and a block in a guide at the end.
+fn chain(bars: usize) -> Model {
+    let point = |at: usize| format!("P{at} = [{}, {}]\n", 0.05 * at as f64, 0.01 * (at % 3) as f64);
+    let mut text = format!("[points]\n{}", (0..=bars).map(point).collect::<String>());
+    for at in 0..bars {
+        let next = at + 1;
+        let before = at.checked_sub(1).map_or("ground".to_owned(), |before| format!("b{before}"));
+        text += &format!(
+            "[bodies.b{at}]\npoints = ['P{at}', 'P{next}']\nmass = '0.1 kg'\nshape = {{ bar = ['P{at}', 'P{next}'] }}\n"
+        );
+        text += &format!("[joints.h{at}]\ntype = 'hinge'\nbetween = ['b{at}.P{at}', '{before}.P{at}']\n");
+    }
+    let last = bars - 1;
+    text += &format!(
+        "[bodies.block]\npoints = ['P{bars}']\nmass = '1 kg'\ncentre_of_mass = 'P{bars}'\nshape = {{ rectangle = ['60 mm', '40 mm'] }}\n"
+    );
+    text += &format!("[joints.end]\ntype = 'hinge'\nbetween = ['block.P{bars}', 'b{last}.P{bars}']\n");
+    text += &format!(
+        "[joints.guide]\ntype = 'block_slider'\nblock = 'block'\nguide = 'ground'\nat = 'P{bars}'\nalong = '0 deg'\nlength = '60 mm'\nheight = '40 mm'\nmu = 0.1\n"
+    );
+    for at in 0..last {
+        text += &format!("[coordinates.q{at}]\nrotation = 'b{at}'\nrate = '0.1 rad/s'\n");
+    }
+    Model::parse(&text).unwrap()
+}
+
+/// A step of the assembly, and the equations, take long with hundreds of bodies: both end while they are eliminated.
+#[test]
+fn an_elimination_ends_where_the_callback_says_so() {
+    let model = chain(40);
+    for ends_in in ["steps of the assembly", "equations"] {
+        let ended = solve_with(&model, &SolveOptions::default(), &mut |progress| {
+            if progress.counted == ends_in { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert_eq!(only(&ended.unwrap_err()), FaultKind::WorkEnded, "{ends_in}");
+    }
+}
+
 /// Where nothing turns the way is straight, and as far as that one step suffices.
 #[test]
 fn a_long_straight_way_is_one_step() {

@@ -319,6 +319,27 @@ fn values_too_small_for_floating_point_numbers_are_not_zero() {
     assert_eq!(values, ["9.9999999999999989e-321", "-9.9999999999999997e309"]);
 }
 
+/// Column 2 is a best response to both rows of the second player's payoffs, and column 3 is another one where the first
+/// player mixes its rows as (1 - p, p) with -3e-308 (1 - p) + 1e308 p = -3e-308 p. There p = 3e-616, and the second player
+/// gets -3e-308 p = -9e-924: too small for a number, but not zero.
+#[test]
+fn a_payoff_too_small_for_floating_point_numbers_is_not_zero() {
+    let raw = RawProblem::from_json(
+        br#"{"type": "game", "A": [[0, 0, -3], [0, 0, 1]], "B": [[-3, 0, -3e-308], [1e-323, -3e-308, 1e308]]}"#,
+    )
+    .unwrap();
+    let mut options = SearchOptions::default();
+    options.limits.solutions = 1;
+    let report = solve(&raw, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
+    let [solution] = report.solutions.as_slice() else { panic!("one solution") };
+    let told: Vec<(RawUnknown, &str)> =
+        solution.beyond_range.iter().map(|one| (one.name, one.value.as_str())).collect();
+    assert_eq!(
+        told,
+        [(RawUnknown::X, "3.0000000000000002e-616"), (RawUnknown::Payoff2, "-9.0000000000000012e-924")]
+    );
+}
+
 /// The end of the ray is (1e310, 0), its direction (1, 1).
 #[test]
 fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {

@@ -169,7 +169,11 @@ impl Sums {
     pub(super) fn insert(&mut self, correspondence: &Correspondence, contact: usize, size: &RBig) {
         if let Some((bound, sign)) = correspondence.shift(contact) {
             let exact_sum = exact(bound) + exact(sign) * size;
-            let value = nearest(&exact_sum);
+            let value = match nearest(&exact_sum) {
+                // A sum that is not zero is told as one too small for a number, and never as zero.
+                0.0 if !exact_sum.is_zero() => f64::from_bits(1),
+                value => value,
+            };
             let error = if value.is_finite() { exact_sum - exact(value) } else { RBig::ZERO };
             self.0.insert(contact, (value, Interval::around_ratio(&error).magnitude()));
         }

@@ -40,6 +40,7 @@
 
 use super::Pose;
 use super::curvature::Curvature;
+use super::factors::Factors;
 use super::following::Leg;
 use super::joint_equations::JointEquations;
 use super::mobility::advance;
@@ -85,14 +86,19 @@ pub(super) struct Anchor {
 
 impl Anchor {
     /// A state with positions that satisfy the joints at a place of a leg; none if its Jacobian has no
-    /// inverse.
-    pub(super) fn new(mechanism: &Mechanism, leg: &Leg, place: f64, poses: Vec<Pose>) -> Option<Self> {
+    /// inverse, or once `proceed` is `false`.
+    pub(super) fn new(
+        (mechanism, leg): (&Mechanism, &Leg),
+        place: f64,
+        poses: Vec<Pose>,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Self> {
         let (equations, curvature) = JointEquations::with_curvature(mechanism, &poses, &leg.values(place));
         let jacobian = equations.jacobian;
         if !jacobian.is_square() || jacobian.is_empty() {
             return None;
         }
-        let inverse = jacobian.clone().try_inverse()?;
+        let inverse = Factors::of_while(&jacobian, proceed)?.inverse();
         let residual = leg.residual(equations.residual, place);
         let slope = leg.slope(mechanism);
         let tangent = -(&inverse * &slope);
@@ -102,15 +108,15 @@ impl Anchor {
         let rows = jacobian.nrows();
         let products = (rows + 2) as f64 * f64::EPSILON;
         let magnitudes = inverse.abs();
-        let defect = (DMatrix::identity(rows, rows) - &inverse * &jacobian).abs()
-            + &magnitudes * jacobian.abs() * products;
+        let defect = (DMatrix::identity(rows, rows) - with_sparse(&inverse, &jacobian)).abs()
+            + with_sparse(&magnitudes, &jacobian.abs()) * products;
         let anchor = Self {
             place,
             size: mechanism.size,
             offset: (&inverse * residual).abs().add_scalar(4.0 * f64::EPSILON * magnitude),
             slip: (&inverse * (&jacobian * &tangent + slope)).abs(),
             bend: (&inverse * (&change * &tangent)).abs() / 2.0,
-            turning: (&inverse * change).abs(),
+            turning: with_sparse(&inverse, &change).abs(),
             allowance: leg.beside(mechanism).add_scalar(rounding),
             speed: tangent.abs(),
             inverse: magnitudes,
@@ -201,6 +207,17 @@ impl Anchor {
             })
         })
     }
+}
+
+/// The product with a matrix most of whose entries are zero: an equation of a joint is one of two bodies.
+fn with_sparse(matrix: &DMatrix<f64>, sparse: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = DMatrix::zeros(matrix.nrows(), sparse.ncols());
+    for (factors, mut column) in sparse.column_iter().zip(product.column_iter_mut()) {
+        for (factor, from) in factors.iter().zip(matrix.column_iter()).filter(|(factor, _)| **factor != 0.0) {
+            column.axpy(*factor, &from, 1.0);
+        }
+    }
+    product
 }
 
 /// The greatest number in a residual (sizes of the mechanism, or rad).

@@ -101,7 +101,7 @@ pub(super) fn way_fault(mechanism: &Mechanism, leg: &Leg, halt: &Halt, values: &
     if let Some(fault) = open_joint(mechanism, &closest, values, Some(&reached)) {
         return fault;
     }
-    let anchor = Anchor::new(mechanism, leg, halt.end, closest.clone());
+    let anchor = Anchor::new((mechanism, leg), halt.end, closest.clone(), &mut || true);
     if anchor.and_then(|anchor| anchor.tube(0.0)).is_none() {
         return singular_state(mechanism, &closest);
     }

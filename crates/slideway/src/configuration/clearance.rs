@@ -1,7 +1,7 @@
 //! Poses of a mechanism with play in its sliding joints: each block lies on the faces that its contacts
 //! touch.
 
-use super::{Configuration, JointEquations, Pose, advance};
+use super::{Configuration, Factors, JointEquations, Pose, advance};
 use crate::ids::JointId;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::{CarriedBy, SliderKind};
@@ -37,10 +37,7 @@ impl Configuration {
             if wanted.len() != equations.residual.len() || !equations.jacobian.is_square() {
                 return None;
             }
-            let step = equations.jacobian.lu().solve(&(&wanted - &equations.residual))?;
-            if !step.iter().all(|part| part.is_finite()) {
-                return None;
-            }
+            let step = Factors::of(&equations.jacobian).solution(&(&wanted - &equations.residual))?;
             advance(mechanism, &mut poses, &step);
         }
         let is_finite =

@@ -301,8 +301,8 @@ fn velocities(mechanism: &Mechanism, settled: &Settled, values: &[f64]) -> Optio
         wanted[first + index] = coordinate.rate / scale(mechanism, index);
     }
     let jacobian = JointEquations::with_coordinates(mechanism, &settled.poses, values).jacobian;
-    let mut rates = settled.factors.solve(&wanted)?;
-    rates += settled.factors.solve(&(&wanted - jacobian * &rates))?;
+    let mut rates = settled.factors.solution(&wanted)?;
+    rates += settled.factors.solution(&(&wanted - jacobian * &rates))?;
     let of = |body: usize| Velocity {
         linear: Vector2::new(rates[3 * body], rates[3 * body + 1]) * mechanism.size,
         angular: rates[3 * body + 2],

@@ -7,10 +7,11 @@
 
 use super::Pose;
 use super::anchor::Anchor;
+use super::factors::Factors;
 use super::joint_equations::JointEquations;
 use super::mobility::advance;
 use crate::mechanism::Mechanism;
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use nalgebra::DVector;
 
 /// Steps after which a place counts as too far away.
 const MOST_STEPS: usize = 5000;
@@ -115,7 +116,7 @@ impl Leg {
 pub(super) struct Settled {
     pub(super) poses: Vec<Pose>,
     /// Factors of the Jacobian there, or where a last Newton step of a residual below [`CLOSED`] began.
-    pub(super) factors: LU<f64, Dyn, Dyn>,
+    pub(super) factors: Factors,
 }
 
 /// The end of a leg, or of a part of it.
@@ -177,7 +178,14 @@ pub(super) fn follow(
         if steps > 1 && !proceed() {
             return Err(Halt { is_ended: true, ..halt(poses) });
         }
-        let Some(anchor) = Anchor::new(mechanism, leg, place, poses.clone()) else { return Err(halt(poses)) };
+        let mut is_ended = false;
+        let mut asked = || {
+            is_ended = !proceed();
+            !is_ended
+        };
+        let Some(anchor) = Anchor::new((mechanism, leg), place, poses.clone(), &mut asked) else {
+            return Err(Halt { is_ended, ..halt(poses) });
+        };
         let longest = rest.abs().max(1.0);
         let Some((mut reach, mut tube)) = anchor.reach(guess, longest) else { return Err(halt(poses)) };
         guess = reach;
@@ -227,33 +235,23 @@ pub(super) fn settle(
         let equations = JointEquations::with_coordinates(mechanism, &poses, values);
         let residual = leg.residual(equations.residual, place);
         let size = residual.amax();
-        let (factors, regular) = factored(equations.jacobian);
+        let factors = Factors::of(&equations.jacobian);
         // As small as rounding lets it be.
         if size == 0.0 || (size < CLOSED && size > last / 2.0) {
             return Some(Settled { poses, factors });
         }
-        let step = factors.solve(&-residual)?;
+        let step = factors.solution(&-residual)?;
         if !step.iter().all(|part| part.abs() < 1.0) {
             return None;
         }
         advance(mechanism, &mut poses, &step);
         // This last step has brought the residual to rounding.
-        if size < CLOSED && regular {
+        if size < CLOSED && factors.are_regular(REGULAR) {
             return Some(Settled { poses, factors });
         }
         last = size;
     }
     None
-}
-
-/// Factors of a Jacobian, and whether it is certainly regular.
-fn factored(jacobian: DMatrix<f64>) -> (LU<f64, Dyn, Dyn>, bool) {
-    let factors = jacobian.lu();
-    let pivots = factors.lu_internal().diagonal();
-    let sizes = pivots.iter().map(|pivot| pivot.abs());
-    let (least, greatest) =
-        sizes.fold((f64::INFINITY, 0.0_f64), |(least, greatest), size| (least.min(size), greatest.max(size)));
-    (factors, least > REGULAR * greatest)
 }
 
 /// Values of the coordinates in the drawing.

@@ -14,6 +14,7 @@ mod anchor;
 mod assembly;
 mod clearance;
 mod curvature;
+mod factors;
 mod follower;
 mod following;
 mod joint_equations;
@@ -21,6 +22,7 @@ mod mobility;
 mod standing;
 
 pub(crate) use assembly::widest_gap_of_drawing;
+pub(crate) use factors::Factors;
 pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
@@ -144,7 +146,7 @@ impl Configuration {
         let mut proceed = || {
             steps += 1;
             let told =
-                Progress { counted: "steps from the drawing", done: steps, fraction: None, found: None };
+                Progress { counted: "steps of the assembly", done: steps, fraction: None, found: None };
             progress(&told).is_continue()
         };
         Follower::default().configuration_while(mechanism, &mut proceed)

@@ -1,5 +1,6 @@
 //! Whether a joint that does not slide now stays at rest, because the drives keep it so.
 
+use super::factors::Factors;
 use super::joint_equations::JointEquations;
 use super::{Configuration, Velocity};
 use crate::fault::Faults;
@@ -81,11 +82,11 @@ impl Prescribed {
         }
         let unit_vector =
             |row: usize| DVector::from_fn(wanted.len(), |other, _| f64::from(u8::from(other == row)));
-        let factors = equations.jacobian.lu();
+        let factors = Factors::of(&equations.jacobian);
         let free = (0..mechanism.coordinates.len()).filter(|&coordinate| mechanism.is_free(coordinate));
         let free: Option<Vec<_>> =
-            free.map(|coordinate| factors.solve(&unit_vector(joints + coordinate))).collect();
-        let accelerations = factors.solve(&wanted);
+            free.map(|coordinate| factors.solution(&unit_vector(joints + coordinate))).collect();
+        let accelerations = factors.solution(&wanted);
         Ok(accelerations.zip(free).map(|(accelerations, free)| Self { velocities, accelerations, free }))
     }
 }

@@ -36,7 +36,7 @@ use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
 use self_stress::singular_position;
-use system::{Factorization, Singular};
+use system::{Factorization, Singular, Unfactored};
 pub(crate) use system::{equilibration, scaled};
 
 /// Accelerations that violate the row of a cut contact by more than this part of its terms do not satisfy it.
@@ -166,7 +166,19 @@ impl KineticEquations {
     /// Loads without a value or direction; a motion without inertia; drives that cannot produce their motion;
     /// equations too ill-conditioned to be solved.
     pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
-        Self::factored(mechanism, configuration, Factorization::new)
+        Self::new_while(mechanism, configuration, &mut || true)
+    }
+
+    /// [`Self::new`]; a fault once `proceed`, which is asked during the elimination of many bodies, is `false`.
+    ///
+    /// # Errors
+    /// As [`Self::new`], or [`FaultKind::WorkEnded`].
+    pub(crate) fn new_while(
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, Faults> {
+        Self::factored(mechanism, configuration, |matrix| Factorization::new(matrix, proceed))
     }
 
     /// The equations of the same mechanism in a configuration close to this one, in the same scales.
@@ -180,7 +192,7 @@ impl KineticEquations {
     fn factored(
         mechanism: &Mechanism,
         configuration: &Configuration,
-        factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Singular>,
+        factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Unfactored>,
     ) -> Result<Self, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
         let Assembled {
@@ -194,8 +206,11 @@ impl KineticEquations {
             coordinate_rows,
             cut_rows,
         } = assembled;
-        let factorization = factor(matrix).map_err(|singular| {
-            Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
+        let factorization = factor(matrix).map_err(|unfactored| match unfactored {
+            Unfactored::Singular(singular) => {
+                Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular, &load)
+            }
+            Unfactored::Ended => Fault::general(FaultKind::WorkEnded),
         })?;
         let equations =
             Self { layout, contacts, applied, load, friction, couples, factorization, coordinate_rows };

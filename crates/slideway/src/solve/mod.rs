@@ -79,7 +79,7 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
-use crate::progress::Callback;
+use crate::progress::{Callback, Progress};
 use crate::report::{SolveReport, finite};
 use std::ops::ControlFlow;
 
@@ -151,7 +151,8 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
-    let state = Stages::with_standing(mechanism, configuration)?;
+    let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
+    let state = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
     answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
 }
 

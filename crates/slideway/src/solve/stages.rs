@@ -113,7 +113,19 @@ impl Stages {
         mechanism: Mechanism,
         configuration: Configuration,
     ) -> Result<(Self, KineticEquations), Faults> {
-        let equations = KineticEquations::new(&mechanism, &configuration)?;
+        Self::with_standing_while(mechanism, configuration, &mut || true)
+    }
+
+    /// [`Stages::with_standing`]; a fault once `proceed` is `false`.
+    ///
+    /// # Errors
+    /// As [`Stages::with_standing`], or [`FaultKind::WorkEnded`](crate::fault::FaultKind::WorkEnded).
+    pub(crate) fn with_standing_while(
+        mechanism: Mechanism,
+        configuration: Configuration,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(Self, KineticEquations), Faults> {
+        let equations = KineticEquations::new_while(&mechanism, &configuration, proceed)?;
         let stages = Self::of(mechanism, configuration, equations.influences())?;
         Ok((stages, equations))
     }
