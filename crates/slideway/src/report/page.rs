@@ -130,14 +130,15 @@ pub(super) fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
     wrap(line.trim_start(), options).into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 
-/// The pieces between which a line may be broken: words, but "mu = 0.3" is one, and "55 %", and "2 N m".
+/// The pieces between which a line may be broken: words, but "mu = 0.3" is one, and "55 %", "2 N m", "(0, 1)".
 fn words(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
     let mut pieces = Vec::new();
     let (mut start, mut end, mut last) = (0, 0, "=");
     let mut follows_number = false;
     for word in WordSeparator::AsciiSpace.find_words(line) {
         let is_unit = follows_number && is_unit(word.word);
-        if !(last == "=" || word.word == "=" || is_unit) {
+        let is_second = is_first_component(last);
+        if !(last == "=" || word.word == "=" || is_unit || is_second) {
             pieces.push(Word::from(&line[start..end]));
             start = end;
         }
@@ -153,6 +154,11 @@ fn words(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
 fn is_number(word: &str) -> bool {
     let first = word.trim_start_matches(['(', '-']).chars().next();
     first.is_some_and(|first| first.is_ascii_digit()) && word.ends_with(|last: char| last.is_ascii_digit())
+}
+
+/// True for "(0," of the vector "(0, 1)".
+fn is_first_component(word: &str) -> bool {
+    word.starts_with('(') && word.strip_suffix(',').is_some_and(is_number)
 }
 
 /// True for the symbols of units, and their products and ratios: "mm", "N/mm", "m/s^2", "%".
@@ -187,7 +193,8 @@ mod tests {
         page.line("it needs a 2 N m torque");
         page.line("(up to the 5 m/s^2) it is");
         page.line("at 12 of them a b m");
-        let expected = "from 10 to\n250 mm.\nit needs a\n2 N m torque\n(up to the\n5 m/s^2) it is\nat 12 of them\na b m\n";
+        page.line("slides along (-1, 0)");
+        let expected = "from 10 to\n250 mm.\nit needs a\n2 N m torque\n(up to the\n5 m/s^2) it is\nat 12 of them\na b m\nslides along\n(-1, 0)\n";
         assert_eq!(page.text(), expected);
     }
 
