@@ -209,9 +209,8 @@ fn is_forceless(response: &BySide<IntervalMatrix>, row: usize) -> bool {
     Side::BOTH.into_iter().all(|side| {
         let own = |column: usize| if column == row { side.sign() } else { 0.0 };
         let part = response.get(side);
-        (0..part.shape().1).all(|column| {
-            part.centre()[(row, column)] == own(column) && part.radius()[(row, column)] == 0.0
-        })
+        (0..part.shape().1)
+            .all(|column| part.centre()[(row, column)] == own(column) && part.radius()[(row, column)] == 0.0)
     })
 }
 

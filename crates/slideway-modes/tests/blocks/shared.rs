@@ -42,15 +42,9 @@ fn friction(numbers: &mut Numbers) -> BySide<DMatrix<f64>> {
 fn as_contacts(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &SharedLoad) -> ModeProblem {
     let columns = |side: Side| DMatrix::identity(CONTACTS, CONTACTS) * side.sign() - friction.get(side);
     let none = DMatrix::zeros(CONTACTS, CONTACTS);
-    ModeProblem::new(
-        columns(Side::Positive),
-        columns(Side::Negative),
-        none.clone(),
-        none,
-        load.clone(),
-    )
-    .and_then(|problem| problem.with_shared_load(shared))
-    .unwrap()
+    ModeProblem::new(columns(Side::Positive), columns(Side::Negative), none.clone(), none, load.clone())
+        .and_then(|problem| problem.with_shared_load(shared))
+        .unwrap()
 }
 
 fn as_blocks(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &SharedLoad) -> BlockResult {

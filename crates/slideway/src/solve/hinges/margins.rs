@@ -7,9 +7,7 @@ use crate::enclosure::{EnclosedBlockProblem, TurningHinge};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::modes::SearchOptions;
-use crate::modes::blocks::{
-    self, BlockProblem, BlockSolution, UniqueForEveryLoad, unique_for_every_load,
-};
+use crate::modes::blocks::{self, BlockProblem, BlockSolution, UniqueForEveryLoad, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
 use crate::progress::Work;
