@@ -119,8 +119,14 @@ function took(reply, question) {
     sliders.clear();
     verdict.forget();
   }
+  // More is known of this state than this answer says.
+  if (!isFirst && !question.margins && thorough === questioned(question)) {
+    told("shown", question);
+    return;
+  }
   if (reply.faults) {
     if (isFirst) showNothing();
+    thorough = "";
     showFaults(reply.faults, question);
     told("faults", question);
     return;
@@ -131,9 +137,15 @@ function took(reply, question) {
   keep();
 }
 
+const questioned = ({ text, settings }) => JSON.stringify([text, settings]);
+
+/** The question whose answer is shown, if that has margins of friction. */
+let thorough = "";
+
 /** Shows an answer of the engine. */
 function showLook(answer, question, isFirst) {
   const asked = changesOf(question.settings);
+  thorough = question.margins ? questioned(question) : "";
   look = answer;
   if (look.answer) kept = { held: look.held, text: question.text };
   showFaults(look.warnings, question);
@@ -156,7 +168,7 @@ async function showPrepared() {
   const known = await prepared;
   if (!known || asking !== state || look) return;
   const { look: answer, limits } = known;
-  showLook(answer, { ...state.asked(), margins: false }, true);
+  showLook(answer, { ...state.asked(), margins: true }, true);
   strip.took({ answer: limits });
   wait(!isHere);
   told("prepared");

@@ -44,8 +44,14 @@ function compiler() {
   );
   if (sources && linker && existsSync(resolve(sources, "lib/rustlib/src/rust/library/std"))) {
     return {
-      words: ["-Zbuild-std=std,panic_abort"],
-      environment: { RUSTC: debian, RUSTC_BOOTSTRAP: "1", CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker },
+      // Sorting and the like in few bytes; messages of panics without their places in the source.
+      words: ["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size"],
+      environment: {
+        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: "-Zlocation-detail=none",
+        RUSTC: debian,
+        RUSTC_BOOTSTRAP: "1",
+        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker,
+      },
     };
   }
   throw new Missing(
@@ -120,7 +126,7 @@ function notices(packages) {
 /** What the page shows of the model to begin with until the engine has come. */
 async function prepared(ask, library) {
   const state = await State.of("", library);
-  const { answer: look } = ask({ ask: "look", ...state.asked(), margins: false });
+  const { answer: look } = ask({ ask: "look", ...state.asked(), margins: true });
   state.strip = stripOf(look.quantities);
   const varied = look.quantities.find((quantity) => key(quantity) === key(state.strip));
   const { json } = ask(limitsQuestion(state, varied)).answer;
