@@ -177,7 +177,7 @@ async function showPrepared() {
 /** What is dragged waits for the engine. */
 function wait(isWaiting) {
   for (const id of ["strip-section", "values"]) byId(id).inert = isWaiting;
-  byId("waiting").hidden = !isWaiting;
+  if (varied()) say(byId("invitation"), invitation(varied()));
 }
 
 /** The sections that are shown. */
@@ -192,6 +192,8 @@ function showNumbers(atOnce) {
   if (!atOnce) return showNumbersAtRest();
   numbers = wanted;
   panel.replaceChildren(...parsed(wanted));
+  // Where tables are wider than the screen the keyboard moves them, too.
+  for (const wide of panel.querySelectorAll(".wide")) wide.tabIndex = 0;
 }
 
 const showNumbersAtRest = settled(() => look && showNumbers(true), REST);
@@ -415,7 +417,7 @@ function showStrip(asked = state.changes) {
 
 /** The question that the strip answers, and what to do. */
 const invitation = ({ kind, name, meaning, is_friction }) =>
-  `${is_friction ? "Does it jam?" : "What changes?"} Drag the ${
+  `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} the ${
     kind === "position" ? `position ${name}` : meaning ? `${meaning} (${name})` : name
   }.`;
 
