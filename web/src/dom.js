@@ -33,6 +33,34 @@ export function parsed(markup) {
   return [...read.childNodes].map((node) => document.adoptNode(node));
 }
 
+/** Makes an element the same as another one, which may take its place; what is as before is not touched. */
+export function follow(old, next) {
+  const isAlike =
+    old.nodeName === next.nodeName &&
+    old.childNodes.length === next.childNodes.length &&
+    old.attributes?.length === next.attributes?.length &&
+    [...(next.attributes ?? [])].every(({ name }) => old.hasAttribute(name));
+  if (!isAlike) {
+    old.replaceWith(next);
+  } else if (old.nodeType === Node.TEXT_NODE) {
+    if (old.data !== next.data) old.data = next.data;
+  } else {
+    for (const { name, value } of next.attributes) put(old, name, value);
+    const children = [...next.childNodes];
+    [...old.childNodes].forEach((child, index) => follow(child, children[index]));
+  }
+}
+
+/** Sets an attribute, unless it has this value: browsers work for what is set again, too. */
+export const put = (place, name, value) => {
+  if (place.getAttribute(name) !== String(value)) place.setAttribute(name, value);
+};
+
+/** Puts a text into an element, unless it is there. */
+export const say = (place, text) => {
+  if (place.textContent !== text) place.textContent = text;
+};
+
 /** Shapes of the engine, to stand within a picture. */
 export const shapes = (markup) => [...parsed(`<svg>${markup}</svg>`)[0].childNodes];
 

@@ -1,15 +1,15 @@
 // The page: a model, what is changed in it, and what the engine says of it.
 
-import { byId, element, inWords, parsed, settled, themeName } from "./dom.js";
+import { byId, element, inWords, parsed, say, settled, themeName } from "./dom.js";
 import { pixels, save } from "./downloads.js";
 import { Drawings } from "./drawings.js";
-import { Editor } from "./editor.js";
+import { LateEditor } from "./late-editor.js";
 import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
-import { scale, withUnit } from "./numbers.js";
+import { withUnit } from "./numbers.js";
 import { Sliders, key } from "./sliders.js";
 import { State, changesOf } from "./state.js";
-import { Strip, limitsQuestion } from "./strip.js";
+import { Strip, along, eligibleOf, limitsQuestion, stripOf } from "./strip.js";
 import { Verdict } from "./verdict.js";
 import { Engine, Newest, Turns, load } from "./workers.js";
 
@@ -19,21 +19,35 @@ const LARGEST_FILE = 4 << 20;
 const REST = 250;
 
 byId("loading").max = ENGINE_BYTES;
-const module = load("engine.wasm", (bytes) => {
-  byId("loading").value = bytes;
-});
+/** The models to begin with. */
+const library = fetch("library.json").then((response) => response.json());
+/** What the engine said of the first of them when the page was built: shown until it is here itself. */
+const prepared =
+  location.hash.length > 1
+    ? Promise.resolve(null)
+    : fetch("prepared.json")
+        .then((response) => response.json())
+        .catch(() => null);
+/** The engine, which takes all of a slow line. */
+const module = Promise.allSettled([library, prepared]).then(() =>
+  load("engine.wasm", (bytes) => {
+    byId("loading").value = bytes;
+  }),
+);
+let isHere = false;
 module
   .catch(() => {})
   .finally(() => {
+    isHere = true;
     byId("loading").hidden = true;
+    wait(false);
+    editor.begin().catch((error) => notice(error.message));
   });
 /** One engine follows what is dragged, the other answers what takes longer. */
 const live = new Engine(module, "worker.js");
 const slow = new Turns(new Engine(module, "worker.js"));
 const newest = new Newest(live);
 live.begin();
-/** The models to begin with; they come while the page is made. */
-const library = fetch("library.json").then((response) => response.json());
 
 let state = new State();
 /** What the engine said last, of which text and settings. */
@@ -47,7 +61,7 @@ const verdict = new Verdict(document, () => {
 });
 const drawings = new Drawings(byId("drawings"));
 const sliders = new Sliders(byId("sliders"), changed);
-const editor = new Editor(byId("editor"), settled(edited, 120));
+const editor = new LateEditor(byId("editor"), settled(edited, 120));
 const strip = new Strip(byId("strip"), (value) => changed(varied(), withUnit(value, varied().unit)));
 const map = new MapPanel(byId("panel-map"), {
   ask: (question, axes) => slowly({ ...question, ...state.asked(...axes) }),
@@ -85,7 +99,7 @@ function refresh() {
     );
   wanted(false);
   thoroughly(wanted);
-  byId("command").textContent = state.command();
+  say(byId("command"), state.command());
   byId("reset").hidden = state.changes.size === 0;
   remember();
 }
@@ -100,34 +114,89 @@ function took(reply, question) {
   verdict.rest();
   document.documentElement.dataset.milliseconds = reply.milliseconds.toFixed(1);
   if (question.margins && state.tab === "rest") showRest();
-  if (!look) {
+  const isFirst = !look;
+  if (isFirst) {
     sliders.clear();
     verdict.forget();
   }
+  // More is known of this state than this answer says.
+  if (!isFirst && !question.margins && thorough === questioned(question)) {
+    told("shown", question);
+    return;
+  }
   if (reply.faults) {
-    if (!look) showNothing();
+    if (isFirst) showNothing();
+    thorough = "";
     showFaults(reply.faults, question);
     told("faults", question);
     return;
   }
-  look = reply.answer;
-  if (look.answer) kept = { held: look.held, text: question.text };
-  showFaults(look.warnings, question);
-  verdict.show(look);
-  document.title = `${look.title} – slideway`;
-  byId("about").textContent = look.title;
-  drawings.show(look.drawings);
-  const asked = changesOf(question.settings);
-  sliders.show(look.quantities, state.changes, asked);
-  byId("left-out").hidden = !look.left_out;
-  byId("left-out").textContent = `${look.left_out} more parameters can be changed in the text.`;
-  map.show(look.quantities, state.map);
-  byId("panel-numbers").replaceChildren(...parsed(look.answer?.sections.join("") ?? ""));
-  showStrip(asked);
+  showLook(reply.answer, question, isFirst);
   told("shown", question);
   document.documentElement.dataset.shown = String(Number(document.documentElement.dataset.shown ?? 0) + 1);
   keep();
 }
+
+const questioned = ({ text, settings }) => JSON.stringify([text, settings]);
+
+/** The question whose answer is shown, if that has margins of friction. */
+let thorough = "";
+
+/** Shows an answer of the engine. */
+function showLook(answer, question, isFirst) {
+  const asked = changesOf(question.settings);
+  thorough = question.margins ? questioned(question) : "";
+  look = answer;
+  if (look.answer) kept = { held: look.held, text: question.text };
+  showFaults(look.warnings, question);
+  verdict.show(look);
+  const title = `${look.title} – slideway`;
+  if (document.title !== title) document.title = title;
+  say(byId("about"), look.title);
+  drawings.show(look.drawings);
+  sliders.show(look.quantities, state.changes, asked);
+  byId("left-out").hidden = !look.left_out;
+  say(byId("left-out"), `${look.left_out} more parameters can be changed in the text.`);
+  map.show(look.quantities, state.map);
+  showNumbers(isFirst || question.margins);
+  showStrip(asked);
+}
+
+/** Shows what was prepared, while the engine is on its way. */
+async function showPrepared() {
+  const asking = state;
+  const known = await prepared;
+  if (!known || asking !== state || look) return;
+  const { look: answer, limits } = known;
+  showLook(answer, { ...state.asked(), margins: true }, true);
+  strip.took({ answer: limits });
+  wait(!isHere);
+  told("prepared");
+}
+
+/** What is dragged waits for the engine. */
+function wait(isWaiting) {
+  for (const id of ["strip-section", "values"]) byId(id).inert = isWaiting;
+  if (varied()) say(byId("invitation"), invitation(varied()));
+}
+
+/** The sections that are shown. */
+let numbers = "";
+
+/** The numbers, at once or when values rest: until then those that are there are of a state before, and grey. */
+function showNumbers(atOnce) {
+  const wanted = look.answer?.sections.join("") ?? "";
+  const panel = byId("panel-numbers");
+  panel.classList.toggle("stale", !atOnce && wanted !== numbers);
+  if (wanted === numbers) return;
+  if (!atOnce) return showNumbersAtRest();
+  numbers = wanted;
+  panel.replaceChildren(...parsed(wanted));
+  // Where tables are wider than the screen the keyboard moves them, too.
+  for (const wide of panel.querySelectorAll(".wide")) wide.tabIndex = 0;
+}
+
+const showNumbersAtRest = settled(() => look && showNumbers(true), REST);
 
 /** There is nothing to show of a model whose file is at fault from the beginning. */
 function showNothing() {
@@ -135,6 +204,7 @@ function showNothing() {
   byId("about").textContent = "";
   drawings.show([]);
   byId("panel-numbers").replaceChildren();
+  numbers = "";
   byId("left-out").hidden = true;
 }
 
@@ -241,6 +311,10 @@ function begin(next) {
   look = null;
   kept = { held: null, text: "" };
   told("asking");
+  if (!isHere) {
+    verdict.begin();
+    byId("drawings").classList.add("stale");
+  }
   document.documentElement.dataset.begun = String(Number(document.documentElement.dataset.begun ?? 0) + 1);
   notice(state.unread.join(" "));
   limitsOf = "";
@@ -322,23 +396,20 @@ const varied = () => look?.quantities.find((quantity) => state.strip && key(quan
 
 /** `asked`: what was changed when it was asked for what is shown. */
 function showStrip(asked = state.changes) {
-  const eligible = look.quantities.filter(({ kind }) => kind !== "rate");
+  const eligible = eligibleOf(look.quantities);
   const names = eligible.map(key);
   if (JSON.stringify(names) !== choice.dataset.names) {
     choice.replaceChildren(...eligible.map((quantity) => element("option", { value: key(quantity) }, quantity.name)));
     choice.dataset.names = JSON.stringify(names);
   }
-  if (!varied()) {
-    const first = eligible.find(({ is_friction, is_computed }) => is_friction && !is_computed) ?? eligible[0];
-    if (!first) return;
-    setStrip(first);
-  }
+  if (!varied()) state.strip = stripOf(look.quantities);
+  if (!state.strip) return;
   const quantity = varied();
-  byId("invitation").textContent = invitation(quantity);
-  choice.value = key(quantity);
-  endUnit.textContent = quantity.unit;
+  say(byId("invitation"), invitation(quantity));
+  if (choice.value !== key(quantity)) choice.value = key(quantity);
+  say(endUnit, quantity.unit);
   [state.strip.from, state.strip.to].forEach((value, index) => {
-    if (document.activeElement !== ends[index]) ends[index].value = value;
+    if (document.activeElement !== ends[index] && ends[index].value !== String(value)) ends[index].value = value;
   });
   strip.prepare(state.strip, quantity, asked.get(key(quantity)) === state.changes.get(key(quantity)));
   askLimits();
@@ -346,14 +417,9 @@ function showStrip(asked = state.changes) {
 
 /** The question that the strip answers, and what to do. */
 const invitation = ({ kind, name, meaning, is_friction }) =>
-  `${is_friction ? "Does it jam?" : "What changes?"} Drag the ${
+  `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} the ${
     kind === "position" ? `position ${name}` : meaning ? `${meaning} (${name})` : name
   }.`;
-
-function setStrip(quantity) {
-  const { from, to } = scale(quantity.from, quantity.to);
-  state.strip = { kind: quantity.kind, name: quantity.name, from, to };
-}
 
 /** Asks where each mode exists, unless that is known: it does not depend on the value that is varied. */
 const askLimits = settled(async () => {
@@ -377,7 +443,7 @@ const askLimits = settled(async () => {
 }, 60);
 
 choice.addEventListener("change", () => {
-  setStrip(look.quantities.find((quantity) => key(quantity) === choice.value));
+  state.strip = along(look.quantities.find((quantity) => key(quantity) === choice.value));
   showStrip();
   remember();
 });
@@ -536,6 +602,7 @@ paint();
 try {
   offerModels(await library);
   begin(await State.of(location.hash.slice(1), await library));
+  await showPrepared();
 } catch (error) {
   failed(error);
 }

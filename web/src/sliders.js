@@ -1,6 +1,6 @@
 // A slider and a field for everything that can be changed in a model.
 
-import { element, inWords } from "./dom.js";
+import { element, inWords, put, say } from "./dom.js";
 import { scale, short, withUnit } from "./numbers.js";
 
 /** Title, which quantities it has, and whether it is open at first. */
@@ -36,7 +36,7 @@ export class Sliders {
     this.#rows = rows;
     this.#groups.forEach((group, index) => {
       const inside = quantities.filter(GROUPS[index][1]).map((quantity) => rows.get(key(quantity)).element);
-      group.hidden = inside.length === 0;
+      if (group.hidden !== (inside.length === 0)) group.hidden = inside.length === 0;
       inside.forEach((row, at) => {
         // The first child is the title.
         if (group.children[at + 1] !== row) group.insertBefore(row, group.children[at + 1] ?? null);
@@ -65,6 +65,11 @@ export class Sliders {
       this.#rows.get(key(settings[fault.place.setting]))?.showFault(inWords(fault));
     }
   }
+}
+
+/** Sets ends and step of a slider. */
+export function setEnds(slider, { from, to, step }) {
+  for (const [name, value] of Object.entries({ min: from, max: to, step })) put(slider, name, value);
 }
 
 export const key = ({ kind, name }) => `${kind} ${name}`;
@@ -130,15 +135,14 @@ class Row {
   show(quantity, changed, isNewest) {
     this.#quantity = quantity;
     const { value } = quantity;
-    const meaning = quantity.meaning ?? "";
-    if (this.#meaning.textContent !== meaning) this.#meaning.textContent = meaning;
+    say(this.#meaning, quantity.meaning ?? "");
     this.showChange(changed);
     // An answer that comes late does not pull the slider back from under the finger.
     if (!isNewest) return;
     if (!this.#isHeld) this.#setEnds(quantity, changed);
-    if (!this.#isHeld) this.#slider.value = value;
-    this.#slider.setAttribute("aria-valuetext", withUnit(value, quantity.unit));
-    if (document.activeElement !== this.#field) this.#field.value = short(value);
+    if (!this.#isHeld && this.#slider.value !== String(value)) this.#slider.value = value;
+    put(this.#slider, "aria-valuetext", withUnit(value, quantity.unit));
+    if (document.activeElement !== this.#field && this.#field.value !== short(value)) this.#field.value = short(value);
   }
 
   /** The ends of the slider: as they are, unless the value is outside, or that of the file again. */
@@ -146,16 +150,16 @@ class Row {
     const isOutside = this.#ends && (value < this.#ends.from || value > this.#ends.to);
     if (this.#ends && !isOutside && (changed !== undefined || document.activeElement === this.#slider)) return;
     this.#ends = scale(Math.min(from, value), Math.max(to, value));
-    Object.assign(this.#slider, { min: this.#ends.from, max: this.#ends.to, step: this.#ends.step });
+    setEnds(this.#slider, this.#ends);
   }
 
   showChange(changed) {
-    this.#back.hidden = changed === undefined;
+    if (this.#back.hidden !== (changed === undefined)) this.#back.hidden = changed === undefined;
     this.element.classList.toggle("changed", changed !== undefined);
   }
 
   showFault(text) {
-    this.#fault.textContent = text;
-    this.#field.setAttribute("aria-invalid", text !== "");
+    say(this.#fault, text);
+    put(this.#field, "aria-invalid", text !== "");
   }
 }

@@ -1,7 +1,8 @@
 // A strip that shows for which values of one quantity each mode exists, and how many solutions there are, with the present
 // value, which can be dragged.
 
-import { element, inWords, shape } from "./dom.js";
+import { element, inWords, put, say, shape } from "./dom.js";
+import { setEnds } from "./sliders.js";
 import { scale as slider, short, ticks, withUnit } from "./numbers.js";
 
 const ROW = 26;
@@ -11,6 +12,22 @@ const RIGHT = 16;
 const COUNTS = 34;
 /** Colours of modes, in the order in which they come. */
 const COLOURS = 8;
+
+/** What can be along the strip. */
+export const eligibleOf = (quantities) => quantities.filter(({ kind }) => kind !== "rate");
+
+/** The strip of a quantity: { kind, name, from, to } in its unit. */
+export function along({ kind, name, from, to }) {
+  const ends = slider(from, to);
+  return { kind, name, from: ends.from, to: ends.to };
+}
+
+/** The strip to begin with: of the first coefficient of friction, if there is one. */
+export function stripOf(quantities) {
+  const eligible = eligibleOf(quantities);
+  const first = eligible.find(({ is_friction, is_computed }) => is_friction && !is_computed) ?? eligible[0];
+  return first ? along(first) : null;
+}
 
 /** Asks for the limits of the quantity along the strip, which do not depend on its value. */
 export const limitsQuestion = (state, quantity) => {
@@ -69,8 +86,8 @@ export class Strip {
     this.#vary = vary;
     this.#quantity = quantity;
     const { step } = slider(vary.from, vary.to);
-    Object.assign(this.#slider, { min: vary.from, max: vary.to, step });
-    this.#slider.setAttribute("aria-label", `${vary.name}, along the strip`);
+    setEnds(this.#slider, { ...vary, step });
+    put(this.#slider, "aria-label", `${vary.name}, along the strip`);
     // An answer that comes late does not pull the slider back from under the finger.
     if (isNewest) this.#present(quantity.value);
   }
@@ -127,11 +144,12 @@ export class Strip {
     this.#value = value;
     if (!this.#vary || !this.#line) return;
     const x = this.#place(Math.min(this.#vary.to, Math.max(this.#vary.from, value)));
-    this.#line.setAttribute("transform", `translate(${x} 0)`);
+    put(this.#line, "transform", `translate(${x} 0)`);
     const label = this.#line.querySelector("text");
-    label.textContent = withUnit(value, this.#quantity.unit);
-    label.setAttribute("text-anchor", x > this.#width - 60 ? "end" : x < LEFT + 40 ? "start" : "middle");
-    this.#slider.setAttribute(
+    say(label, withUnit(value, this.#quantity.unit));
+    put(label, "text-anchor", x > this.#width - 60 ? "end" : x < LEFT + 40 ? "start" : "middle");
+    put(
+      this.#slider,
       "aria-valuetext",
       `${withUnit(value, this.#quantity.unit)}; ${countAt(this.#report, value * this.#quantity.scale)}`,
     );

@@ -1,6 +1,6 @@
 // The verdict: what is found at a glance, how sure it is, and why; and the progress of what takes long.
 
-import { element } from "./dom.js";
+import { element, say } from "./dom.js";
 import { Ended } from "./workers.js";
 
 /** What is seen at a glance, for each status. */
@@ -86,11 +86,16 @@ export class Verdict {
 
   #say(status, text, certainty = "", reasons = []) {
     this.rest();
-    this.#box.dataset.status = status;
+    if (this.#box.dataset.status !== status) this.#box.dataset.status = status;
     // Said again only if it is another.
-    if (this.#words.textContent !== text) this.#words.textContent = text;
-    this.#certainty.textContent = certainty;
-    this.#reasons.replaceChildren(...reasons);
+    say(this.#words, text);
+    say(this.#certainty, certainty);
+    if (reasons.length + this.#reasons.children.length > 0) this.#reasons.replaceChildren(...reasons);
+  }
+
+  /** The engine has not come yet. */
+  begin() {
+    this.#say("working", "Loading …");
   }
 
   /** How many solutions there are, or why that is not known. */
@@ -129,6 +134,6 @@ export class Verdict {
 
   /** Nothing takes long any more. */
   rest() {
-    this.#work.hidden = true;
+    if (!this.#work.hidden) this.#work.hidden = true;
   }
 }

@@ -356,6 +356,57 @@ test("an engine that comes late is waited for", { skip }, async () => {
   await context.close();
 });
 
+/** A page whose engine waits for `come()`. */
+async function withoutEngine(address) {
+  const context = await set.browser.newContext({ viewport: { width: 1400, height: 900 }, serviceWorkers: "block" });
+  const page = await context.newPage();
+  let come;
+  const wanted = new Promise((done) => {
+    come = done;
+  });
+  await page.route("**/engine.wasm", (route) => wanted.then(() => route.continue()));
+  await page.goto(`${set.at}${address}`);
+  return { page, come };
+}
+
+test("the first picture comes before the engine, and is what the engine says", { skip }, async () => {
+  const { page, come } = await withoutEngine("");
+  await page.waitForFunction(() => document.documentElement.dataset.state === "prepared");
+  const seen = () =>
+    page.evaluate(() => ({
+      verdict: document.getElementById("verdict").textContent,
+      drawings: document.getElementById("drawings").innerHTML,
+      numbers: document.getElementById("panel-numbers").innerHTML,
+      strip: document.querySelector(".strip").innerHTML,
+      values: [...document.querySelectorAll(".row input")].map(({ value, min, max, step }) => [value, min, max, step]),
+    }));
+  const isWaiting = () =>
+    page.evaluate(() => ["strip-section", "values"].map((id) => document.getElementById(id).inert));
+  const prepared = await seen();
+  assert.match(prepared.verdict, /It moves: .* jam from mu = 0.6667/);
+  assert.match(prepared.strip, /1 solution/);
+  assert.ok(prepared.values.length > 4);
+  assert.deepEqual(await isWaiting(), [true, true]);
+  come();
+  await settled(page);
+  await limits(page);
+  await page.waitForFunction(() => document.documentElement.dataset.limits);
+  assert.deepEqual(await isWaiting(), [false, false]);
+  assert.deepEqual(await seen(), prepared);
+  await close(page);
+});
+
+test("another model than the first waits for the engine", { skip }, async () => {
+  const { page, come } = await withoutEngine("#model=gallery:klepp-2002");
+  await page.waitForFunction(() => document.getElementById("pick").value === "gallery:klepp-2002");
+  assert.match(await page.textContent("#verdict"), /Loading/);
+  assert.equal(await page.locator("#drawings figure").count(), 0);
+  come();
+  await settled(page);
+  await verdict(page, "several");
+  await close(page);
+});
+
 test("the files are those of the command line", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer&set=mu%3D0.5");
   await page.click("#downloads summary");

@@ -14,6 +14,9 @@ import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statS
 import { resolve } from "node:path";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import { start } from "../src/engine.js";
+import { key } from "../src/sliders.js";
+import { State } from "../src/state.js";
+import { limitsQuestion, stripOf } from "../src/strip.js";
 import { engine, engineTarget, page, top, web } from "./places.js";
 
 const TARGET = "wasm32-unknown-unknown";
@@ -41,8 +44,14 @@ function compiler() {
   );
   if (sources && linker && existsSync(resolve(sources, "lib/rustlib/src/rust/library/std"))) {
     return {
-      words: ["-Zbuild-std=std,panic_abort"],
-      environment: { RUSTC: debian, RUSTC_BOOTSTRAP: "1", CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker },
+      // Sorting and the like in few bytes; messages of panics without their places in the source.
+      words: ["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size"],
+      environment: {
+        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: "-Zlocation-detail=none",
+        RUSTC: debian,
+        RUSTC_BOOTSTRAP: "1",
+        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker,
+      },
     };
   }
   throw new Missing(
@@ -91,13 +100,15 @@ function install() {
 async function bundle() {
   const { build } = await import("esbuild");
   const { metafile } = await build({
-    entryPoints: ["page.js", "worker.js", "embed.js"].map((name) => resolve(web, "src", name)),
+    entryPoints: ["page.js", "editor.js", "worker.js", "embed.js"].map((name) => resolve(web, "src", name)),
     outdir: page,
     bundle: true,
     format: "esm",
     target: "es2022",
     minify: true,
     metafile: true,
+    // It comes after the page.
+    external: ["./editor.js"],
     define: { ENGINE_BYTES: String(statSync(engine).size) },
     logLevel: "warning",
   });
@@ -112,12 +123,24 @@ function notices(packages) {
   return readFileSync(resolve(top, "THIRD-PARTY-NOTICES"), "utf8") + packages.map(licence).join("");
 }
 
+/** What the page shows of the model to begin with until the engine has come. */
+async function prepared(ask, library) {
+  const state = await State.of("", library);
+  const { answer: look } = ask({ ask: "look", ...state.asked(), margins: true });
+  state.strip = stripOf(look.quantities);
+  const varied = look.quantities.find((quantity) => key(quantity) === key(state.strip));
+  const { json } = ask(limitsQuestion(state, varied)).answer;
+  return { look, limits: { json } };
+}
+
 /** The rest: the engine, its style sheet, the models to begin with, and what stands beside. */
 async function gather(packages) {
   cpSync(engine, resolve(page, "engine.wasm"));
   const ask = await start(await WebAssembly.compile(readFileSync(engine)));
   writeFileSync(resolve(page, "drawing.css"), ask({ ask: "style" }).answer);
-  writeFileSync(resolve(page, "library.json"), JSON.stringify(ask({ ask: "library" }).answer));
+  const library = ask({ ask: "library" }).answer;
+  writeFileSync(resolve(page, "library.json"), JSON.stringify(library));
+  writeFileSync(resolve(page, "prepared.json"), JSON.stringify(await prepared(ask, library)));
   for (const name of ["index.html", "style.css", "manifest.webmanifest", "icon.svg"])
     cpSync(resolve(web, "src", name), resolve(page, name));
   writeFileSync(resolve(page, "notices.txt"), notices(packages));

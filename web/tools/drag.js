@@ -4,7 +4,8 @@
 //
 // For each model of the gallery, or those that are named: how many pictures a second the first drag shows, right after the model was opened, when
 // everything is as slow as if the machine were so many times slower; and the processor time of the renderer for each
-// picture, which does not depend on what else the machine does. Then how long the first picture takes over slow lines.
+// picture, which does not depend on what else the machine does. Before that, how long the first picture and the engine take over
+// slow lines.
 
 import { readdirSync } from "node:fs";
 import { resolve } from "node:path";
@@ -78,7 +79,7 @@ async function firstDrag(name, slower) {
   return { rate: (1000 * (last - first)) / (to - from), each: (1000 * (after - before)) / count };
 }
 
-/** Time until the first picture over a line (s), and what came (MB). */
+/** Time until the first picture over a line, and until the engine is there (s), and what came (MB). */
 async function firstPicture(megabits) {
   const context = await browser.newContext({ serviceWorkers: "block" });
   const page = await context.newPage();
@@ -97,16 +98,22 @@ async function firstPicture(megabits) {
   });
   const begun = performance.now();
   await page.goto(at, { waitUntil: "commit", timeout: 120_000 });
-  await page.waitForFunction(() => document.documentElement.dataset.state === "shown", null, { timeout: 300_000 });
-  const seconds = (performance.now() - begun) / 1000;
+  const until = async (...states) => {
+    await page.waitForFunction((wanted) => wanted.includes(document.documentElement.dataset.state), states, {
+      timeout: 300_000,
+    });
+    return { seconds: (performance.now() - begun) / 1000, megabytes: bytes / 1e6 };
+  };
+  const found = { picture: await until("prepared", "shown"), engine: await until("shown") };
   await context.close();
-  return { seconds, megabytes: bytes / 1e6 };
+  return found;
 }
 
 const say = (text) => process.stdout.write(`${text}\n`);
 for (const megabits of LINES) {
-  const { seconds, megabytes } = await firstPicture(megabits);
-  say(`${megabits} Mbit/s: the first picture after ${seconds.toFixed(1)} s, ${megabytes.toFixed(2)} MB`);
+  const { picture, engine } = await firstPicture(megabits);
+  const after = ({ seconds, megabytes }) => `after ${seconds.toFixed(1)} s, ${megabytes.toFixed(2)} MB`;
+  say(`${megabits} Mbit/s: the first picture ${after(picture)}; the engine ${after(engine)}`);
 }
 const all = [];
 const gallery = readdirSync(resolve(top, "models")).map((file) => file.slice(0, -".toml".length));

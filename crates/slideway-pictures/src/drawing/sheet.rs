@@ -27,6 +27,8 @@ const ROW: f64 = 1300.0;
 /// Space between panels, and around the sheet.
 const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
+/// By multiples of this a place grows that is held.
+const STEP: f64 = SPACE;
 
 /// A sheet of drawings.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +55,19 @@ pub struct Held {
     pub longest_force: Option<f64>,
     /// The place that the drawing has. It grows where another needs more, and never shrinks.
     pub place: Bounds,
+}
+
+impl Held {
+    /// The place for a drawing that needs this one. It grows in steps: while an arrow grows little by little most drawings
+    /// stay where they are.
+    fn place_of(&self, wanted: Bounds) -> Bounds {
+        let outwards = |excess: f64| STEP * (excess / STEP).ceil().max(0.0);
+        let Bounds { least, greatest } = self.place;
+        Bounds {
+            least: least - (least - wanted.least).map(outwards),
+            greatest: greatest + (wanted.greatest - greatest).map(outwards),
+        }
+    }
 }
 
 impl Sheet {
@@ -237,7 +252,7 @@ impl Layout<'_> {
     /// Each panel by itself, and the key.
     fn pieces(self, held: Option<&Held>) -> Vec<Sheet> {
         let wanted = self.picture();
-        let picture = held.map_or(wanted, |held| wanted.with(held.place));
+        let picture = held.map_or(wanted, |held| held.place_of(wanted));
         let width = picture.size().x.max(LEAST_WIDTH);
         let mut all = Scene::default();
         let sheet = |scene: Scene, foot: f64, (title, description): (&str, String), held: Option<Held>| {
@@ -250,7 +265,7 @@ impl Layout<'_> {
         let piece = |panel: &Panel| {
             let own = bounds_of(std::slice::from_ref(panel));
             let own = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
-            let picture = held.map_or(own, |held| own.with(held.place));
+            let picture = held.map_or(own, |held| held.place_of(own));
             let mut scene = Scene::default();
             let foot = self.panel(&mut scene, panel, &picture, Point::zeros());
             all.elements.extend(scene.elements.iter().cloned());
