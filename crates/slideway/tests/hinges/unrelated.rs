@@ -111,9 +111,9 @@ pub(super) fn cart_and_block(random: &mut Random) -> String {
     format!("gravity = 9.81\n[points]\nC = [0, 0]\n{}{}{joints}", body("cart"), body("block"))
 }
 
-fn random_mechanisms(count: u64) {
+fn random_mechanisms(seeds: impl IntoIterator<Item = u64>) {
     let mut failed = String::new();
-    for seed in 1..=count {
+    for seed in seeds {
         let text = cart_and_block(&mut Random(seed));
         for difference in differences(&text, 0.5) {
             writeln!(failed, "{seed}: {difference}").unwrap();
@@ -122,13 +122,15 @@ fn random_mechanisms(count: u64) {
     assert!(failed.is_empty(), "{failed}");
 }
 
+/// In 66, 85 and 500 a joint that sticks while another bounces has a velocity that is rounding; in 218 a guided slider tips just
+/// before its normal force vanishes.
 #[test]
 fn an_unrelated_pendulum_changes_no_motion_of_random_mechanisms() {
-    random_mechanisms(30);
+    random_mechanisms((1..=30).chain([66, 85, 218, 500]));
 }
 
 #[test]
-#[ignore = "takes minutes; seeds 66, 85, 218 and 500 differ by up to 3e-5 s in when their last event happens"]
+#[ignore = "takes minutes"]
 fn an_unrelated_pendulum_changes_none_of_a_thousand_motions() {
-    random_mechanisms(1000);
+    random_mechanisms(1..=1000);
 }

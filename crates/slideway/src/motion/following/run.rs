@@ -19,8 +19,6 @@ use crate::pattern::phase::{JointPhase, Phase};
 use crate::progress::{Callback, Progress};
 use crate::report::spaced;
 
-/// Sliding velocities below this multiple of the greatest velocity count as zero.
-const AT_REST: f64 = 1e-10;
 /// So many impulses at one instant are tried.
 const MOST_IMPULSES: usize = 16;
 /// So many events in a row within a short time are an accumulation, ...
@@ -274,7 +272,8 @@ impl<'a, 'm> Run<'a, 'm> {
         }
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let configuration = self.smooth.equations.configuration.clone();
-        let impact = stop::impact_of(&hits, mechanism, &configuration, self.decisions)?;
+        let little = self.smooth.little_velocities();
+        let impact = stop::impact_of(&hits, (mechanism, &configuration), &little, self.decisions)?;
         self.smooth.set_velocities(&impact.after.velocities);
         let is_over = |cause: &Cause| {
             matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))
@@ -332,32 +331,32 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Which sliding joints, then which hinges with friction, have no velocity.
     fn stopped(&self, causes: &[Cause], previous: Option<&Phase>) -> Vec<bool> {
         let equations = &self.smooth.equations;
-        let greatest = self.smooth.greatest_velocity();
-        let one = |(index, joint): (usize, &crate::ids::JointId)| {
-            let sticks = previous.is_some_and(|phase| phase.joints[index] == JointPhase::Sticking);
-            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
-            let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
-            sticks || causes.contains(&Cause::Stops(*joint)) || velocity.abs() <= AT_REST * greatest
+        let stop = equations.sliders.iter().map(|joint| Cause::Stops(*joint));
+        let stop_turning = equations.hinge_joints().map(Cause::StopsTurning);
+        let stop = stop.chain(stop_turning).map(|cause| causes.contains(&cause));
+        let sticks = |index| {
+            previous.is_some_and(|phase| phase.joints_and_hinges().nth(index) == Some(JointPhase::Sticking))
         };
-        let hinge = |(index, joint): (usize, crate::ids::JointId)| {
-            let sticks = previous.is_some_and(|phase| phase.hinges[index].state == JointPhase::Sticking);
-            let velocity = equations.spin(index).abs() * equations.mechanism.size;
-            sticks || causes.contains(&Cause::StopsTurning(joint)) || velocity <= AT_REST * greatest
-        };
-        let sliders = equations.sliders.iter().enumerate().map(one);
-        sliders.chain(equations.hinge_joints().enumerate().map(hinge)).collect()
+        let velocities = self.velocities().zip(self.smooth.little_velocities());
+        let all = velocities.zip(stop).enumerate();
+        all.map(|(index, ((velocity, little), stops))| stops || velocity.abs() <= little || sticks(index))
+            .collect()
     }
 
-    /// The signs of the velocities of all sliding joints, then of the hinges with friction.
-    fn signs(&self, stopped: &[bool]) -> Vec<f64> {
+    /// The velocities of all sliding joints, then of the hinges with friction (m/s or rad/s).
+    fn velocities(&self) -> impl Iterator<Item = f64> {
         let equations = &self.smooth.equations;
         let sliders = equations.sliders.iter().map(|joint| {
             let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
             equations.contacts[slider.contacts[0].index()].sliding_velocity
         });
-        let spins = (0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge));
+        sliders.chain((0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge)))
+    }
+
+    /// The signs of the velocities of all sliding joints, then of the hinges with friction.
+    fn signs(&self, stopped: &[bool]) -> Vec<f64> {
         let one = |(velocity, stopped): (f64, &bool)| if *stopped { 0.0 } else { velocity.signum() };
-        sliders.chain(spins).zip(stopped).map(one).collect()
+        self.velocities().zip(stopped).map(one).collect()
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.

@@ -46,7 +46,7 @@ pub(in crate::motion) enum Watched {
     ReactionLimit(ContactId),
     /// How much the greatest of the normal forces that statics determines may still grow while joints stick.
     HeldReactions,
-    /// |N| L/2 - |C| of a guided slider.
+    /// N L/2 - |C| of a guided slider, with the normal force N towards the face that is pressed.
     Couple(JointId),
     /// By how much the sticking joints can still stick.
     Sticking,
@@ -228,12 +228,7 @@ impl<'o> Watch<'o> {
         let (mechanism, configuration) = (equations.mechanism, &equations.configuration);
         let slider = |joint: JointId| mechanism.slider(joint).expect("sliding joints slide");
         Ok(match watched {
-            Watched::NormalForce(contact) => {
-                let k = contact.index();
-                let sigma =
-                    if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
-                sigma * equations.normal_force(k)
-            }
+            Watched::NormalForce(contact) => pressing_force(contact, phase, equations),
             Watched::Share(contact, side) => {
                 let share = equations.share(contact.index()).unwrap_or(0.5);
                 if side == Side::Positive { share } else { 1.0 - share }
@@ -255,9 +250,10 @@ impl<'o> Watch<'o> {
                 self.reaction_limit() - equations.normal_force(contact.index()).abs()
             }
             Watched::Couple(joint) => {
+                // A face does not pull: beyond the zero of its force there is no room either.
                 let slider = slider(joint);
-                let normal_force = equations.normal_force(slider.contacts[0].index());
-                slider.greatest_couple(normal_force) - equations.reaction(Reaction::Couple(joint)).abs()
+                let force = pressing_force(slider.contacts[0], phase, equations);
+                force * slider.greatest_couple(1.0) - equations.reaction(Reaction::Couple(joint)).abs()
             }
             Watched::Circles => equations.room_of_hinges(phase).unwrap_or(0.0),
             Watched::Sticking | Watched::HeldReactions | Watched::Relation(_) => 0.0,
@@ -300,6 +296,13 @@ impl<'o> Watch<'o> {
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
     }
+}
+
+/// The normal force of a contact towards the side that is pressed (N).
+fn pressing_force(contact: ContactId, phase: &Phase, equations: &Equations<'_>) -> f64 {
+    let k = contact.index();
+    let sigma = if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
+    sigma * equations.normal_force(k)
 }
 
 /// The product of the overlaps of all block sliders, relative to their lengths.

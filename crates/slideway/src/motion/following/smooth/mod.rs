@@ -28,7 +28,7 @@ use std::collections::BTreeSet;
 
 /// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
 const LITTLE_VELOCITY: f64 = 1e-2;
-/// Bodies that are slower than this part of the greatest velocity stand still.
+/// Bodies, joints and hinges that are slower than this part of the greatest velocity stand still.
 const REST: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
@@ -134,6 +134,14 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// The greatest velocity so far (m/s), rotations times the size of the mechanism.
     pub(in crate::motion) fn greatest_velocity(&self) -> f64 {
         self.watch.magnitudes.velocity
+    }
+
+    /// Of each sliding joint (m/s), then of each hinge with friction (rad/s), the velocity below which it stands still.
+    pub(in crate::motion) fn little_velocities(&self) -> Vec<f64> {
+        let Equations { mechanism, sliders, .. } = &self.equations;
+        let little = REST * self.greatest_velocity();
+        let hinges = mechanism.friction_circles.iter().map(|_| little / mechanism.size);
+        sliders.iter().map(|_| little).chain(hinges).collect()
     }
 
     /// Forces below this are rounding beside the greatest so far (N).
