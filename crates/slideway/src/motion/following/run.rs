@@ -16,7 +16,7 @@ use crate::motion::record::history::{
     End, Energy, History, ImpulseLoss, LastState, PhaseInterval, Statistics, Step,
 };
 use crate::pattern::phase::{JointPhase, Phase};
-use crate::progress::{Callback, Progress};
+use crate::progress::{Progress, Work};
 use crate::report::spaced;
 
 /// So many impulses at one instant are tried.
@@ -37,15 +37,16 @@ pub(in crate::motion) struct Run<'a, 'm> {
     phase: Option<Phase>,
     history: History,
     branchings: usize,
+    work: Work<'a>,
 }
 
 impl<'a, 'm> Run<'a, 'm> {
     /// A simulation at its start.
     pub(in crate::motion) fn new(
-        mechanism: &'m Mechanism,
-        configuration: &Configuration,
+        (mechanism, configuration): (&'m Mechanism, &Configuration),
         options: &'a SimulateOptions,
         decisions: &'a mut dyn Decisions,
+        work: Work<'a>,
     ) -> Self {
         let equations = Equations::new(mechanism, configuration);
         let state = equations.state_of(configuration);
@@ -68,17 +69,17 @@ impl<'a, 'm> Run<'a, 'm> {
             last: LastState { time: configuration.time, state: state.clone() },
         };
         let smooth = Smooth::new(equations, state, configuration.time, options);
-        Self { options, decisions, smooth, phase: None, history, branchings: 0 }
+        Self { options, decisions, smooth, phase: None, history, branchings: 0, work }
     }
 
     /// Follows the mechanism to the end.
     ///
     /// # Errors
     /// A state from which it cannot begin.
-    pub(in crate::motion) fn follow(mut self, progress: &mut Callback<'_>) -> Result<History, Faults> {
+    pub(in crate::motion) fn follow(mut self) -> Result<History, Faults> {
         let total = self.energy().total();
         let end = match self.decide(vec![Cause::Start])? {
-            None => self.phases(progress, total),
+            None => self.phases(total),
             Some(end) => end,
         };
         self.history.end = end;
@@ -92,10 +93,10 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// Phase after phase.
-    fn phases(&mut self, progress: &mut Callback<'_>, total: f64) -> End {
+    fn phases(&mut self, total: f64) -> End {
         loop {
             let Some(phase) = self.phase.clone() else { return End::NoContinuation };
-            let causes = match self.phase(&phase, progress, total) {
+            let causes = match self.phase(&phase, total) {
                 // A load has a kink.
                 Ended::Event(causes) if causes.is_empty() => continue,
                 Ended::Event(causes) => causes,
@@ -124,7 +125,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// One phase, until it ends.
-    fn phase(&mut self, phase: &Phase, progress: &mut Callback<'_>, total: f64) -> Ended {
+    fn phase(&mut self, phase: &Phase, total: f64) -> Ended {
         let begun = self.smooth.enter(phase, self.decisions);
         let exceeded = match begun.and_then(|()| self.smooth.exceeded_reactions(phase, self.decisions)) {
             Ok(exceeded) => exceeded,
@@ -159,7 +160,7 @@ impl<'a, 'm> Run<'a, 'm> {
             if let Some(ended) = step {
                 return ended;
             }
-            if progress(&self.progress()).is_break() {
+            if self.work.tell(&self.progress()).is_break() {
                 return Ended::End(End::Interrupted);
             }
         }
@@ -203,8 +204,21 @@ impl<'a, 'm> Run<'a, 'm> {
         })
     }
 
-    /// Decides how the motion goes on, after impulses if it must; returns why it ends, if it does.
-    fn decide(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
+    /// Decides how the motion goes on, unless the work is to end; returns why the motion ends, if it does.
+    fn decide(&mut self, causes: Vec<Cause>) -> Result<Option<End>, Faults> {
+        let events = self.history.events.len();
+        let decided = self.decided(causes.clone());
+        if !self.work.is_over() {
+            return decided;
+        }
+        if self.history.events.len() == events {
+            self.tell(causes, Continuations::default(), None);
+        }
+        Ok(Some(End::Interrupted))
+    }
+
+    /// The same, after impulses if it must; nothing is decided once the work is to end.
+    fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
         if self.hit(&mut causes)? {
             previous = None;
@@ -221,16 +235,21 @@ impl<'a, 'm> Run<'a, 'm> {
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
             let mechanism = self.smooth.equations.mechanism;
+            let rounding = self.smooth.rounding();
             let instant = EventInstant {
                 mechanism,
                 configuration: &configuration,
                 signs,
                 spins,
                 zero: &zero,
-                rounding: self.smooth.rounding(),
+                rounding: &rounding,
                 previous: previous.as_ref(),
+                work: self.work,
             };
             let mut successors = self.decisions.successors(&instant)?;
+            if self.work.is_over() {
+                return Ok(None);
+            }
             without_ended(&self.smooth.equations, &mut successors.list, &causes, previous.as_ref());
             if !successors.list.is_empty() {
                 let taken = self.choose(&successors.list)?;
@@ -249,7 +268,11 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.tell(causes, Continuations::default(), None);
                 return Ok(Some(End::NoContinuation));
             }
-            let Some(jam) = self.decisions.jam(&instant)? else { break };
+            let jam = self.decisions.jam(&instant)?;
+            if self.work.is_over() {
+                return Ok(None);
+            }
+            let Some(jam) = jam else { break };
             self.smooth.set_velocities(&jam.velocities);
             self.note_impulse(jam.energy_lost);
             causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
@@ -273,7 +296,8 @@ impl<'a, 'm> Run<'a, 'm> {
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let configuration = self.smooth.equations.configuration.clone();
         let little = self.smooth.little_velocities();
-        let impact = stop::impact_of(&hits, (mechanism, &configuration), &little, self.decisions)?;
+        let impact =
+            stop::impact_of(&hits, (mechanism, &configuration), (&little, self.work), self.decisions)?;
         self.smooth.set_velocities(&impact.after.velocities);
         let is_over = |cause: &Cause| {
             matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))

@@ -7,6 +7,7 @@ use crate::mechanism::Mechanism;
 use crate::motion::decision::rules::{Decisions, EventInstant};
 use crate::motion::decision::{Impact, TOUCHES, impact, relative_velocities, sliding_accelerations};
 use crate::motion::moving::cause::Cause;
+use crate::progress::Work;
 
 /// A joint that has reached an end stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +46,7 @@ pub(in crate::motion) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hi
 pub(in crate::motion) fn impact_of(
     hits: &[Hit],
     (mechanism, configuration): (&Mechanism, &Configuration),
-    little: &[f64],
+    (little, work): (&[f64], Work<'_>),
     decisions: &mut dyn Decisions,
 ) -> Result<Impact, Faults> {
     let mut stops: Vec<(JointId, f64)> = hits.iter().map(|hit| (hit.joint, hit.restitution)).collect();
@@ -53,7 +54,7 @@ pub(in crate::motion) fn impact_of(
         let rebound = impact(mechanism, configuration, &stops)?;
         let mut rests = false;
         for (hit, (_, restitution)) in hits.iter().zip(&mut stops) {
-            if *restitution > 0.0 && !flies(*hit, (mechanism, &rebound.after), little, decisions)? {
+            if *restitution > 0.0 && !flies(*hit, (mechanism, &rebound.after), (little, work), decisions)? {
                 *restitution = 0.0;
                 rests = true;
             }
@@ -69,7 +70,7 @@ pub(in crate::motion) fn impact_of(
 fn flies(
     hit: Hit,
     (mechanism, after): (&Mechanism, &Configuration),
-    little: &[f64],
+    (little, work): (&[f64], Work<'_>),
     decisions: &mut dyn Decisions,
 ) -> Result<bool, Faults> {
     let joints = crate::motion::moving::equations::sliding_joints(mechanism);
@@ -85,8 +86,9 @@ fn flies(
         signs,
         spins,
         zero: &[],
-        rounding: 0.0,
+        rounding: &[],
         previous: None,
+        work,
     };
     let Some(next) = decisions.successors(&instant)?.list.into_iter().next() else { return Ok(true) };
     let Some(accelerations) = sliding_accelerations(mechanism, after, &next.phase)? else {

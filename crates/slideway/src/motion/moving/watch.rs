@@ -2,6 +2,7 @@
 
 use super::equations::Equations;
 use super::linear::Determinant;
+use super::magnitudes::{Magnitude, Magnitudes};
 use super::switching::{Switch, Switching};
 use crate::fault::Fault;
 use crate::ids::{ContactId, JointId};
@@ -95,15 +96,6 @@ impl Watched {
     }
 }
 
-/// The greatest magnitudes so far, for tolerances.
-#[derive(Debug, Clone, Copy, Default)]
-pub(in crate::motion) struct Magnitudes {
-    /// Force (N).
-    pub(in crate::motion) force: f64,
-    /// Velocity (m/s).
-    pub(in crate::motion) velocity: f64,
-}
-
 /// The functions that are watched in a phase.
 pub(in crate::motion) struct Watch<'o> {
     pub(in crate::motion) list: Vec<Watched>,
@@ -117,14 +109,12 @@ pub(in crate::motion) struct Watch<'o> {
 
 impl<'o> Watch<'o> {
     /// Nothing yet.
-    pub(in crate::motion) fn new(user: &'o [UserEvent], reaction_limit: Option<f64>) -> Self {
-        Self {
-            list: Vec::new(),
-            user,
-            reaction_limit,
-            reference: (Determinant::default(), 1.0),
-            magnitudes: Magnitudes::default(),
-        }
+    pub(in crate::motion) fn new(
+        user: &'o [UserEvent],
+        reaction_limit: Option<f64>,
+        magnitudes: Magnitudes,
+    ) -> Self {
+        Self { list: Vec::new(), user, reaction_limit, reference: (Determinant::default(), 1.0), magnitudes }
     }
 
     /// Chooses what is watched in a phase that the equations have just entered.
@@ -271,30 +261,46 @@ impl<'o> Watch<'o> {
         })
     }
 
-    /// Forces below this are rounding (N).
-    pub(in crate::motion) fn rounding(&self) -> f64 {
-        FORCE_TOLERANCE * self.magnitudes.force
+    /// Forces below this are rounding, on each body (N).
+    pub(in crate::motion) fn rounding(&self) -> Vec<f64> {
+        let bodies = 0..self.magnitudes.parts().len();
+        bodies.map(|body| FORCE_TOLERANCE * self.magnitudes.of_body(body).force).collect()
     }
 
     /// Values within this of zero count as zero.
     pub(in crate::motion) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
-        let force = self.rounding();
+        let mechanism = equations.mechanism;
+        let Magnitude { force, velocity, .. } = self.magnitudes_of(watched, equations);
+        let (force, velocity) = (FORCE_TOLERANCE * force, VELOCITY_TOLERANCE * velocity);
         match watched {
             Watched::NormalForce(_)
             | Watched::Between(..)
             | Watched::ReactionLimit(_)
             | Watched::HeldReactions => force,
-            Watched::Couple(joint) => {
-                force * equations.mechanism.slider(joint).map_or(0.0, |slider| slider.length)
-            }
-            Watched::Circles => force * equations.mechanism.size,
+            Watched::Couple(joint) => force * mechanism.slider(joint).map_or(0.0, |slider| slider.length),
+            Watched::Circles => force * mechanism.size,
             Watched::Share(..) => FORCE_TOLERANCE,
-            Watched::Velocity(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity,
-            Watched::Spin(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity / equations.mechanism.size,
-            Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * equations.mechanism.size,
+            Watched::Velocity(..) => velocity,
+            Watched::Spin(..) => velocity / mechanism.size,
+            Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
+    }
+
+    /// The magnitudes of the part to which a watched function belongs; the greatest of all where it belongs to several.
+    fn magnitudes_of(&self, watched: Watched, equations: &Equations<'_>) -> Magnitude {
+        let mechanism = equations.mechanism;
+        let joint = match watched {
+            Watched::NormalForce(contact)
+            | Watched::Between(contact, _)
+            | Watched::ReactionLimit(contact) => mechanism.contacts[contact.index()].joint,
+            Watched::Couple(joint) => joint,
+            Watched::Velocity(index, _) => equations.sliders[index],
+            Watched::Spin(hinge, _) => mechanism.friction_circles[hinge].joint,
+            _ => return self.magnitudes.greatest(),
+        };
+        self.magnitudes.of_joint(mechanism, joint)
     }
 }
 
