@@ -6,6 +6,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::motion::{SimulateOptions, Thorough, simulate_with};
+use crate::progress::Progress;
 use crate::standstill::can_hold;
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -68,7 +69,10 @@ pub(super) fn questions(
     // Whether the motion can begin, and no further.
     let begins = |configuration: &Configuration| {
         let options = SimulateOptions::new(1.0);
-        let mut stop = |_: &_| ControlFlow::Break(());
+        // After the first step: how it begins has been decided.
+        let mut stop = |progress: &Progress| {
+            if progress.done > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
         simulate_with(mechanism, configuration, &options, &mut Thorough, &mut stop).map(|_| ())
     };
     vec![

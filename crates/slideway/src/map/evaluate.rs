@@ -8,7 +8,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
 use crate::limits::mechanism_with;
 use crate::model::Model;
-use crate::progress::{Progress, Work, undisturbed};
+use crate::progress::{Progress, Work};
 use crate::solve::{LastSolution, Parts, SolveOptions, Stages, Trail, states_between_faces};
 use crate::standstill::{HoldOptions, can_rest};
 
@@ -64,13 +64,11 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Why there is no answer in the middle of the plane, where there is none anywhere.
-    pub(super) fn no_answer(&self) -> Faults {
+    pub(super) fn no_answer(&self, work: Work<'_>) -> Faults {
         let middle = self.axes.each_ref().map(|axis| f64::midpoint(axis.range[0], axis.range[1]));
         let faults = match &self.forwards {
-            None => undisturbed(|work| self.rests(middle, work)).err(),
-            Some(source) => {
-                undisturbed(|work| source.point(self.axes, middle, &mut Before::default(), work)).err()
-            }
+            None => self.rests(middle, work).err(),
+            Some(source) => source.point(self.axes, middle, &mut Before::default(), work).err(),
         };
         let faults = faults.unwrap_or_default();
         let sorted = faults.sorted();
@@ -239,6 +237,7 @@ fn nothing_varies(axes: &[Axis; 2], degrees: [Degree; 2]) -> Result<(), Faults> 
 mod tests {
     use super::*;
     use crate::gallery;
+    use crate::progress::undisturbed;
 
     /// The oracle assembles the model of every point from the drawing and factors with full pivoting. Between
     /// neighbouring points lie up to 11 degrees; a rod shorter than the crank cannot pass 90 degrees, which

@@ -166,7 +166,8 @@ impl Part {
 }
 
 /// What a joint connects.
-fn frames_of(mechanism: &Mechanism, joint: JointId) -> [Frame; 2] {
+/// Both sides of a joint.
+pub(crate) fn frames_of(mechanism: &Mechanism, joint: JointId) -> [Frame; 2] {
     match &mechanism.joints[joint.index()].kind {
         JointKind::Hinge(ends) => ends.each_ref().map(|end| end.frame),
         JointKind::Slider(slider) => [slider.block, slider.guide],

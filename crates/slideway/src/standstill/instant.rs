@@ -9,9 +9,8 @@ use super::turning::turning_states;
 use super::{MOST_STATES, held_motions};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::pattern::{AffineExpression, ContactPhase, JointPhase, Region, Unsolved};
-use crate::progress::Progress;
+use crate::progress::Work;
 use nalgebra::DMatrix;
-use std::ops::ControlFlow;
 
 /// A state in which a mechanism that moves can go on.
 pub(crate) struct MotionState {
@@ -30,10 +29,11 @@ const QUESTION: StateQuestion = StateQuestion { moving: true, factor: Some(0.0),
 /// All such states; with them the number of patterns that were not decided. Bounds of friction in what sticks beside hinges
 /// that turn are left to [`whole_slack`]. What begins to move may do so without an acceleration yet, at the threshold of
 /// its friction: whether it really begins shows in what follows.
+/// Once the work is to end nothing more is decided.
 ///
 /// # Errors
 /// More states than are tried.
-pub(crate) fn motion_states(setup: &Setup) -> Result<(Vec<MotionState>, usize), Faults> {
+pub(crate) fn motion_states(setup: &Setup, work: Work<'_>) -> Result<(Vec<MotionState>, usize), Faults> {
     let motions = held_motions(setup);
     let sides = sides_within(setup, &motions)?;
     let mut over = Over { found: Vec::new(), undecided: 0 };
@@ -44,11 +44,11 @@ pub(crate) fn motion_states(setup: &Setup) -> Result<(Vec<MotionState>, usize), 
     };
     for signs in directions(setup, &motions, true) {
         if signs.hinges.iter().any(|hinge| *hinge != JointPhase::Sticking) {
-            let mut undisturbed = |_: &Progress| ControlFlow::Continue(());
-            note(
-                turning_states(setup, &signs, &motions, &mut undisturbed)
-                    .map(|states| (states.list, states.decided)),
-            );
+            let states = turning_states(setup, &signs, &motions, &mut |_| work.flow());
+            note(states.map(|states| (states.list, states.decided)));
+            if work.is_over() {
+                break;
+            }
             continue;
         }
         for sides in &sides {

@@ -9,6 +9,7 @@ use slideway::mechanism::{JointKind, Mechanism};
 use slideway::model::{Model, Settings};
 use slideway::motion::decision::{Standing, successors};
 use slideway::motion::{Continuation, Decisions, EventInstant, JointPhase, Thorough};
+use slideway::progress::Work;
 use slideway::report::{SolveReport, Verdict};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
@@ -74,8 +75,9 @@ fn assert_turning(name: &str, state: &State, report: &SolveReport) {
         signs: &sliding.collect::<Vec<f64>>(),
         spins: &turning.collect::<Vec<f64>>(),
         zero: &[],
-        rounding: 0.0,
         previous: None,
+        work: Work::undisturbed(),
+        rounding: &[],
     };
     let found = Thorough.successors(&instant).unwrap();
     assert!(!found.left_out);

@@ -36,10 +36,13 @@ fn outcome(text: &str, duration: f64) -> Option<(History, Vec<(f64, String)>)> {
     Some((history, events))
 }
 
-/// The differences that the pendulum makes.
+/// The differences that a pendulum makes.
 fn differences(text: &str, duration: f64) -> Vec<String> {
-    let (alone, beside) =
-        (outcome(text, duration), outcome(&beside_a_pendulum(text, [0.02, -0.04], 2.0), duration));
+    differences_beside([text, &beside_a_pendulum(text, [0.02, -0.04], 2.0)], duration)
+}
+
+fn differences_beside([alone, beside]: [&str; 2], duration: f64) -> Vec<String> {
+    let (alone, beside) = (outcome(alone, duration), outcome(beside, duration));
     let (Some((alone, expected)), Some((beside, found))) = (&alone, &beside) else {
         let is_same = alone.is_none() && beside.is_none();
         return if is_same { Vec::new() } else { vec!["only one can begin".to_owned()] };
@@ -111,9 +114,9 @@ pub(super) fn cart_and_block(random: &mut Random) -> String {
     format!("gravity = 9.81\n[points]\nC = [0, 0]\n{}{}{joints}", body("cart"), body("block"))
 }
 
-fn random_mechanisms(count: u64) {
+fn random_mechanisms(seeds: impl IntoIterator<Item = u64>) {
     let mut failed = String::new();
-    for seed in 1..=count {
+    for seed in seeds {
         let text = cart_and_block(&mut Random(seed));
         for difference in differences(&text, 0.5) {
             writeln!(failed, "{seed}: {difference}").unwrap();
@@ -122,13 +125,32 @@ fn random_mechanisms(count: u64) {
     assert!(failed.is_empty(), "{failed}");
 }
 
+/// In 66, 85 and 500 a joint that sticks while another bounces has a velocity that is rounding; in 218 a guided slider tips just
+/// before its normal force vanishes.
 #[test]
 fn an_unrelated_pendulum_changes_no_motion_of_random_mechanisms() {
-    random_mechanisms(30);
+    random_mechanisms((1..=30).chain([66, 85, 218, 500]));
+}
+
+/// Forces and velocities that are rounding beside those of the pendulum count in the rest.
+#[test]
+fn a_heavy_pendulum_changes_no_motion_of_random_mechanisms() {
+    let mut failed = String::new();
+    for seed in (1..=10).chain([218]) {
+        let text = cart_and_block(&mut Random(seed));
+        let light = "mass = 1\ncentre_of_mass = \"unrelated_G\"\nmoment_of_inertia = 1e-3";
+        let heavy = "mass = 1e9\ncentre_of_mass = \"unrelated_G\"\nmoment_of_inertia = 1e6";
+        let beside = beside_a_pendulum(&text, [0.02, -0.04], 2.0);
+        assert_eq!(beside.matches(light).count(), 1, "{beside}");
+        for difference in differences_beside([&text, &beside.replace(light, heavy)], 0.5) {
+            writeln!(failed, "{seed}: {difference}").unwrap();
+        }
+    }
+    assert!(failed.is_empty(), "{failed}");
 }
 
 #[test]
-#[ignore = "takes minutes; seeds 66, 85, 218 and 500 differ by up to 3e-5 s in when their last event happens"]
+#[ignore = "takes minutes"]
 fn an_unrelated_pendulum_changes_none_of_a_thousand_motions() {
-    random_mechanisms(1000);
+    random_mechanisms(1..=1000);
 }

@@ -52,8 +52,11 @@ pub(super) fn standing(
     };
     let flow = Flow { instant, phase: &assessment.phase, stopped: question.stopped };
     let scale = time_scale(instant, configuration);
-    let scale =
-        Resolution::new(instant.mechanism).step(configuration, [0.0; 2], [scale, least_step(configuration)]);
+    let scale = Resolution::new(instant.mechanism).step(
+        configuration,
+        (|_| 0.0, 0.0),
+        [scale, least_step(configuration)],
+    );
     let start = (configuration, accelerations(instant, assessment));
     let judged = flow.judged(start, STEP * scale, Bounds { slacks: &assessment.slacks, at_zero: &bounds });
     let Judged { violated, constant, .. } = match judged {

@@ -22,10 +22,10 @@ use crate::standstill::{KnownMotion, MotionState, motion_states, whole_slack};
 /// # Errors
 /// As for the phases that can follow.
 pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-    let EventInstant { mechanism, configuration, rounding, .. } = *event;
+    let EventInstant { mechanism, configuration, .. } = *event;
     let signs: Vec<f64> = event.signs.iter().chain(event.spins).copied().collect();
     let known: Vec<Option<f64>> = signs.iter().map(|sign| Some(*sign).filter(|sign| *sign != 0.0)).collect();
-    let setup = setup(mechanism, configuration, (&known, rounding))?;
+    let setup = setup(mechanism, configuration, (&known, event.greatest_rounding()))?;
     let velocities = relative_velocities(mechanism, configuration);
     let moving: Vec<usize> = (0..signs.len()).filter(|joint| signs[*joint] != 0.0).collect();
     let everything = (moving.len() > 1).then(|| moving.clone());
@@ -35,7 +35,7 @@ pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<Halting
             jumps[joint] = KnownMotion { sign: Some(0.0), acceleration: velocities[joint], pushed: false };
         }
         let impulses = setup.impulsive(jumps);
-        let (found, _) = motion_states(&impulses)?;
+        let (found, _) = motion_states(&impulses, event.work)?;
         for state in found {
             let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
             let slack = whole_slack(&impulses, &state.pattern, &directions);

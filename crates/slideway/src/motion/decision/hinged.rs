@@ -15,6 +15,7 @@ use crate::mechanism::Mechanism;
 use crate::modes::Side;
 use crate::motion::moving::amounts::Amounts;
 use crate::motion::moving::equations::Equations;
+use crate::motion::moving::magnitudes::Magnitudes;
 use crate::motion::moving::switching::Switching;
 use crate::motion::moving::watch::{Watch, Watched};
 use crate::pattern::phase::sliding_joints;
@@ -55,7 +56,7 @@ pub(super) fn setup(
         at_speeds.contacts[k].mu =
             mechanism.friction_of(ContactId(k), speed, configuration.pieces.as_deref())?;
     }
-    let force = super::scale_of_forces(mechanism, configuration).max(rounding);
+    let force = super::scale_of_forces(mechanism, configuration, &|_| true).max(rounding);
     let mut setup = Setup::in_motion(at_speeds, configuration, (signs, force))?;
     let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
     setup.stops = sliders.map(|slider| touched_stop(mechanism, configuration, slider)).collect();
@@ -83,11 +84,11 @@ pub(in crate::motion) fn relative_velocities(
 /// # Errors
 /// As [`setup`], and more states than are tried.
 pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, Faults> {
-    let EventInstant { mechanism, configuration, signs, spins, rounding, previous, .. } = *event;
+    let EventInstant { mechanism, configuration, signs, spins, previous, .. } = *event;
     let signs = signs.iter().chain(spins).map(|sign| Some(*sign).filter(|sign| *sign != 0.0));
     let signs: Vec<Option<f64>> = signs.collect();
-    let setup = setup(mechanism, configuration, (&signs, rounding))?;
-    let (found, undecided) = motion_states(&setup)?;
+    let setup = setup(mechanism, configuration, (&signs, event.greatest_rounding()))?;
+    let (found, undecided) = motion_states(&setup, event.work)?;
     let mut candidates: Vec<Candidate> = Vec::new();
     for state in found {
         let phase = phase_of(&setup, state);
@@ -287,7 +288,7 @@ impl<'p> WatchedPhase<'p> {
     fn new(event: &EventInstant<'p>, phase: &'p Phase) -> Option<Self> {
         let equations = entered(event.mechanism, event.configuration, phase)?;
         let switching = Switching::new(event.mechanism, event.configuration);
-        let mut watch = Watch::new(&[], None);
+        let mut watch = Watch::new(&[], None, Magnitudes::default());
         watch.begin(phase, &equations, &switching);
         let units = Units::of(&equations);
         Some(Self { phase, equations, watch, units })
@@ -381,7 +382,7 @@ impl Units {
         let accelerations = equations.accelerations().chunks_exact(3);
         let acceleration = accelerations
             .fold(0.0_f64, |a, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * length));
-        let force = super::scale_of_forces(mechanism, configuration);
+        let force = super::scale_of_forces(mechanism, configuration, &|_| true);
         let masses =
             mechanism.bodies.iter().map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
         let mass = masses.fold(0.0, f64::max);

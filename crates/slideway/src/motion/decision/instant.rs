@@ -6,10 +6,10 @@ use super::scale::{Scale, rounding, scale};
 use super::units::Units;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, Frame};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Mechanism};
+use crate::mechanism::{Contact, Mechanism, frames_of};
 use crate::pattern::{Law, Phase};
 use nalgebra::DVector;
 use std::borrow::Cow;
@@ -73,20 +73,29 @@ impl<'m> Instant<'m> {
         Self::of(mechanism, (configuration, equations), Least::Now(scale))
     }
 
-    /// The same in units of at least this force (N): where all forces vanish at once, as at a dead centre
-    /// without loads, what rounding leaves of them does not count.
+    /// The same in units of at least what rounding leaves of forces on each body (N): where all forces vanish at once, as
+    /// at a dead centre without loads, that does not count.
     ///
     /// # Errors
     /// As [`Self::new`].
     pub(super) fn in_units_of_at_least(
         self,
-        force: f64,
+        rounding: &[f64],
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
-        if self.joints.iter().all(|joint| joint.units.force >= force) {
+        let of = |joint: &SlidingJoint| {
+            let body = frames_of(self.mechanism, joint.id).into_iter().find_map(Frame::body);
+            body.and_then(|body| rounding.get(body.index()).copied()).unwrap_or(0.0)
+        };
+        let of_joints: Vec<f64> = self.joints.iter().map(of).collect();
+        if self.joints.iter().zip(&of_joints).all(|(joint, rounding)| joint.units.force >= *rounding) {
             return Ok(self);
         }
-        let least: Vec<f64> = self.least_forces.iter().map(|least| least.max(force)).collect();
+        // The first is that of the whole mechanism.
+        let whole = rounding.iter().copied().fold(0.0, f64::max);
+        let rounding = std::iter::once(whole).chain(of_joints);
+        let least: Vec<f64> =
+            self.least_forces.iter().zip(rounding).map(|(least, rounding)| least.max(rounding)).collect();
         Self::of(self.mechanism, (configuration, self.equations), Least::Before(&least))
     }
 

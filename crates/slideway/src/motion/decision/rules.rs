@@ -5,10 +5,12 @@ use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::pattern::Phase;
+use crate::progress::Work;
 use crate::report::Verdict;
+use std::fmt;
 
 /// A mechanism at the instant of an event.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct EventInstant<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
@@ -20,10 +22,26 @@ pub struct EventInstant<'a> {
     pub spins: &'a [f64],
     /// Contacts whose normal force has just reached zero or whose preload gap ends; it is exactly zero.
     pub zero: &'a [ContactId],
-    /// What rounding leaves of the greatest forces so far where they vanish (N).
-    pub rounding: f64,
+    /// For each body, what rounding leaves of the greatest forces so far where they vanish (N); nothing if it is empty.
+    pub rounding: &'a [f64],
     /// The phase that has just ended; `None` at the start and after an impulse.
     pub previous: Option<&'a Phase>,
+    /// The work of which the decision is a part: once it is to end, the decision comes to nothing.
+    pub work: Work<'a>,
+}
+
+impl fmt::Debug for EventInstant<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { configuration, signs, spins, zero, rounding, previous, .. } = self;
+        f.debug_struct("EventInstant")
+            .field("configuration", configuration)
+            .field("signs", signs)
+            .field("spins", spins)
+            .field("zero", zero)
+            .field("rounding", rounding)
+            .field("previous", previous)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a> EventInstant<'a> {
@@ -33,7 +51,13 @@ impl<'a> EventInstant<'a> {
         signs: &'a [f64],
         previous: Option<&'a Phase>,
     ) -> Self {
-        Self { mechanism, configuration, signs, spins: &[], zero: &[], rounding: 0.0, previous }
+        let work = Work::undisturbed();
+        Self { mechanism, configuration, signs, spins: &[], zero: &[], rounding: &[], previous, work }
+    }
+
+    /// What rounding leaves of the greatest forces so far on any body (N).
+    pub(crate) fn greatest_rounding(&self) -> f64 {
+        self.rounding.iter().copied().fold(0.0, f64::max)
     }
 }
 

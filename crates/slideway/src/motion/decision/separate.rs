@@ -99,6 +99,9 @@ impl Separate {
         let contacts = self.part.contacts.iter().enumerate();
         let zero: Vec<ContactId> =
             contacts.filter(|(_, id)| whole.zero.contains(id)).map(|(index, _)| ContactId(index)).collect();
+        let bodies = self.part.bodies.iter();
+        let rounding: Vec<f64> =
+            bodies.filter_map(|body| whole.rounding.get(body.index()).copied()).collect();
         let (configuration, previous) =
             (self.configuration(whole.configuration), whole.previous.map(|phase| self.phase(phase)));
         ask(&EventInstant {
@@ -107,8 +110,9 @@ impl Separate {
             signs: &signs,
             spins: &spins,
             zero: &zero,
-            rounding: whole.rounding,
+            rounding: &rounding,
             previous: previous.as_ref(),
+            work: whole.work,
         })
     }
 

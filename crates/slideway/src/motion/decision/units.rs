@@ -19,15 +19,23 @@ pub(super) struct Units {
     pub(super) acceleration: f64,
 }
 
-/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N if
-/// there are never any.
-pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
-    let length = mechanism.size;
-    let masses = mechanism.bodies.iter();
-    let masses = masses.map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
-    let mass = masses.fold(0.0, f64::max);
-    let force = scale(mechanism, configuration, Share { counts: &|_| true, mass, force: 0.0 });
-    units(length, (force, mass), 1.0).force
+/// The scale of the forces on some bodies of a mechanism where those of the instant may vanish (N), see [`scale`];
+/// 1 N if there are never any.
+pub(in crate::motion) fn scale_of_forces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    counts: &dyn Fn(BodyId) -> bool,
+) -> f64 {
+    let mass = greatest_mass(mechanism, counts);
+    let force = scale(mechanism, configuration, Share { counts, mass, force: 0.0 });
+    units(mechanism.size, (force, mass), 1.0).force
+}
+
+/// The greatest mass of some bodies (kg), with moments of inertia divided by the square of the mechanism's size.
+fn greatest_mass(mechanism: &Mechanism, counts: &dyn Fn(BodyId) -> bool) -> f64 {
+    let bodies = mechanism.bodies.iter().enumerate().filter(|(index, _)| counts(BodyId(*index)));
+    let masses = bodies.map(|(_, body)| body.mass.max(body.moment_of_inertia / mechanism.size.powi(2)));
+    masses.fold(0.0, f64::max)
 }
 
 /// The greatest of the loads, preloads and forces of inertia of some bodies (N), and their greatest mass
@@ -39,8 +47,6 @@ pub(super) fn greatest(
 ) -> (f64, f64) {
     let length = mechanism.size;
     let bodies = || mechanism.bodies.iter().enumerate().filter(|(index, _)| counts(BodyId(*index)));
-    let masses = bodies().map(|(_, body)| body.mass.max(body.moment_of_inertia / length.powi(2)));
-    let mass = masses.fold(0.0, f64::max);
     let belongs = |frame: Frame| frame.body().is_some_and(counts);
     let loads = equations.applied.iter().filter(|wrench| belongs(wrench.frame));
     let loads = loads.map(|wrench| wrench.force.norm().max(wrench.couple.abs() / length));
@@ -52,7 +58,7 @@ pub(super) fn greatest(
         let [x, y, turn] = [0, 1, 2].map(|part| influence.frictionless[3 * index + part]);
         [body.mass * x, body.mass * y, body.moment_of_inertia * turn / length]
     });
-    (loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max), mass)
+    (loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max), greatest_mass(mechanism, counts))
 }
 
 /// Units in which the given force is one; if there is no force, the fallback is one.

@@ -13,7 +13,7 @@ use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::Model;
-use crate::progress::Callback;
+use crate::progress::{Callback, Work, as_far_as_wanted};
 use crate::solve::never_turning;
 use run::Run;
 use std::borrow::Cow;
@@ -33,7 +33,7 @@ pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Fau
 }
 
 /// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told after
-/// every step how much of the time is over, and ends the simulation when it breaks.
+/// every step how much of the time is over, and ends the simulation when it breaks, within decisions, too.
 ///
 /// # Errors
 /// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the
@@ -51,7 +51,8 @@ pub fn simulate_with(
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);
     never_turning(mechanism, configuration)?;
-    Run::new(mechanism, configuration, options, decisions).follow(progress)
+    let follow = |work: Work<'_>| Run::new((mechanism, configuration), options, decisions, work).follow();
+    as_far_as_wanted(progress, follow).0
 }
 
 /// The mechanism without friction circles of no size: these hinges have no friction.

@@ -16,11 +16,9 @@ use crate::motion::record::history::{
     End, Energy, History, ImpulseLoss, LastState, PhaseInterval, Statistics, Step,
 };
 use crate::pattern::phase::{JointPhase, Phase};
-use crate::progress::{Callback, Progress};
+use crate::progress::{Progress, Work};
 use crate::report::spaced;
 
-/// Sliding velocities below this multiple of the greatest velocity count as zero.
-const AT_REST: f64 = 1e-10;
 /// So many impulses at one instant are tried.
 const MOST_IMPULSES: usize = 16;
 /// So many events in a row within a short time are an accumulation, ...
@@ -39,15 +37,16 @@ pub(in crate::motion) struct Run<'a, 'm> {
     phase: Option<Phase>,
     history: History,
     branchings: usize,
+    work: Work<'a>,
 }
 
 impl<'a, 'm> Run<'a, 'm> {
     /// A simulation at its start.
     pub(in crate::motion) fn new(
-        mechanism: &'m Mechanism,
-        configuration: &Configuration,
+        (mechanism, configuration): (&'m Mechanism, &Configuration),
         options: &'a SimulateOptions,
         decisions: &'a mut dyn Decisions,
+        work: Work<'a>,
     ) -> Self {
         let equations = Equations::new(mechanism, configuration);
         let state = equations.state_of(configuration);
@@ -70,17 +69,17 @@ impl<'a, 'm> Run<'a, 'm> {
             last: LastState { time: configuration.time, state: state.clone() },
         };
         let smooth = Smooth::new(equations, state, configuration.time, options);
-        Self { options, decisions, smooth, phase: None, history, branchings: 0 }
+        Self { options, decisions, smooth, phase: None, history, branchings: 0, work }
     }
 
     /// Follows the mechanism to the end.
     ///
     /// # Errors
     /// A state from which it cannot begin.
-    pub(in crate::motion) fn follow(mut self, progress: &mut Callback<'_>) -> Result<History, Faults> {
+    pub(in crate::motion) fn follow(mut self) -> Result<History, Faults> {
         let total = self.energy().total();
         let end = match self.decide(vec![Cause::Start])? {
-            None => self.phases(progress, total),
+            None => self.phases(total),
             Some(end) => end,
         };
         self.history.end = end;
@@ -94,10 +93,10 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// Phase after phase.
-    fn phases(&mut self, progress: &mut Callback<'_>, total: f64) -> End {
+    fn phases(&mut self, total: f64) -> End {
         loop {
             let Some(phase) = self.phase.clone() else { return End::NoContinuation };
-            let causes = match self.phase(&phase, progress, total) {
+            let causes = match self.phase(&phase, total) {
                 // A load has a kink.
                 Ended::Event(causes) if causes.is_empty() => continue,
                 Ended::Event(causes) => causes,
@@ -126,7 +125,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// One phase, until it ends.
-    fn phase(&mut self, phase: &Phase, progress: &mut Callback<'_>, total: f64) -> Ended {
+    fn phase(&mut self, phase: &Phase, total: f64) -> Ended {
         let begun = self.smooth.enter(phase, self.decisions);
         let exceeded = match begun.and_then(|()| self.smooth.exceeded_reactions(phase, self.decisions)) {
             Ok(exceeded) => exceeded,
@@ -161,7 +160,7 @@ impl<'a, 'm> Run<'a, 'm> {
             if let Some(ended) = step {
                 return ended;
             }
-            if progress(&self.progress()).is_break() {
+            if self.work.tell(&self.progress()).is_break() {
                 return Ended::End(End::Interrupted);
             }
         }
@@ -205,8 +204,21 @@ impl<'a, 'm> Run<'a, 'm> {
         })
     }
 
-    /// Decides how the motion goes on, after impulses if it must; returns why it ends, if it does.
-    fn decide(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
+    /// Decides how the motion goes on, unless the work is to end; returns why the motion ends, if it does.
+    fn decide(&mut self, causes: Vec<Cause>) -> Result<Option<End>, Faults> {
+        let events = self.history.events.len();
+        let decided = self.decided(causes.clone());
+        if !self.work.is_over() {
+            return decided;
+        }
+        if self.history.events.len() == events {
+            self.tell(causes, Continuations::default(), None);
+        }
+        Ok(Some(End::Interrupted))
+    }
+
+    /// The same, after impulses if it must; nothing is decided once the work is to end.
+    fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
         if self.hit(&mut causes)? {
             previous = None;
@@ -223,16 +235,21 @@ impl<'a, 'm> Run<'a, 'm> {
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
             let mechanism = self.smooth.equations.mechanism;
+            let rounding = self.smooth.rounding();
             let instant = EventInstant {
                 mechanism,
                 configuration: &configuration,
                 signs,
                 spins,
                 zero: &zero,
-                rounding: self.smooth.rounding(),
+                rounding: &rounding,
                 previous: previous.as_ref(),
+                work: self.work,
             };
             let mut successors = self.decisions.successors(&instant)?;
+            if self.work.is_over() {
+                return Ok(None);
+            }
             without_ended(&self.smooth.equations, &mut successors.list, &causes, previous.as_ref());
             if !successors.list.is_empty() {
                 let taken = self.choose(&successors.list)?;
@@ -251,7 +268,11 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.tell(causes, Continuations::default(), None);
                 return Ok(Some(End::NoContinuation));
             }
-            let Some(jam) = self.decisions.jam(&instant)? else { break };
+            let jam = self.decisions.jam(&instant)?;
+            if self.work.is_over() {
+                return Ok(None);
+            }
+            let Some(jam) = jam else { break };
             self.smooth.set_velocities(&jam.velocities);
             self.note_impulse(jam.energy_lost);
             causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
@@ -274,7 +295,9 @@ impl<'a, 'm> Run<'a, 'm> {
         }
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let configuration = self.smooth.equations.configuration.clone();
-        let impact = stop::impact_of(&hits, mechanism, &configuration, self.decisions)?;
+        let little = self.smooth.little_velocities();
+        let impact =
+            stop::impact_of(&hits, (mechanism, &configuration), (&little, self.work), self.decisions)?;
         self.smooth.set_velocities(&impact.after.velocities);
         let is_over = |cause: &Cause| {
             matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))
@@ -332,32 +355,32 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Which sliding joints, then which hinges with friction, have no velocity.
     fn stopped(&self, causes: &[Cause], previous: Option<&Phase>) -> Vec<bool> {
         let equations = &self.smooth.equations;
-        let greatest = self.smooth.greatest_velocity();
-        let one = |(index, joint): (usize, &crate::ids::JointId)| {
-            let sticks = previous.is_some_and(|phase| phase.joints[index] == JointPhase::Sticking);
-            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
-            let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
-            sticks || causes.contains(&Cause::Stops(*joint)) || velocity.abs() <= AT_REST * greatest
+        let stop = equations.sliders.iter().map(|joint| Cause::Stops(*joint));
+        let stop_turning = equations.hinge_joints().map(Cause::StopsTurning);
+        let stop = stop.chain(stop_turning).map(|cause| causes.contains(&cause));
+        let sticks = |index| {
+            previous.is_some_and(|phase| phase.joints_and_hinges().nth(index) == Some(JointPhase::Sticking))
         };
-        let hinge = |(index, joint): (usize, crate::ids::JointId)| {
-            let sticks = previous.is_some_and(|phase| phase.hinges[index].state == JointPhase::Sticking);
-            let velocity = equations.spin(index).abs() * equations.mechanism.size;
-            sticks || causes.contains(&Cause::StopsTurning(joint)) || velocity <= AT_REST * greatest
-        };
-        let sliders = equations.sliders.iter().enumerate().map(one);
-        sliders.chain(equations.hinge_joints().enumerate().map(hinge)).collect()
+        let velocities = self.velocities().zip(self.smooth.little_velocities());
+        let all = velocities.zip(stop).enumerate();
+        all.map(|(index, ((velocity, little), stops))| stops || velocity.abs() <= little || sticks(index))
+            .collect()
     }
 
-    /// The signs of the velocities of all sliding joints, then of the hinges with friction.
-    fn signs(&self, stopped: &[bool]) -> Vec<f64> {
+    /// The velocities of all sliding joints, then of the hinges with friction (m/s or rad/s).
+    fn velocities(&self) -> impl Iterator<Item = f64> {
         let equations = &self.smooth.equations;
         let sliders = equations.sliders.iter().map(|joint| {
             let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
             equations.contacts[slider.contacts[0].index()].sliding_velocity
         });
-        let spins = (0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge));
+        sliders.chain((0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge)))
+    }
+
+    /// The signs of the velocities of all sliding joints, then of the hinges with friction.
+    fn signs(&self, stopped: &[bool]) -> Vec<f64> {
         let one = |(velocity, stopped): (f64, &bool)| if *stopped { 0.0 } else { velocity.signum() };
-        sliders.chain(spins).zip(stopped).map(one).collect()
+        self.velocities().zip(stopped).map(one).collect()
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.

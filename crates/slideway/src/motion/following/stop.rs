@@ -7,6 +7,7 @@ use crate::mechanism::Mechanism;
 use crate::motion::decision::rules::{Decisions, EventInstant};
 use crate::motion::decision::{Impact, TOUCHES, impact, relative_velocities, sliding_accelerations};
 use crate::motion::moving::cause::Cause;
+use crate::progress::Work;
 
 /// A joint that has reached an end stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,14 +38,15 @@ pub(in crate::motion) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hi
 }
 
 /// The impact on stops: with their restitution, or without where the next flight would be within the rounding
-/// of places, so that what bounces has come to rest at its stop.
+/// of places, so that what bounces has come to rest at its stop. Of each sliding joint and hinge with friction the velocity is
+/// given below which it stands still.
 ///
 /// # Errors
 /// As [`impact`], and whatever keeps the next flight from being decided.
 pub(in crate::motion) fn impact_of(
     hits: &[Hit],
-    mechanism: &Mechanism,
-    configuration: &Configuration,
+    (mechanism, configuration): (&Mechanism, &Configuration),
+    (little, work): (&[f64], Work<'_>),
     decisions: &mut dyn Decisions,
 ) -> Result<Impact, Faults> {
     let mut stops: Vec<(JointId, f64)> = hits.iter().map(|hit| (hit.joint, hit.restitution)).collect();
@@ -52,7 +54,7 @@ pub(in crate::motion) fn impact_of(
         let rebound = impact(mechanism, configuration, &stops)?;
         let mut rests = false;
         for (hit, (_, restitution)) in hits.iter().zip(&mut stops) {
-            if *restitution > 0.0 && !flies(*hit, mechanism, &rebound.after, decisions)? {
+            if *restitution > 0.0 && !flies(*hit, (mechanism, &rebound.after), (little, work), decisions)? {
                 *restitution = 0.0;
                 rests = true;
             }
@@ -67,15 +69,16 @@ pub(in crate::motion) fn impact_of(
 /// away from the stop and the acceleration `a` towards it.
 fn flies(
     hit: Hit,
-    mechanism: &Mechanism,
-    after: &Configuration,
+    (mechanism, after): (&Mechanism, &Configuration),
+    (little, work): (&[f64], Work<'_>),
     decisions: &mut dyn Decisions,
 ) -> Result<bool, Faults> {
     let joints = crate::motion::moving::equations::sliding_joints(mechanism);
     let velocities = relative_velocities(mechanism, after);
     let Some(index) = joints.iter().position(|joint| *joint == hit.joint) else { return Ok(true) };
-    let signs: Vec<f64> =
-        velocities.iter().map(|velocity| if *velocity == 0.0 { 0.0 } else { velocity.signum() }).collect();
+    let sign =
+        |(velocity, little): (&f64, &f64)| if velocity.abs() <= *little { 0.0 } else { velocity.signum() };
+    let signs: Vec<f64> = velocities.iter().zip(little).map(sign).collect();
     let (signs, spins) = signs.split_at(joints.len());
     let instant = EventInstant {
         mechanism,
@@ -83,8 +86,9 @@ fn flies(
         signs,
         spins,
         zero: &[],
-        rounding: 0.0,
+        rounding: &[],
         previous: None,
+        work,
     };
     let Some(next) = decisions.successors(&instant)?.list.into_iter().next() else { return Ok(true) };
     let Some(accelerations) = sliding_accelerations(mechanism, after, &next.phase)? else {

@@ -1,15 +1,13 @@
 //! Which bodies joints connect.
 
-use crate::mechanism::{JointKind, Mechanism};
+use crate::ids::JointId;
+use crate::mechanism::{Mechanism, frames_of};
 
 /// For each body a number that it shares with the bodies that are connected with it by joints.
 pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
     let mut parts: Vec<usize> = (0..mechanism.bodies.len()).collect();
-    for joint in &mechanism.joints {
-        let [one, other] = match &joint.kind {
-            JointKind::Hinge([first, second]) => [first.frame, second.frame],
-            JointKind::Slider(slider) => [slider.block, slider.guide],
-        };
+    for joint in (0..mechanism.joints.len()).map(JointId) {
+        let [one, other] = frames_of(mechanism, joint);
         if let (Some(one), Some(other)) = (one.body(), other.body()) {
             join(&mut parts, one.index(), other.index());
         }

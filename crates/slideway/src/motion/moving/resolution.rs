@@ -8,12 +8,13 @@
 //! if whatever may hide there changes no velocity by more than the permitted error of a step. The motion's
 //! part in a formula varies with the state, which the error estimate follows: it is held.
 
+use super::equations::{bodies_of_drive, independent};
 use super::stepper::SAMPLES;
 use crate::configuration::Configuration;
 use crate::expression::{Symbol, Values};
-use crate::ids::FormulaId;
+use crate::ids::{BodyId, FormulaId};
 use crate::interval::{Interval, Real, Sloped};
-use crate::mechanism::{LoadKind, Mechanism, Quantity};
+use crate::mechanism::{LoadKind, Mechanism, Quantity, loaded_bodies};
 
 /// Of what the samples of a step differ by, so much may hide between two of them.
 const HIDDEN: f64 = 0.5;
@@ -22,6 +23,10 @@ const HIDDEN: f64 = 0.5;
 #[derive(Debug, Clone, Copy)]
 struct Changing {
     formula: FormulaId,
+    /// A body on which it acts, ...
+    body: usize,
+    /// ... and the least mass in its part (kg).
+    mass: f64,
     /// N for its unit, ...
     force: f64,
     /// ... and for 1 m/s of its unit, of what resists velocities.
@@ -33,21 +38,16 @@ pub(in crate::motion) struct Resolution<'m> {
     mechanism: &'m Mechanism,
     formulas: Vec<Changing>,
     parameters: Vec<Sloped>,
-    /// The least mass (kg).
-    mass: f64,
 }
 
 impl<'m> Resolution<'m> {
     /// Those of a mechanism.
     pub(in crate::motion) fn new(mechanism: &'m Mechanism) -> Self {
-        let masses = mechanism.bodies.iter().map(|body| body.mass).filter(|mass| *mass > 0.0);
         let parameters = mechanism.values(&[], &[], 0.0).parameters.iter();
-        let mass = masses.fold(f64::INFINITY, f64::min);
         Self {
             mechanism,
-            formulas: formulas(mechanism, if mass.is_finite() { mass } else { 0.0 }),
+            formulas: formulas(mechanism),
             parameters: parameters.map(|value| Sloped::exactly(*value)).collect(),
-            mass,
         }
     }
 
@@ -57,15 +57,16 @@ impl<'m> Resolution<'m> {
     }
 
     /// The greatest of a step (s), its half, its quarter and so on, from a state on, that sees all formulas;
-    /// at least `least`. Velocities have a magnitude and a permitted error (m/s).
+    /// at least `least`. Velocities of each body have a magnitude (m/s), and a permitted error in relation to it.
     pub(in crate::motion) fn step(
         &self,
         configuration: &Configuration,
-        [velocity, error]: [f64; 2],
+        (velocity, error): (impl Fn(usize) -> f64, f64),
         [mut step, least]: [f64; 2],
     ) -> f64 {
-        let impulse = if self.mass.is_finite() { error * self.mass } else { 0.0 };
         for changing in &self.formulas {
+            let velocity = velocity(changing.body);
+            let impulse = error * velocity * changing.mass;
             let force = changing.force + changing.force_of_velocity * velocity;
             while step > 2.0 * least
                 && !self.sees(
@@ -110,39 +111,51 @@ impl<'m> Resolution<'m> {
     }
 }
 
-/// The formulas of loads and drives that depend on time; accelerations are those of a mass (kg).
-fn formulas(mechanism: &Mechanism, mass: f64) -> Vec<Changing> {
+/// The formulas of loads and drives that depend on time.
+fn formulas(mechanism: &Mechanism) -> Vec<Changing> {
     let size = mechanism.size;
+    let parts = independent(mechanism);
+    let least_mass = |of: usize| {
+        let bodies = mechanism.bodies.iter().zip(&parts).filter(|(_, part)| **part == parts[of]);
+        let masses = bodies.map(|(body, _)| body.mass).filter(|mass| *mass > 0.0);
+        Some(masses.fold(f64::INFINITY, f64::min)).filter(|mass| mass.is_finite()).unwrap_or(0.0)
+    };
     let mut found = Vec::new();
-    let mut add = |quantity: &Quantity, force: f64, force_of_velocity: f64| {
-        let Quantity::Varying(formula) = *quantity else { return };
+    let mut add = |quantity: &Quantity, body: Option<BodyId>, force: f64, force_of_velocity: f64| {
+        let (Quantity::Varying(formula), Some(body)) = (*quantity, body) else { return };
         if mechanism.expression(formula).symbols().any(|(symbol, _)| symbol == Symbol::Time) {
-            found.push(Changing { formula, force, force_of_velocity });
+            let (body, mass) = (body.index(), least_mass(body.index()));
+            found.push(Changing { formula, body, mass, force, force_of_velocity });
         }
     };
     let configuration = Configuration::drawing(mechanism);
     let value = |quantity: &Quantity| configuration.quantity(mechanism, *quantity).map_or(0.0, f64::abs);
     for load in &mechanism.loads {
+        let body = loaded_bodies(mechanism, &load.kind).first().copied();
         match &load.kind {
-            LoadKind::Force { components, .. } => components.iter().for_each(|force| add(force, 1.0, 0.0)),
-            LoadKind::Torque { moment, .. } => add(moment, 1.0 / size, 0.0),
+            LoadKind::Force { components, .. } => {
+                components.iter().for_each(|force| add(force, body, 1.0, 0.0));
+            }
+            LoadKind::Torque { moment, .. } => add(moment, body, 1.0 / size, 0.0),
             LoadKind::Spring { stiffness, free_length, .. } => {
-                add(stiffness, size, 0.0);
-                add(free_length, value(stiffness), 0.0);
+                add(stiffness, body, size, 0.0);
+                add(free_length, body, value(stiffness), 0.0);
             }
             LoadKind::TorsionalSpring { stiffness, free_angle, .. } => {
-                add(stiffness, 1.0 / size, 0.0);
-                add(free_angle, value(stiffness) / size, 0.0);
+                add(stiffness, body, 1.0 / size, 0.0);
+                add(free_angle, body, value(stiffness) / size, 0.0);
             }
-            LoadKind::Damper { damping, .. } => add(damping, 0.0, 1.0),
-            LoadKind::TorsionalDamper { damping, .. } => add(damping, 0.0, 1.0 / (size * size)),
+            LoadKind::Damper { damping, .. } => add(damping, body, 0.0, 1.0),
+            LoadKind::TorsionalDamper { damping, .. } => add(damping, body, 0.0, 1.0 / (size * size)),
             // It depends on the motion alone.
             LoadKind::Pad(_) => {}
         }
     }
     for drive in &mechanism.drives {
+        let body = bodies_of_drive(mechanism, drive).next();
+        let mass = body.map_or(0.0, |body| least_mass(body.index()));
         let is_angle = mechanism.coordinates[drive.coordinate.index()].kind.is_angle();
-        add(&drive.acceleration, if is_angle { mass * size } else { mass }, 0.0);
+        add(&drive.acceleration, body, if is_angle { mass * size } else { mass }, 0.0);
     }
     found
 }

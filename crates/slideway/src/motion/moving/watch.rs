@@ -2,6 +2,7 @@
 
 use super::equations::Equations;
 use super::linear::Determinant;
+use super::magnitudes::{Magnitude, Magnitudes};
 use super::switching::{Switch, Switching};
 use crate::fault::Fault;
 use crate::ids::{ContactId, JointId};
@@ -46,7 +47,7 @@ pub(in crate::motion) enum Watched {
     ReactionLimit(ContactId),
     /// How much the greatest of the normal forces that statics determines may still grow while joints stick.
     HeldReactions,
-    /// |N| L/2 - |C| of a guided slider.
+    /// N L/2 - |C| of a guided slider, with the normal force N towards the face that is pressed.
     Couple(JointId),
     /// By how much the sticking joints can still stick.
     Sticking,
@@ -95,15 +96,6 @@ impl Watched {
     }
 }
 
-/// The greatest magnitudes so far, for tolerances.
-#[derive(Debug, Clone, Copy, Default)]
-pub(in crate::motion) struct Magnitudes {
-    /// Force (N).
-    pub(in crate::motion) force: f64,
-    /// Velocity (m/s).
-    pub(in crate::motion) velocity: f64,
-}
-
 /// The functions that are watched in a phase.
 pub(in crate::motion) struct Watch<'o> {
     pub(in crate::motion) list: Vec<Watched>,
@@ -117,14 +109,12 @@ pub(in crate::motion) struct Watch<'o> {
 
 impl<'o> Watch<'o> {
     /// Nothing yet.
-    pub(in crate::motion) fn new(user: &'o [UserEvent], reaction_limit: Option<f64>) -> Self {
-        Self {
-            list: Vec::new(),
-            user,
-            reaction_limit,
-            reference: (Determinant::default(), 1.0),
-            magnitudes: Magnitudes::default(),
-        }
+    pub(in crate::motion) fn new(
+        user: &'o [UserEvent],
+        reaction_limit: Option<f64>,
+        magnitudes: Magnitudes,
+    ) -> Self {
+        Self { list: Vec::new(), user, reaction_limit, reference: (Determinant::default(), 1.0), magnitudes }
     }
 
     /// Chooses what is watched in a phase that the equations have just entered.
@@ -228,12 +218,7 @@ impl<'o> Watch<'o> {
         let (mechanism, configuration) = (equations.mechanism, &equations.configuration);
         let slider = |joint: JointId| mechanism.slider(joint).expect("sliding joints slide");
         Ok(match watched {
-            Watched::NormalForce(contact) => {
-                let k = contact.index();
-                let sigma =
-                    if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
-                sigma * equations.normal_force(k)
-            }
+            Watched::NormalForce(contact) => pressing_force(contact, phase, equations),
             Watched::Share(contact, side) => {
                 let share = equations.share(contact.index()).unwrap_or(0.5);
                 if side == Side::Positive { share } else { 1.0 - share }
@@ -255,9 +240,10 @@ impl<'o> Watch<'o> {
                 self.reaction_limit() - equations.normal_force(contact.index()).abs()
             }
             Watched::Couple(joint) => {
+                // A face does not pull: beyond the zero of its force there is no room either.
                 let slider = slider(joint);
-                let normal_force = equations.normal_force(slider.contacts[0].index());
-                slider.greatest_couple(normal_force) - equations.reaction(Reaction::Couple(joint)).abs()
+                let force = pressing_force(slider.contacts[0], phase, equations);
+                force * slider.greatest_couple(1.0) - equations.reaction(Reaction::Couple(joint)).abs()
             }
             Watched::Circles => equations.room_of_hinges(phase).unwrap_or(0.0),
             Watched::Sticking | Watched::HeldReactions | Watched::Relation(_) => 0.0,
@@ -275,31 +261,54 @@ impl<'o> Watch<'o> {
         })
     }
 
-    /// Forces below this are rounding (N).
-    pub(in crate::motion) fn rounding(&self) -> f64 {
-        FORCE_TOLERANCE * self.magnitudes.force
+    /// Forces below this are rounding, on each body (N).
+    pub(in crate::motion) fn rounding(&self) -> Vec<f64> {
+        let bodies = 0..self.magnitudes.parts().len();
+        bodies.map(|body| FORCE_TOLERANCE * self.magnitudes.of_body(body).force).collect()
     }
 
     /// Values within this of zero count as zero.
     pub(in crate::motion) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
-        let force = self.rounding();
+        let mechanism = equations.mechanism;
+        let Magnitude { force, velocity, .. } = self.magnitudes_of(watched, equations);
+        let (force, velocity) = (FORCE_TOLERANCE * force, VELOCITY_TOLERANCE * velocity);
         match watched {
             Watched::NormalForce(_)
             | Watched::Between(..)
             | Watched::ReactionLimit(_)
             | Watched::HeldReactions => force,
-            Watched::Couple(joint) => {
-                force * equations.mechanism.slider(joint).map_or(0.0, |slider| slider.length)
-            }
-            Watched::Circles => force * equations.mechanism.size,
+            Watched::Couple(joint) => force * mechanism.slider(joint).map_or(0.0, |slider| slider.length),
+            Watched::Circles => force * mechanism.size,
             Watched::Share(..) => FORCE_TOLERANCE,
-            Watched::Velocity(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity,
-            Watched::Spin(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity / equations.mechanism.size,
-            Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * equations.mechanism.size,
+            Watched::Velocity(..) => velocity,
+            Watched::Spin(..) => velocity / mechanism.size,
+            Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
     }
+
+    /// The magnitudes of the part to which a watched function belongs; the greatest of all where it belongs to several.
+    fn magnitudes_of(&self, watched: Watched, equations: &Equations<'_>) -> Magnitude {
+        let mechanism = equations.mechanism;
+        let joint = match watched {
+            Watched::NormalForce(contact)
+            | Watched::Between(contact, _)
+            | Watched::ReactionLimit(contact) => mechanism.contacts[contact.index()].joint,
+            Watched::Couple(joint) => joint,
+            Watched::Velocity(index, _) => equations.sliders[index],
+            Watched::Spin(hinge, _) => mechanism.friction_circles[hinge].joint,
+            _ => return self.magnitudes.greatest(),
+        };
+        self.magnitudes.of_joint(mechanism, joint)
+    }
+}
+
+/// The normal force of a contact towards the side that is pressed (N).
+fn pressing_force(contact: ContactId, phase: &Phase, equations: &Equations<'_>) -> f64 {
+    let k = contact.index();
+    let sigma = if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
+    sigma * equations.normal_force(k)
 }
 
 /// The product of the overlaps of all block sliders, relative to their lengths.

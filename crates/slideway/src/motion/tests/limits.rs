@@ -10,7 +10,8 @@ use crate::model::{Model, Settings};
 use crate::modes::Side;
 use crate::motion::{
     ContactPhase, Continuation, Continuations, Crossing, Decisions, End, EventFunction, EventInstant,
-    HaltingImpulse, JointPhase, Phase, SimulateOptions, UserEvent, report, simulate,
+    HaltingImpulse, History, JointPhase, Phase, SimulateOptions, Thorough, UserEvent, report, simulate,
+    simulate_all, simulate_with,
 };
 use crate::progress::Progress;
 use crate::report::Verdict;
@@ -205,8 +206,7 @@ fn phases_that_take_no_time_are_an_accumulation() {
     let configuration = Configuration::new(&mechanism).unwrap();
     let options = SimulateOptions::new(1.0);
     let progress = &mut |_: &Progress| ControlFlow::Continue(());
-    let history =
-        crate::motion::simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
+    let history = simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
     assert_eq!(history.end, End::Accumulation);
     assert_eq!(history.stop(), 0.0);
 }
@@ -220,8 +220,63 @@ fn progress_can_end_it() {
     let progress = &mut |progress: &Progress| {
         if is_over(progress) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let history =
-        crate::motion::simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
+    let history = simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
     assert_eq!(history.end, End::Interrupted);
     assert!(history.stop() > 0.1 && history.stop() < 0.2);
+}
+
+/// A callback that breaks when it is called for the n-th time.
+fn breaking_at(n: usize, calls: &mut usize) -> impl FnMut(&Progress) -> ControlFlow<()> + Send {
+    move |_: &Progress| {
+        *calls += 1;
+        if *calls >= n { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Within a decision, too, where that searches for states of hinges that turn.
+#[test]
+fn what_was_found_before_an_interruption_is_kept() {
+    let mechanism = Mechanism::new(&super::model_of("slider-crank-with-pins")).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let options = SimulateOptions::new(0.02);
+    let mut calls = 0;
+    let follow = |n: usize, calls: &mut usize| {
+        let progress = &mut breaking_at(n, calls);
+        simulate_with(&mechanism, &configuration, &options, &mut Thorough, progress).unwrap()
+    };
+    let whole = follow(usize::MAX, &mut calls);
+    assert_eq!(whole.end, End::Finished);
+    let all = calls;
+    for n in [1, 2, all / 3, all / 2, all - 1] {
+        let history = follow(n, &mut 0);
+        assert_eq!(history.end, End::Interrupted, "{n} of {all}");
+        assert!(!history.events.is_empty() && history.events.len() <= whole.events.len());
+        let words = |history: &History| history.events[0].words.clone();
+        assert!(n <= 2 || words(&history) == words(&whole), "{}", words(&history));
+        assert!(history.steps.is_empty() == (n <= 2), "{n}: {}", history.steps.len());
+        assert_eq!(report(&history, &options).stop, history.stop());
+    }
+}
+
+#[test]
+fn motions_that_were_found_before_an_interruption_are_kept() {
+    let settings = Settings::default().parameter("mu_1", "0.6");
+    let mechanism = Mechanism::new(&super::model_of("klepp-2002-spring").with(&settings).unwrap()).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let options = SimulateOptions::new(0.02);
+    let follow = |n: usize, calls: &mut usize| {
+        let progress = &mut breaking_at(n, calls);
+        simulate_all(&mechanism, &configuration, &options, (&mut Thorough, 9), progress).unwrap()
+    };
+    let mut all = 0;
+    let whole = follow(usize::MAX, &mut all);
+    assert!(whole.complete && whole.histories.len() == 2);
+    for (n, found) in [(1, 1), (all / 4, 1), (3 * all / 4, 2), (all - 1, 2)] {
+        let tree = follow(n, &mut 0);
+        assert!(!tree.complete);
+        let ends: Vec<&End> = tree.histories.iter().map(|branching| &branching.history.end).collect();
+        let expected =
+            [&[&End::Finished, &End::Interrupted][..], &[&End::Interrupted]][usize::from(found == 1)];
+        assert_eq!(ends, expected, "{n} of {all}");
+    }
 }

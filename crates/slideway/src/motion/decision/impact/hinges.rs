@@ -14,6 +14,7 @@ use crate::motion::decision::rules::EventInstant;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::phase::sliding_joints;
 use crate::pattern::{JointPhase, direction};
+use crate::progress::Work;
 use crate::standstill::{KnownMotion, MotionState, Setup, motion_states, whole_slack};
 use nalgebra::DVector;
 
@@ -95,7 +96,7 @@ impl Pushed for Hinged<'_> {
     ) -> Result<Option<Change>, Faults> {
         let known = (0..velocities.len()).map(|joint| self.known(joint, velocities[joint], targets));
         let impulses = self.setup.impulsive(known.collect());
-        let (states, undecided) = motion_states(&impulses)?;
+        let (states, undecided) = motion_states(&impulses, Work::undisturbed())?;
         *unsolved += undecided;
         let stays = |state: &MotionState| {
             let joints = state.pattern.joints.iter().chain(&state.pattern.hinges);

@@ -295,7 +295,7 @@ impl<'c> Collision<'c> {
         let undecided = *unsolved;
         let whole = self.course(pushed, 1.0, unsolved)?;
         let bounded = match whole {
-            Some(course) if course.work <= 0.0 => Some((1.0, course)),
+            Some(course) if course.work <= 0.0 => Some((self.part_of(&course), course)),
             Some(_) => self.greatest(pushed, unsolved)?,
             None if !self.wedges || *unsolved > undecided => None,
             // There is no way back.
@@ -310,8 +310,23 @@ impl<'c> Collision<'c> {
         Ok(bounded.filter(all_leave).map(|(_, course)| course))
     }
 
+    /// The part of their restitutions with which the joints that are pushed leave their stops.
+    fn part_of(&self, course: &AfterImpact) -> f64 {
+        let part = |(_, hit): (usize, &Hit)| {
+            let before = self.velocities[hit.joint];
+            let whole = hit.restitution * before.abs();
+            if self.without_rounding(whole) > 0.0 {
+                -before.signum() * course.velocities[hit.joint] / whole
+            } else {
+                1.0
+            }
+        };
+        self.pushing().map(part).fold(1.0, f64::min)
+    }
+
     /// The greatest part of all restitutions with which the impact has a course in which the stops return no more work than
-    /// they have taken, and that course. Without restitution they return none.
+    /// they have taken, and that course. Without restitution they return none. Stops with different restitutions take other
+    /// courses with each part: no piece of a course is known before the part is, so that it is bisected.
     fn greatest(
         &self,
         pushed: &dyn Pushed,
@@ -356,8 +371,8 @@ impl<'c> Collision<'c> {
         self.hits.iter().enumerate().filter(|(hit, _)| self.pushes[*hit])
     }
 
-    /// Follows an impact until the joints have reached their velocities, in proportion; `false` if no impulse leads there.
-    /// Every part except the last brings another joint or hinge to rest.
+    /// Follows an impact until the joints have reached their velocities, in proportion, or the one stop that pushes has
+    /// returned the work that it has taken; `false` if no impulse leads there. Every part except the last brings another joint or hinge to rest.
     fn follow(
         &self,
         pushed: &dyn Pushed,
@@ -377,6 +392,11 @@ impl<'c> Collision<'c> {
             let (part, stops) = until_one_stops(pushed, &course.velocities, &change.velocities, ends);
             if !part.is_finite() {
                 return Ok(false);
+            }
+            if let Some(even) = self.part_until_even(course, &change).filter(|even| *even < part) {
+                self.go_on(course, (&change, even));
+                course.work = 0.0;
+                return Ok(true);
             }
             self.go_on(course, (&change, part));
             match stops {
@@ -414,6 +434,17 @@ impl<'c> Collision<'c> {
             return Ok(None);
         }
         Ok(pushed.wedged(course)?.map(|change| (change, false)))
+    }
+
+    /// The part of a change until the one stop that pushes has returned the work that it has taken; none if it does not, and
+    /// where several push. With [`Self::go_on`] that is the root of `W + a p + b p^2` where the work becomes positive.
+    fn part_until_even(&self, course: &AfterImpact, change: &Change) -> Option<f64> {
+        let ((_, hit), [impulse]) = (self.pushing().next()?, change.impulses.as_slice()) else { return None };
+        let power = -self.velocities[hit.joint].signum() * impulse;
+        let (a, b) = (power * course.velocities[hit.joint], power * change.velocities[hit.joint] / 2.0);
+        let root = (a * a - 4.0 * b * course.work).sqrt();
+        let part = if a > 0.0 { -2.0 * course.work / (a + root) } else { (root - a) / (2.0 * b) };
+        (part >= 0.0 && (a > 0.0 || b > 0.0)).then_some(part)
     }
 
     /// A part of a change. The stops do the work `sum_i -d_i P_i (v_i + c_i/2)`, with the sense `d_i` in which their joints

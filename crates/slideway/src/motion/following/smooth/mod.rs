@@ -17,6 +17,7 @@ use crate::motion::decision::rules::{Decisions, Hold, Resting};
 use crate::motion::decision::{Outlook, scale_of_forces};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Equations, Failure, joint_rests};
+use crate::motion::moving::magnitudes::Magnitudes;
 use crate::motion::moving::resolution::Resolution;
 use crate::motion::moving::stepper::{DENSE, StepControl, Stepper};
 use crate::motion::moving::switching::{Switch, Switching};
@@ -26,14 +27,12 @@ use crate::motion::record::history::{End, History};
 use crate::pattern::phase::{JointPhase, Phase};
 use std::collections::BTreeSet;
 
-/// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
-const LITTLE_VELOCITY: f64 = 1e-2;
-/// Bodies that are slower than this part of the greatest velocity stand still.
+/// Bodies, joints and hinges that are slower than this part of the greatest velocity stand still.
 const REST: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
 
-/// Where a mode locks its forces have grown by more than this since its beginning; at a fold they stay finite.
+/// Where a mode locks forces have grown by more than this since its beginning; at a fold they stay finite.
 const LOCKING: f64 = 1e4;
 
 /// What is known of the time ahead as long as nobody has looked.
@@ -61,10 +60,6 @@ pub(in crate::motion) struct Smooth<'o, 'm> {
     next: f64,
     scale: Vec<f64>,
     energy: f64,
-    /// The greatest force where the phase begins (N).
-    first_force: f64,
-    /// Of all bodies (kg).
-    mass: f64,
     watch: Watch<'o>,
     switching: Switching<'m>,
     resolution: Resolution<'m>,
@@ -93,6 +88,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         options: &'o SimulateOptions,
     ) -> Self {
         let size = state.len();
+        let (mechanism, configuration) = (equations.mechanism, &equations.configuration);
+        let magnitudes =
+            Magnitudes::new(mechanism, |counts| scale_of_forces(mechanism, configuration, counts));
         let mut smooth = Self {
             time,
             end: time + options.duration,
@@ -103,9 +101,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             next: 0.0,
             scale: vec![0.0; size],
             energy: 0.0,
-            first_force: 0.0,
-            mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
-            watch: Watch::new(&options.events, options.reaction_limit),
+            watch: Watch::new(&options.events, options.reaction_limit, magnitudes),
             switching: Switching::new(equations.mechanism, &equations.configuration),
             resolution: Resolution::new(equations.mechanism),
             options,
@@ -120,8 +116,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
             equations,
         };
         smooth.equations.hold(&smooth.switching);
-        smooth.watch.magnitudes.force =
-            scale_of_forces(smooth.equations.mechanism, &smooth.equations.configuration);
         smooth.notice_velocity();
         smooth
     }
@@ -131,19 +125,22 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.time >= self.end
     }
 
-    /// The greatest velocity so far (m/s), rotations times the size of the mechanism.
-    pub(in crate::motion) fn greatest_velocity(&self) -> f64 {
-        self.watch.magnitudes.velocity
+    /// Of each sliding joint (m/s), then of each hinge with friction (rad/s), the velocity below which it stands still.
+    pub(in crate::motion) fn little_velocities(&self) -> Vec<f64> {
+        let Equations { mechanism, sliders, .. } = &self.equations;
+        let little = |joint| REST * self.watch.magnitudes.of_joint(mechanism, joint).velocity;
+        let hinges = mechanism.friction_circles.iter().map(|circle| little(circle.joint) / mechanism.size);
+        sliders.iter().map(|joint| little(*joint)).chain(hinges).collect()
     }
 
-    /// Forces below this are rounding beside the greatest so far (N).
-    pub(in crate::motion) fn rounding(&self) -> f64 {
+    /// Forces below this are rounding beside the greatest so far, on each body (N).
+    pub(in crate::motion) fn rounding(&self) -> Vec<f64> {
         self.watch.rounding()
     }
 
     /// The time in which the greatest velocity so far goes through the mechanism (s).
     pub(in crate::motion) fn time_scale(&self) -> f64 {
-        self.equations.mechanism.size / self.greatest_velocity()
+        self.equations.mechanism.size / self.watch.magnitudes.greatest().velocity
     }
 
     /// Enters a phase.
@@ -158,11 +155,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.equations.enter(phase, self.time, &self.state)?;
         self.watch.begin(phase, &self.equations, &self.switching);
         self.equations.write_rates(&self.state, self.stepper.start());
-        self.first_force = self.equations.greatest_force();
-        self.notice_force();
+        self.watch.magnitudes.begin(&self.equations);
         self.hold = None;
         self.outlook = NOTHING_KNOWN;
-        let rests = self.equations.resting(REST * self.greatest_velocity());
+        let magnitudes = &self.watch.magnitudes;
+        let rests = self.equations.resting(|body| REST * magnitudes.of_body(body).velocity);
         if rests.contains(&true) {
             let Equations { mechanism, configuration, sliders, .. } = &self.equations;
             self.hold = decisions
@@ -183,50 +180,30 @@ impl<'o, 'm> Smooth<'o, 'm> {
 
     /// A step within which neither positions nor velocities change much.
     fn first_step(&mut self) -> f64 {
-        let size = self.equations.mechanism.size;
-        let acceleration = self.equations.accelerations().chunks_exact(3);
-        let greatest = acceleration
-            .fold(0.0, |a: f64, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
-        let velocity = self.watch.magnitudes.velocity.max((greatest * size).sqrt());
-        self.watch.magnitudes.velocity = velocity;
-        let times = [size / velocity, velocity / greatest];
-        0.02 * times.into_iter().filter(|time| *time > 0.0).fold(self.longest, f64::min)
+        let shortest = self.watch.magnitudes.notice_accelerations(self.equations.accelerations());
+        0.02 * shortest.min(self.longest)
     }
 
     fn notice_velocity(&mut self) {
-        let size = self.equations.mechanism.size;
+        self.watch.magnitudes.notice_velocities(&self.state);
         let bodies = 3 * self.equations.mechanism.bodies.len();
-        let rates = self.state[bodies..2 * bodies].chunks_exact(3);
-        let greatest =
-            rates.fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
-        self.watch.magnitudes.velocity = self.watch.magnitudes.velocity.max(greatest);
         let works = self.state[2 * bodies..].iter();
         self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
-    }
-
-    /// Takes note of the greatest force, and of a velocity that it could cause: at rest there is no other
-    /// scale.
-    fn notice_force(&mut self) {
-        let magnitudes = &mut self.watch.magnitudes;
-        magnitudes.force = magnitudes.force.max(self.equations.greatest_force());
-        if self.mass > 0.0 {
-            let velocity = (magnitudes.force * self.equations.mechanism.size / self.mass).sqrt();
-            magnitudes.velocity = magnitudes.velocity.max(LITTLE_VELOCITY * velocity);
-        }
     }
 
     /// The errors of the components that are permitted in a step.
     fn set_scale(&mut self) {
         let size = self.equations.mechanism.size;
         let bodies = 3 * self.equations.mechanism.bodies.len();
-        let velocity = self.watch.magnitudes.velocity.max(f64::MIN_POSITIVE / self.tolerance);
-        let energy = self.energy.max(LITTLE_ENERGY * self.watch.magnitudes.force * size);
+        let magnitudes = &self.watch.magnitudes;
+        let velocity = |body| magnitudes.of_body(body).velocity.max(f64::MIN_POSITIVE / self.tolerance);
+        let energy = self.energy.max(LITTLE_ENERGY * magnitudes.greatest().force * size);
         let energy = energy.max(f64::MIN_POSITIVE / self.tolerance);
         for (index, scale) in self.scale.iter_mut().enumerate() {
             let greatest = match index {
                 _ if index >= 2 * bodies => energy,
-                _ if index >= bodies && index % 3 == 2 => velocity / size,
-                _ if index >= bodies => velocity,
+                _ if index >= bodies && index % 3 == 2 => velocity((index - bodies) / 3) / size,
+                _ if index >= bodies => velocity((index - bodies) / 3),
                 _ if index % 3 == 2 => 1.0,
                 _ => size,
             };
@@ -254,7 +231,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
 
     /// How a mode has ended whose determinant vanishes: with forces beyond all bounds, or at a fold.
     fn end_of_mode(&self) -> Cause {
-        let grows = self.watch.magnitudes.force > LOCKING * self.first_force;
+        let grows = self.watch.magnitudes.has_grown(LOCKING);
         if self.equations.turns() && !grows { Cause::Folds } else { Cause::Locks }
     }
 

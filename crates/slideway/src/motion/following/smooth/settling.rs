@@ -13,8 +13,8 @@ const LEAST_TOLERANCE: f64 = 1e-10;
 
 impl Smooth<'_, '_> {
     /// Makes the velocities of sliding joints, then hinges, that have stopped exactly zero, as an impulse on their lines
-    /// would; unless that changes more than errors of steps do: at a dead centre the joint stands while the
-    /// mechanism moves on.
+    /// would; unless that changes their part of the mechanism more than errors of steps do: at a dead centre the joint
+    /// stands while the mechanism moves on.
     pub(in crate::motion) fn settle(&mut self, phase: &Phase, stopped: &[bool]) {
         if !stopped.contains(&true) {
             return;
@@ -32,15 +32,23 @@ impl Smooth<'_, '_> {
         let mut settled = self.state.clone();
         self.equations.project(&mut settled);
         let size = self.equations.mechanism.size;
-        let bodies = 3 * self.equations.mechanism.bodies.len();
-        let rates = settled[bodies..2 * bodies].iter().zip(&self.state[bodies..2 * bodies]);
-        let change = rates.enumerate().fold(0.0_f64, |greatest, (index, (new, old))| {
-            let scale = if index % 3 == 2 { size } else { 1.0 };
-            greatest.max(scale * (new - old).abs())
-        });
+        let count = self.equations.mechanism.bodies.len();
         let permitted = SETTLED * self.tolerance.max(LEAST_TOLERANCE);
-        if change <= permitted * self.watch.magnitudes.velocity {
-            self.state = settled;
+        let magnitudes = &self.watch.magnitudes;
+        let changes_more = |body: &usize| {
+            let change = |axis: usize| {
+                let place = 3 * (count + body) + axis;
+                (settled[place] - self.state[place]).abs() * [1.0, 1.0, size][axis]
+            };
+            let limit = permitted * magnitudes.of_body(*body).velocity;
+            [0, 1, 2].into_iter().any(|axis| change(axis) > limit)
+        };
+        let parts = magnitudes.parts();
+        let kept: Vec<usize> = (0..count).filter(changes_more).map(|body| parts[body]).collect();
+        for body in (0..count).filter(|body| !kept.contains(&parts[*body])) {
+            for first in [3 * body, 3 * (count + body)] {
+                self.state[first..first + 3].copy_from_slice(&settled[first..first + 3]);
+            }
         }
         self.equations.place(self.time, &self.state);
         let sliders = self.equations.sliders.iter().zip(stopped);

@@ -86,15 +86,17 @@ impl Smooth<'_, '_> {
             return step;
         }
         self.equations.place(self.time, &self.state);
-        let velocity = self.watch.magnitudes.velocity;
-        let velocities = [velocity, self.tolerance * velocity];
+        let magnitudes = &self.watch.magnitudes;
+        let velocities = (|body| magnitudes.of_body(body).velocity, self.tolerance);
         self.resolution.step(&self.equations.configuration, velocities, [step, self.least_step()])
     }
 
     /// Why no step is short enough: the mode locks, or the loads grow beyond all bounds.
     fn without_bounds(&self, phase: &Phase) -> Failure {
         let determinant = self.watch.value(Watched::Determinant, phase, &self.equations);
-        if self.watch.magnitudes.force > 0.0 && determinant.is_ok_and(|determinant| determinant > 0.0) {
+        if self.watch.magnitudes.greatest().force > 0.0
+            && determinant.is_ok_and(|determinant| determinant > 0.0)
+        {
             return Failure::Loads(Fault::general(FaultKind::LoadsWithoutBounds).into());
         }
         Failure::Singular
@@ -110,7 +112,7 @@ impl Smooth<'_, '_> {
         let error = self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
         if error <= 1.0 {
             self.watch_all(phase, decisions, 3)?;
-            self.notice_force();
+            self.watch.magnitudes.notice_forces(&self.equations);
             let drift = self.equations.project(&mut self.stepper.end);
             history.drift = history.drift.max(drift);
         }
@@ -157,15 +159,20 @@ impl Smooth<'_, '_> {
     /// Whether a joint that should have stopped at the end of the step slides on, much faster than errors of
     /// steps are: its stop was found on a solution within a longer step that did not resolve it.
     pub(super) fn still_slides(&self, phase: &Phase, causes: &[Cause]) -> bool {
-        let little = self.tolerance * self.watch.magnitudes.velocity;
+        let mechanism = self.equations.mechanism;
+        let little = |joint| self.tolerance * self.watch.magnitudes.of_joint(mechanism, joint).velocity;
         let only_stops = causes.iter().all(|cause| matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
         let hinges: Vec<JointId> = self.equations.hinge_joints().collect();
         only_stops
             && self.watch.list.iter().enumerate().any(|(index, watched)| {
                 let (cause, little) = match *watched {
-                    Watched::Velocity(joint, _) => (Cause::Stops(self.equations.sliders[joint]), little),
+                    Watched::Velocity(joint, _) => {
+                        let joint = self.equations.sliders[joint];
+                        (Cause::Stops(joint), little(joint))
+                    }
                     Watched::Spin(hinge, _) => {
-                        (Cause::StopsTurning(hinges[hinge]), little / self.equations.mechanism.size)
+                        let joint = hinges[hinge];
+                        (Cause::StopsTurning(joint), little(joint) / mechanism.size)
                     }
                     _ => return false,
                 };

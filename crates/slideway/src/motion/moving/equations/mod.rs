@@ -26,13 +26,13 @@ mod projection;
 mod rest;
 
 use hinges::{RoughHinge, norm};
-pub(in crate::motion) use rest::{independent, joint_rests};
+pub(in crate::motion) use rest::{bodies_of_drive, independent, joint_rests};
 
 use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;
-use crate::ids::{ContactId, DriveId, JointId};
+use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, frames_of};
 use crate::modes::Side;
 use crate::motion::moving::linear::{Determinant, LinearSystem};
 use crate::motion::moving::stepper::Derivative;
@@ -339,15 +339,30 @@ impl<'m> Equations<'m> {
         self.system.determinant()
     }
 
-    /// The greatest force among loads, normal forces and those of hinges with friction (N), couples divided by the size
-    /// of the mechanism.
+    /// The greatest force at the last evaluation (N).
+    #[cfg(test)]
     pub(in crate::motion) fn greatest_force(&self) -> f64 {
+        let mut greatest = 0.0_f64;
+        self.each_force(|_, force| greatest = greatest.max(force));
+        greatest
+    }
+
+    /// Tells loads, normal forces and forces of hinges with friction at the last evaluation (N), each with a body on which it
+    /// acts; couples are divided by the size of the mechanism.
+    pub(in crate::motion) fn each_force(&self, mut tell: impl FnMut(BodyId, f64)) {
         let size = self.mechanism.size;
-        let loads = self.applied.wrenches.iter();
-        let loads = loads.map(|wrench| wrench.force.amax().max(wrench.couple.abs() / size));
-        let normal = (0..self.contacts.len()).map(|k| self.normal_force(k).abs());
-        let hinges = (0..self.hinges.len()).map(|hinge| self.hinge_force(hinge).map_or(0.0, norm));
-        loads.chain(normal).chain(hinges).fold(0.0, f64::max)
+        for wrench in &self.applied.wrenches {
+            let force = wrench.force.amax().max(wrench.couple.abs() / size);
+            wrench.frame.body().into_iter().for_each(|body| tell(body, force));
+        }
+        let normal = self.mechanism.contacts.iter().enumerate();
+        let normal = normal.map(|(k, contact)| (contact.joint, self.normal_force(k).abs()));
+        let hinges = self.hinges.iter().enumerate();
+        let hinges = hinges.map(|(index, hinge)| (hinge.joint, self.hinge_force(index).map_or(0.0, norm)));
+        for (joint, force) in normal.chain(hinges) {
+            let body = frames_of(self.mechanism, joint).into_iter().find_map(Frame::body);
+            body.into_iter().for_each(|body| tell(body, force));
+        }
     }
 }
 

@@ -4,14 +4,14 @@ use super::Equations;
 use crate::configuration::Velocity;
 use crate::expression::Symbol;
 use crate::ids::{BodyId, Frame, JointId};
-use crate::mechanism::{Drive, JointKind, LoadKind, Mechanism, Quantity, loaded_bodies, quantities};
+use crate::mechanism::{Drive, LoadKind, Mechanism, Quantity, frames_of, loaded_bodies, quantities};
 use crate::motion::moving::connected::{connected, join};
 
 impl Equations<'_> {
     /// For each body whether it stands still as long as the joints that stick in the phase do: together with
-    /// what joints connect with it no motion is left to it, nothing drives it, nothing is faster than this
+    /// what joints connect with it no motion is left to it, nothing drives it, no body is faster than its limit
     /// (m/s), and what acts on it depends on the time and on bodies of this kind alone.
-    pub(in crate::motion) fn resting(&self, velocity: f64) -> Vec<bool> {
+    pub(in crate::motion) fn resting(&self, limit: impl Fn(usize) -> f64) -> Vec<bool> {
         let bodies = self.mechanism.bodies.len();
         if self.stuck.is_empty() {
             return vec![false; bodies];
@@ -27,10 +27,11 @@ impl Equations<'_> {
                 freedoms[part] = freedoms[part].saturating_sub(1);
             }
         }
-        let is_fast =
-            |v: &Velocity| v.linear.amax() > velocity || v.angular.abs() * self.mechanism.size > velocity;
+        let is_fast = |body: usize, v: &Velocity| {
+            v.linear.amax().max(v.angular.abs() * self.mechanism.size) > limit(body)
+        };
         for (body, rate) in self.configuration.velocities.iter().enumerate() {
-            moves[parts[body]] |= is_fast(rate) || freedoms[parts[body]] > 0;
+            moves[parts[body]] |= is_fast(body, rate) || freedoms[parts[body]] > 0;
         }
         let drives = self.mechanism.drives.iter();
         for driven in drives.flat_map(|drive| bodies_of_drive(self.mechanism, drive)) {
@@ -55,11 +56,7 @@ impl Equations<'_> {
 
 /// Whether both sides of a joint stand still.
 pub(in crate::motion) fn joint_rests(mechanism: &Mechanism, joint: JointId, rests: &[bool]) -> bool {
-    let frames = match &mechanism.joints[joint.index()].kind {
-        JointKind::Slider(slider) => [slider.block, slider.guide],
-        JointKind::Hinge(ends) => ends.each_ref().map(|end| end.frame),
-    };
-    frames.into_iter().filter_map(Frame::body).all(|body| rests[body.index()])
+    frames_of(mechanism, joint).into_iter().filter_map(Frame::body).all(|body| rests[body.index()])
 }
 
 /// For each body a number that it shares with all those on which its motion depends, or whose motion depends on it: through
@@ -78,7 +75,10 @@ pub(in crate::motion) fn independent(mechanism: &Mechanism) -> Vec<usize> {
 }
 
 /// The bodies on which a drive acts, and those whose motion it prescribes.
-fn bodies_of_drive(mechanism: &Mechanism, drive: &Drive) -> impl Iterator<Item = BodyId> {
+pub(in crate::motion) fn bodies_of_drive(
+    mechanism: &Mechanism,
+    drive: &Drive,
+) -> impl Iterator<Item = BodyId> {
     let prescribed = mechanism.coordinates[drive.coordinate.index()].kind.frames(mechanism);
     drive.effort.frames().into_iter().chain(prescribed).filter_map(Frame::body)
 }
