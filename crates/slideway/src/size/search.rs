@@ -179,7 +179,7 @@ impl MarginSearch<'_> {
             .map(|run| SizeGap {
                 from: edge(run.first(), run.before),
                 to: edge(run.last(), run.after),
-                faults: self.refined(run.middle().at).err().unwrap_or_default(),
+                faults: self.refined(run.first().at).err().unwrap_or_default(),
             })
             .collect()
     }
