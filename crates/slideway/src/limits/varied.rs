@@ -1,6 +1,5 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
-use super::vary::Vary;
 use crate::configuration::Follower;
 use crate::enclosure::{TurningHinge, UncertainParameters, enclosed_block_problem, enclosure_within};
 use crate::expression::Degree;
@@ -128,8 +127,8 @@ impl Varied {
     }
 
     /// The same, whose faults lie in this argument.
-    pub(super) fn given_by(self, argument: &Vary) -> Self {
-        Self { argument: Arc::from(argument.to_string()), ..self }
+    pub(super) fn given_by(self, argument: &str) -> Self {
+        Self { argument: Arc::from(argument), ..self }
     }
 
     /// The same, shown in the unit of both ends of a range as they were typed, if they have one.

@@ -93,7 +93,7 @@ impl Vary {
     fn placed(&self, varied: Result<Varied, Faults>) -> Result<Varied, Faults> {
         let varied =
             varied.map_err(|faults| faults.in_argument(&self.to_string(), |_| 0..self.name.len()))?;
-        Ok(varied.given_by(self).typed_as(self.range.as_ref()))
+        Ok(varied.given_by(&self.to_string()).typed_as(self.range.as_ref()))
     }
 
     /// A warning for each end without a unit of what the model has in another unit than that of the SI.
