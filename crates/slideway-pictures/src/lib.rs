@@ -9,6 +9,7 @@
 
 #![forbid(unsafe_code)]
 
+mod changes;
 mod coordinate;
 pub mod drawing;
 pub mod map;

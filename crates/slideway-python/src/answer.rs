@@ -2,7 +2,7 @@
 
 use crate::arguments::optional_count;
 use crate::fault::Texts;
-use crate::plot::Plot;
+use crate::plot::{Plot, not_finite, theme};
 use crate::to_python::{fields, instance, to_python};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -15,11 +15,10 @@ use slideway::map::MapReport;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{SolveReport, Style};
-use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{limits_part, solve_parts};
-use slideway_pictures::theme::{DARK, LIGHT, Theme};
+use slideway_pictures::theme::Theme;
 use std::any::Any;
 use std::sync::Arc;
 
@@ -89,23 +88,9 @@ impl Asked {
     }
 }
 
-/// A picture with numbers that cannot be drawn.
-pub(crate) fn not_finite(error: NotFinite) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
-
 /// The style of a text, with colours for a terminal if wanted.
 pub(crate) fn style(color: bool) -> Style {
     Style::PLAIN.colour(color)
-}
-
-/// The theme of this name.
-pub(crate) fn theme(name: &str) -> PyResult<&'static Theme> {
-    match name {
-        "light" => Ok(&LIGHT),
-        "dark" => Ok(&DARK),
-        _ => Err(PyValueError::new_err(format!("theme must be 'light' or 'dark', not {name:?}"))),
-    }
 }
 
 /// A report, and what its pictures are made of.

@@ -1,7 +1,7 @@
 //! A motion as Python holds it: its report, its table, its pictures.
 
-use crate::answer::{Answer, Asked, not_finite, style, theme};
-use crate::plot::Plot;
+use crate::answer::{Answer, Asked, style};
+use crate::plot::{Plot, not_finite, theme};
 use crate::to_python::{frozen_array, to_python};
 use crate::work::Watch;
 use numpy::PyArray2;

@@ -1,6 +1,6 @@
 //! Pictures apart from answers: the colours of all of them, and drawings as pixels.
 
-use crate::answer::theme as named;
+use crate::plot::theme as named;
 use crate::to_python::to_python;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

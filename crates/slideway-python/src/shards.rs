@@ -2,7 +2,8 @@
 
 use crate::answer::Asked;
 use crate::fault::Texts;
-use crate::sweep::{Table, os_error, prepared, unfinished};
+use crate::sweep::{Table, os_error, unfinished};
+use crate::sweep_plot::prepared;
 use crate::work::Watch;
 use pyo3::prelude::*;
 use slideway::Model;

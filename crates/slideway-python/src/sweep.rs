@@ -3,6 +3,7 @@
 use crate::answer::{Asked, style};
 use crate::arguments::{choice, count, numbers, value};
 use crate::plot::Plot;
+use crate::sweep_plot::{self, prepared};
 use crate::to_python::to_python;
 use crate::work::{Ended, Watch};
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -194,18 +195,6 @@ pub(crate) fn os_error(error: &TableError) -> PyErr {
     PyOSError::new_err(printable::lines(&format!("{error}{hint}")))
 }
 
-/// A sweep of a model that is ready to be computed, with its exact ends of modes.
-pub(crate) fn prepared(
-    py: Python<'_>,
-    asked: &Asked,
-    options: &SweepOptions,
-    watch: &Watch,
-) -> PyResult<Sweep> {
-    let model = &asked.model;
-    let sweep = watch.run_beside(py, |callback| Sweep::new_with(model, options, callback).transpose())?;
-    sweep.whole()?.map_err(|faults| asked.refused(py, &faults))
-}
-
 /// Computes a sweep, or one shard of it.
 pub(crate) fn table(
     py: Python<'_>,
@@ -308,7 +297,11 @@ impl Table {
         time_limit: Option<f64>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Plot> {
-        crate::sweep_plot::plot(py, self, choice("quantity", quantity)?, &Watch::new(time_limit, progress)?)
+        if let Some(shard) = self.sweep.of_shard() {
+            return Err(PyValueError::new_err(format!("shard {shard} has no plot: merge all of them")));
+        }
+        let watch = Watch::new(time_limit, progress)?;
+        sweep_plot::plot(py, (&self.asked, &self.options), choice("quantity", quantity)?, &watch)
     }
 
     /// What the sweep comes to, in words.

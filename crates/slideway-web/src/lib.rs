@@ -21,6 +21,7 @@
 
 #[cfg(target_family = "wasm")]
 pub mod abi;
+mod kept;
 mod library;
 mod look;
 mod quantity;

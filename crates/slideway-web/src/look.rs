@@ -1,8 +1,9 @@
 //! What the page shows of a state: what can be changed in it, its drawings, and its solutions in words.
 
+use crate::kept::Kept;
 use crate::quantity::{MOST, Quantity, quantities};
 use crate::question::Asked;
-use crate::state::{Kept, State, first_held};
+use crate::state::{State, first_held};
 use crate::told_fault::{ToldFault, told};
 use serde::Serialize;
 use slideway::check::coordinates_of;

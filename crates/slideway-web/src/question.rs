@@ -1,6 +1,6 @@
 //! What can be asked.
 
-use crate::state::Kept;
+use crate::kept::Kept;
 use serde::Deserialize;
 use slideway::fault::Faults;
 use slideway::limits::Vary;

@@ -3,8 +3,8 @@
 //! While a slider is dragged the force scale stays, so that arrows grow as forces do, and so does the place of the
 //! picture. The scale is that of the model as it is in the file, whatever is set: the same link shows the same picture.
 
+use crate::kept::Kept;
 use crate::question::Asked;
-use serde::{Deserialize, Serialize};
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
@@ -12,29 +12,7 @@ use slideway::model::Model;
 use slideway::progress::Callback;
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
-use slideway_pictures::drawing::{Bounds, Held, Point, Sheet, pieces};
-
-/// What the page sends back with its next question of the same model: scale and place of the drawings.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct Kept {
-    /// The force (N) whose arrow has the usual length.
-    longest_force: Option<f64>,
-    /// Least x and y, then greatest.
-    place: [f64; 4],
-}
-
-impl From<Held> for Kept {
-    fn from(Held { longest_force, place: Bounds { least, greatest } }: Held) -> Self {
-        Self { longest_force, place: [least.x, least.y, greatest.x, greatest.y] }
-    }
-}
-
-impl From<Kept> for Held {
-    fn from(Kept { longest_force, place: [left, top, right, bottom] }: Kept) -> Self {
-        let place = Bounds { least: Point::new(left, top), greatest: Point::new(right, bottom) };
-        Self { longest_force, place }
-    }
-}
+use slideway_pictures::drawing::{Bounds, Held, Sheet, pieces};
 
 /// A state of a model.
 pub(crate) struct State {

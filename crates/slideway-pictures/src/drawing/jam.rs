@@ -5,6 +5,7 @@
 //! balance it. Of any other mechanism each force is drawn within its own cone.
 
 use super::Painter;
+use super::loads::LEAST_ARROW;
 use super::outline::{clipped, turned, unit};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
@@ -17,9 +18,6 @@ const CONE: f64 = 95.0;
 const BEYOND: f64 = 45.0;
 /// The greatest distance of that place from a contact with which it is drawn.
 const FARTHEST: f64 = 700.0;
-
-/// Radius of the mark of a corner that presses.
-pub(super) const CORNER: f64 = 5.0;
 
 /// A contact that presses.
 struct Cone {
@@ -150,7 +148,7 @@ impl Painter<'_> {
     }
 
     fn force_in_cone(&mut self, cone: &Cone, direction: Point, length: f64) {
-        let length = length.max(super::loads::LEAST_ARROW);
+        let length = length.max(LEAST_ARROW);
         let from = if cone.is_outside { cone.apex - direction * length } else { cone.apex };
         self.scene.add(Class::ContactForce, Shape::Arrow { from, to: from + direction * length });
         self.circle(Class::JammedCorner, cone.apex, CORNER);

@@ -1,7 +1,6 @@
 //! Springs and dampers, loads, weights and the efforts of drives.
 
 use super::Painter;
-use super::jam::CORNER;
 use super::looks::Look;
 use super::outline::{turned, unit};
 use super::scene::{Class, Element, Point, Shape};
@@ -20,6 +19,8 @@ const ARROW: f64 = 46.0;
 pub(super) const LONGEST_ARROW: f64 = 110.0;
 /// Below this length an arrow to scale is a head alone.
 pub(super) const LEAST_ARROW: f64 = 9.0;
+/// Radius of the mark of a corner that presses.
+pub(super) const CORNER: f64 = 5.0;
 /// A force whose part along a belt is smaller than itself by at most this part of it is along the belt, as rounding
 /// goes.
 const ALONG: f64 = 1e-9;

@@ -8,7 +8,7 @@ use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
 use super::units::in_units_of;
 use super::{NAME_SIZE, VALUE_SIZE, View, dimensions, quantity};
-use crate::plot::figure::changes;
+use crate::changes::changes;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;

@@ -2,7 +2,8 @@
 
 use super::colours::paint;
 use super::{draws_model, shown, told, untold_modes};
-use crate::plot::figure::{changes, headline};
+use crate::changes::changes;
+use crate::plot::figure::headline;
 use crate::plot::{Axis, Hatching};
 use crate::theme::Theme;
 use serde::Serialize;

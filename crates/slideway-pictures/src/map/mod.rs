@@ -10,7 +10,8 @@ mod regions;
 pub use drawn::{DrawnClass, DrawnMap, drawn};
 
 use crate::NotFinite;
-use crate::plot::figure::{changes, headline};
+use crate::changes::changes;
+use crate::plot::figure::headline;
 use crate::plot::frame::{FrameAxis, Placed, draw_axes};
 use crate::plot::svg::{Svg, coordinate, wrapped};
 use crate::plot::{SMALL, TITLE, hatching_fill, hatchings};

@@ -1,7 +1,8 @@
 //! What a figure shows, as plain data.
 
+use crate::changes::changes;
 use serde::Serialize;
-use slideway::model::{Setting, SettingKind, Settings};
+use slideway::model::Settings;
 
 /// A figure: panels one below the other, each with its legend.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
@@ -31,21 +32,6 @@ impl Figure {
         }
         self
     }
-}
-
-/// What settings change in a model, in words; empty where they change nothing.
-pub(crate) fn changes(settings: &Settings) -> String {
-    let change = |setting: &Setting| {
-        let Setting { name, value, kind, .. } = setting;
-        match kind {
-            SettingKind::Position => format!("at {name} = {value}"),
-            SettingKind::Rate => format!("rate of {name} = {value}"),
-            SettingKind::Time => format!("t = {value}"),
-            _ => format!("{name} = {value}"),
-        }
-    };
-    let changes: Vec<String> = settings.entries().iter().map(change).collect();
-    if changes.is_empty() { String::new() } else { format!("With {}", changes.join(", ")) }
 }
 
 /// The headline of a picture: the title of the model, and what is shown.

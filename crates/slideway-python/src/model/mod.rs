@@ -10,9 +10,10 @@ mod simulation;
 mod size;
 mod state;
 
-use crate::answer::{Answer, Asked, theme as named};
+use crate::answer::{Answer, Asked};
 use crate::arguments::{choice, count, optional_count, settings, varied, varied_one, vary};
 use crate::fault::file_error;
+use crate::plot::theme as named;
 use crate::work::Watch;
 use crate::{gallery, shards, sweep};
 use pyo3::exceptions::PyTypeError;

@@ -1,9 +1,10 @@
 //! What a model holds, and how it is asked.
 
 use super::{Model, pickle};
-use crate::answer::{Answer, Asked, not_finite};
+use crate::answer::{Answer, Asked};
 use crate::arguments::{choice, value};
 use crate::fault::{Texts, file_error, in_file};
+use crate::plot::not_finite;
 use crate::work::Watch;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};

@@ -1,7 +1,6 @@
 //! The efforts of the drives at one value of what is varied.
 
 use super::report::{Efficiency, EfficiencyKind};
-use super::state::PATTERNS;
 use crate::fault::Faults;
 use crate::kinetics::effort_forces;
 use crate::limits::Varied;
@@ -18,6 +17,8 @@ const NEAR: [f64; 2] = [1e-5, 1e-7];
 /// then leads through infinity.
 pub(super) const GROWTH: f64 = 30.0;
 
+/// The most patterns whose locking is sought.
+pub(super) const PATTERNS: u64 = 1 << 12;
 /// For a mode problem alone.
 const OPTIONS: ExistenceOptions =
     ExistenceOptions { range: [0.0, 1.0], greatest_normal_force: None, patterns: PATTERNS };

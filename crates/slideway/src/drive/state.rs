@@ -1,7 +1,7 @@
 //! The efforts in the state of the model.
 
 use super::continuum::effort_range;
-use super::efforts::{Efforts, efficiency, growing, power, velocities};
+use super::efforts::{Efforts, PATTERNS, efficiency, growing, power, velocities};
 use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, EffortRange, Frictionless, Sense};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -12,8 +12,6 @@ use crate::progress::{Progress, Work};
 use crate::report::{CoordinateState, Solution, SolveReport, Status};
 use crate::solve::{SolveOptions, Stages, common_coefficient, pattern, solve_with};
 
-/// The most patterns whose locking is sought.
-pub(super) const PATTERNS: u64 = 1 << 12;
 /// Less and more friction than in the model, as factors.
 const FACTORS: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, f64::INFINITY]];
 /// Blow-ups of a mode at the same factor count once.

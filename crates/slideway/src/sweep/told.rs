@@ -1,6 +1,6 @@
 //! Rows of a point from the report of a careful search.
 
-use super::evaluator::{Plan, Point};
+use super::plan::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, Rows};
 use super::writer::{head, number_in_modes};
 use crate::report::{

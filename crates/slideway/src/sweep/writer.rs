@@ -1,7 +1,7 @@
 //! Writes the states of a point that elimination has found.
 
 use super::columns::CoupleColumn;
-use super::evaluator::{Plan, Point};
+use super::plan::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, Rows};
 use super::stages::Stages;
 use crate::attainability::ElasticGuides;

@@ -1,0 +1,26 @@
+//! What the drawings of one answer give to those of the next.
+
+use serde::{Deserialize, Serialize};
+use slideway_pictures::drawing::{Bounds, Held, Point};
+
+/// What the page sends back with its next question of the same model: scale and place of the drawings.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct Kept {
+    /// The force (N) whose arrow has the usual length.
+    pub(crate) longest_force: Option<f64>,
+    /// Least x and y, then greatest.
+    pub(crate) place: [f64; 4],
+}
+
+impl From<Held> for Kept {
+    fn from(Held { longest_force, place: Bounds { least, greatest } }: Held) -> Self {
+        Self { longest_force, place: [least.x, least.y, greatest.x, greatest.y] }
+    }
+}
+
+impl From<Kept> for Held {
+    fn from(Kept { longest_force, place: [left, top, right, bottom] }: Kept) -> Self {
+        let place = Bounds { least: Point::new(left, top), greatest: Point::new(right, bottom) };
+        Self { longest_force, place }
+    }
+}
