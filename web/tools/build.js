@@ -44,14 +44,8 @@ function compiler() {
   );
   if (sources && linker && existsSync(resolve(sources, "lib/rustlib/src/rust/library/std"))) {
     return {
-      // Sorting and the like in few bytes; messages of panics without their places in the source.
-      words: ["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size"],
-      environment: {
-        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: "-Zlocation-detail=none",
-        RUSTC: debian,
-        RUSTC_BOOTSTRAP: "1",
-        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker,
-      },
+      words: ["-Zbuild-std=std,panic_abort"],
+      environment: { RUSTC: debian, RUSTC_BOOTSTRAP: "1", CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: linker },
     };
   }
   throw new Missing(
