@@ -66,7 +66,8 @@ impl ProblemData<'_> {
         let of_unit = [0, 1].map(|side| self.influence.columns[contact][side][row]);
         let Contact { preload, preload_line, .. } = &self.mechanism.contacts[contact];
         let [positive, negative] = preload_line.of_faces(of_unit);
-        (preload[0] * positive - preload[1] * negative).abs() > NO_COUPLE * preload[0].max(preload[1]) * self.mechanism.size
+        (preload[0] * positive - preload[1] * negative).abs()
+            > NO_COUPLE * preload[0].max(preload[1]) * self.mechanism.size
     }
 
     /// Whether the friction of the contact's preload, or an unknown with it, changes with the face.
