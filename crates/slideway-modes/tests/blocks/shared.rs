@@ -65,7 +65,7 @@ fn as_blocks(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &Shar
 #[test]
 fn contacts_that_share_a_load_are_blocks_whose_response_changes_its_sign() {
     let mut numbers = Numbers(2026);
-    let (mut open, mut several) = (0, 0);
+    let mut open = 0;
     for round in 0..120 {
         let shared = shared(&mut numbers, round % 3 == 0);
         let (friction, mut load) = (friction(&mut numbers), numbers.vector(CONTACTS) * 10.0);
@@ -83,7 +83,6 @@ fn contacts_that_share_a_load_are_blocks_whose_response_changes_its_sign() {
             assert!(expected.iter().any(near), "{round}: {forces} is not among {expected:?}");
             open += usize::from(solution.states.contains(&ContactState::Gap));
         }
-        several += usize::from(result.solutions.len() > 1);
     }
-    assert!(open > 30 && several > 0, "{open} {several}");
+    assert!(open > 60, "{open}");
 }
