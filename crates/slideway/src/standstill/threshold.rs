@@ -28,7 +28,7 @@ use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
 use crate::progress::Work;
 
-/// Feasible within rounding: what the programs leave over at the exact threshold, in relation to the greatest reaction.
+/// Feasible within rounding: what the programs leave over at the exact threshold.
 const ROUNDING: f64 = 1e-13;
 /// The bisection ends at this relative width.
 const WIDTH: f64 = 1e-14;
@@ -170,9 +170,7 @@ fn least_in(
     let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
     let missing = |value, enough: f64| {
         let region = state.region(&law.friction(alone, value)).watched(work);
-        // The reactions of a block that wedges grow without bound, and with them what rounding leaves over.
-        let size = |point: &[f64]| point.iter().fold(1.0_f64, |size, reaction| size.max(reaction.abs()));
-        region.highest_from(-enough).map(|(slack, point)| -slack / size(&point))
+        region.highest_from(-enough).map(|(slack, _)| -slack)
     };
     least_of(found.unwrap_or(GREATEST), missing)
 }

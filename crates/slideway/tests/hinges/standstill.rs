@@ -115,20 +115,6 @@ fn from_a_certain_friction_on_a_lever_is_self_locking(#[case] friction: &str, #[
     assert!((value - expected).abs() <= 1e-9 * expected, "{value} instead of {expected}");
 }
 
-/// By hand: the ends of the skirt press against opposite walls with N, the couple of these forces is skirt N, and that of
-/// their friction at most mu_static N bore, whatever the pins do. So it wedges from mu_static = skirt/bore = 0.75 on, and
-/// then holds any gas force. Reactions grow without bound towards that.
-#[rstest]
-#[case("0.1")]
-#[case("0")]
-fn a_piston_that_wedges_is_self_locking_whatever_its_pins_do(#[case] mu_pin: &str) {
-    let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
-    let model = model.with(&Settings::default().parameter("mu_pin", mu_pin)).unwrap();
-    let report = hold(&model, &HoldOptions::default().load("gas")).unwrap();
-    let value = report.load.unwrap().threshold.value.unwrap();
-    assert!((value - 7.5).abs() <= 1e-9 * 7.5, "{value} instead of 7.5");
-}
-
 /// Coefficients at the threshold are those of contacts: nothing is said without any, and what they are beside hinges.
 #[test]
 fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
