@@ -154,6 +154,9 @@ fn closest(mechanism: &Mechanism, poses: &[Pose], values: &[f64]) -> Vec<Pose> {
     for _ in 0..100 {
         let equations = JointEquations::with_coordinates(mechanism, &poses, values);
         let step = least_squares(&equations.jacobian, &-equations.residual);
+        if !step.iter().all(|part| part.is_finite()) {
+            break;
+        }
         let damping = (0.2 / step.amax().max(1e-300)).min(1.0);
         advance(mechanism, &mut poses, &(step * damping));
     }

@@ -156,10 +156,10 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// Whether the number of steps is the reason, or the end of the work; else the joint equations are singular there
-    /// within rounding.
+    /// Whether the number of steps is the reason, or the end of the work, or a way longer than any number; else the joint
+    /// equations are singular there within rounding.
     pub(super) fn is_effort(&self) -> bool {
-        self.is_ended || self.steps >= MOST_STEPS
+        self.is_ended || self.steps >= MOST_STEPS || !self.end.is_finite()
     }
 }
 
@@ -171,6 +171,9 @@ pub(super) fn follow(
     (end, values): (f64, &[f64]),
     proceed: &mut dyn FnMut() -> bool,
 ) -> Result<Arrival, Halt> {
+    if !end.is_finite() {
+        return Err(Halt { place, end, poses, steps: 0, is_ended: false });
+    }
     let mut guess = FIRST_WAY;
     for steps in 1..=MOST_STEPS {
         let rest = end - place;

@@ -677,7 +677,7 @@ impl<T: Real> Mechanism<T> {
         for circle in &mut self.friction_circles {
             *circle = circle.times(factor);
         }
-        self.friction = self.friction * factor;
+        self.friction *= factor;
     }
 
     /// Multiplies the coefficients of friction of each contact as they are at its sliding speed, by a factor of its own.

@@ -185,16 +185,18 @@ impl<'h, 's> Blocks<'h, 's> {
             )?,
             leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
             frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
-            shared: self.shared_in(&rows)?,
+            shared: match &setup.shared {
+                Some(shared) => Some(self.shared_in(shared, &rows)?),
+                None => None,
+            },
         };
         let BlockNumbers { response, jumps, load } = coefficients.numbers();
         BlockProblem::new(response, jumps, load).ok()
     }
 
-    /// How redundant guides share their load, with the self-stresses in all these rows, those of the contacts first; the outer
-    /// `None` where the equations are singular.
-    fn shared_in(&self, rows: &[usize]) -> Option<Option<SharedLoad>> {
-        let Some(shared) = &self.held.setup.shared else { return Some(None) };
+    /// How redundant guides share their load, with the self-stresses in all these rows, those of the contacts first.
+    /// Returns `None` where the equations are singular.
+    fn shared_in(&self, shared: &SharedLoad, rows: &[usize]) -> Option<SharedLoad> {
         let size = self.held.load.len();
         let units: Vec<DVector<f64>> = self.held.setup.assembled.layout.cut_units();
         let units: Vec<DVector<f64>> =
@@ -205,7 +207,7 @@ impl<'h, 's> Blocks<'h, 's> {
             if row < contacts { shared.self_stress[(row, stress)] } else { stresses[stress][rows[row]] }
         };
         let self_stress = DMatrix::from_fn(rows.len(), stresses.len(), force);
-        Some(Some(SharedLoad { self_stress, ..shared.clone() }))
+        Some(SharedLoad { self_stress, ..shared.clone() })
     }
 
     fn leverage(&self, hinge: usize) -> f64 {
