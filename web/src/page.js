@@ -3,7 +3,7 @@
 import { byId, element, inWords, parsed, say, settled, themeName } from "./dom.js";
 import { pixels, save } from "./downloads.js";
 import { Drawings } from "./drawings.js";
-import { LateEditor } from "./late-editor.js";
+import { Editor } from "./editor.js";
 import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
 import { withUnit } from "./numbers.js";
@@ -41,7 +41,6 @@ module
     isHere = true;
     byId("loading").hidden = true;
     wait(false);
-    editor.begin().catch((error) => notice(error.message));
   });
 /** One engine follows what is dragged, the other answers what takes longer. */
 const live = new Engine(module, "worker.js");
@@ -61,7 +60,7 @@ const verdict = new Verdict(document, () => {
 });
 const drawings = new Drawings(byId("drawings"));
 const sliders = new Sliders(byId("sliders"), changed);
-const editor = new LateEditor(byId("editor"), settled(edited, 120));
+const editor = new Editor(byId("editor"), settled(edited, 120));
 const strip = new Strip(byId("strip"), (value) => changed(varied(), withUnit(value, varied().unit)));
 const map = new MapPanel(byId("panel-map"), {
   ask: (question, axes) => slowly({ ...question, ...state.asked(...axes) }),

@@ -94,15 +94,13 @@ function install() {
 async function bundle() {
   const { build } = await import("esbuild");
   const { metafile } = await build({
-    entryPoints: ["page.js", "editor.js", "worker.js", "embed.js"].map((name) => resolve(web, "src", name)),
+    entryPoints: ["page.js", "worker.js", "embed.js"].map((name) => resolve(web, "src", name)),
     outdir: page,
     bundle: true,
     format: "esm",
     target: "es2022",
     minify: true,
     metafile: true,
-    // It comes after the page.
-    external: ["./editor.js"],
     define: { ENGINE_BYTES: String(statSync(engine).size) },
     logLevel: "warning",
   });
