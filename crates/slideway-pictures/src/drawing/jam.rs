@@ -5,7 +5,7 @@
 //! balance it. Of any other mechanism each force is drawn within its own cone.
 
 use super::Painter;
-use super::loads::LEAST_ARROW;
+use super::loads::{CORNER, LEAST_ARROW};
 use super::outline::{clipped, turned, unit};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
