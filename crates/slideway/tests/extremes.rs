@@ -113,26 +113,26 @@ fn the_way_from_the_drawing_ends_where_the_callback_says_so() {
 /// Bars, one hanging on the other, and a block in a guide at the end.
 fn chain(bars: usize) -> Model {
     let point = |at: usize| format!("P{at} = [{}, {}]\n", 0.05 * at as f64, 0.01 * (at % 3) as f64);
-    let mut text = format!("[points]\n{}", (0..=bars).map(point).collect::<String>());
-    for at in 0..bars {
+    let bar = |at: usize| {
         let next = at + 1;
         let before = at.checked_sub(1).map_or("ground".to_owned(), |before| format!("b{before}"));
-        text += &format!(
-            "[bodies.b{at}]\npoints = ['P{at}', 'P{next}']\nmass = '0.1 kg'\nshape = {{ bar = ['P{at}', 'P{next}'] }}\n"
-        );
-        text += &format!("[joints.h{at}]\ntype = 'hinge'\nbetween = ['b{at}.P{at}', '{before}.P{at}']\n");
-    }
+        format!(
+            "[bodies.b{at}]\npoints = ['P{at}', 'P{next}']\nmass = '0.1 kg'\nshape = {{ bar = ['P{at}', 'P{next}'] }}\n\
+             [joints.h{at}]\ntype = 'hinge'\nbetween = ['b{at}.P{at}', '{before}.P{at}']\n"
+        )
+    };
     let last = bars - 1;
-    text += &format!(
-        "[bodies.block]\npoints = ['P{bars}']\nmass = '1 kg'\ncentre_of_mass = 'P{bars}'\nshape = {{ rectangle = ['60 mm', '40 mm'] }}\n"
+    let block = format!(
+        "[bodies.block]\npoints = ['P{bars}']\nmass = '1 kg'\ncentre_of_mass = 'P{bars}'\n\
+         shape = {{ rectangle = ['60 mm', '40 mm'] }}\n\
+         [joints.end]\ntype = 'hinge'\nbetween = ['block.P{bars}', 'b{last}.P{bars}']\n\
+         [joints.guide]\ntype = 'block_slider'\nblock = 'block'\nguide = 'ground'\nat = 'P{bars}'\nalong = '0 deg'\n\
+         length = '60 mm'\nheight = '40 mm'\nmu = 0.1\n"
     );
-    text += &format!("[joints.end]\ntype = 'hinge'\nbetween = ['block.P{bars}', 'b{last}.P{bars}']\n");
-    text += &format!(
-        "[joints.guide]\ntype = 'block_slider'\nblock = 'block'\nguide = 'ground'\nat = 'P{bars}'\nalong = '0 deg'\nlength = '60 mm'\nheight = '40 mm'\nmu = 0.1\n"
-    );
-    for at in 0..last {
-        text += &format!("[coordinates.q{at}]\nrotation = 'b{at}'\nrate = '0.1 rad/s'\n");
-    }
+    let rate = |at: usize| format!("[coordinates.q{at}]\nrotation = 'b{at}'\nrate = '0.1 rad/s'\n");
+    let [points, bars, rates]: [String; 3] =
+        [(0..=bars).map(point).collect(), (0..bars).map(bar).collect(), (0..last).map(rate).collect()];
+    let text = format!("[points]\n{points}{bars}{block}{rates}");
     Model::parse(&text).unwrap()
 }
 
