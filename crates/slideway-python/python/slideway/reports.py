@@ -240,7 +240,7 @@ CauseKind = Literal[
 - `"jams"`: It jams, and an impulse acts."""
 
 CertificateKind = Literal["proven", "on_boundary", "not_proven"]
-"""What is proven of a solution.
+"""The kind of proof of a solution.
 
 - `"proven"`: It exists for the exact mechanism, inside of its mode.
 - `"on_boundary"`: Some normal force or determinant is zero within the rounding of the mechanism's numbers.
@@ -257,7 +257,7 @@ ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "hold"]
 - `"hold"`: Whether it can stay at rest, drives absent."""
 
 CoordinateForm = Literal["slide", "rotation", "displacement"]
-"""What a coordinate measures.
+"""The kind of a coordinate.
 
 - `"slide"`: The displacement of a sliding joint.
 - `"rotation"`: The angle between two bodies.
@@ -281,7 +281,7 @@ EigenvalueUnit = Literal["1/s^2", "1/kg"]
 - `"1/kg"`: For a stiffness of 1 N/m at every contact."""
 
 Elasticity = Literal["given", "rigid", "equal"]
-"""What is taken for the elasticity of contacts that share a load.
+"""The assumed elasticity of contacts that share a load.
 
 - `"given"`: The stiffnesses of the model.
 - `"rigid"`: The faces are rigid: there is play or misalignment, but no stiffness.
@@ -350,7 +350,7 @@ FromRest = Literal[
     "undecided",
     "not_examined",
 ]
-"""What the loads do with a mechanism that has stopped, as standstill in the same position tells.
+"""The effect of the loads on a mechanism that has stopped, by the analysis of standstill in the same position.
 
 - `"rests"`: It stays at rest.
 - `"rests_or_moves"`: It may stay at rest, and may begin to move.
@@ -390,7 +390,7 @@ static friction.
 - `"does_not_hold"`: It cannot stay at rest; motions without inertia keep its accelerations from being known."""
 
 JointForm = Literal["hinge", "block slider", "guided slider", "pin in slot"]
-"""What a joint is.
+"""The kind of a joint.
 
 - `"hinge"`: A hinge.
 - `"block slider"`: A block of some length in a guide, with contacts at both ends.
@@ -467,7 +467,7 @@ ModeEndCause = Literal[
     "reversal",
     "no_mode_problem",
 ]
-"""What ends a mode where something is varied.
+"""The cause of the end of a mode where something is varied.
 
 - `"nothing"`: Nothing: it lasts however much friction grows.
 - `"range"`: The range that was looked at.
@@ -580,8 +580,7 @@ SpeedChange = Literal[
     "stays_at_rest",
     "undecided",
 ]
-"""What becomes of the speed of a coordinate, from the signs of its rate and of proven bounds of its
-acceleration.
+"""The change of the speed of a coordinate, from the signs of its rate and of proven bounds of its acceleration.
 
 - `"speeds_up"`: Its acceleration has the direction of its rate.
 - `"keeps_its_speed"`: Its acceleration is zero within rounding.
@@ -611,7 +610,7 @@ Stroke = Literal["solid", "dashed", "dotted", "dash_dotted"]
 - `"dash_dotted"`: What attainability says nothing definite about: dashes and dots."""
 
 Verdict = Literal["attainable", "unattainable", "flutter", "undecided", "not_computed"]
-"""What becomes of a solution when the guides are slightly elastic (theory, section 7).
+"""The fate of a solution when the guides are slightly elastic (theory, section 7).
 
 - `"attainable"`: All fast motions are stable: the mechanism settles on the solution.
 - `"unattainable"`: Some fast motion leaves the solution whatever the damping of the contacts.
@@ -660,10 +659,10 @@ class Attainability(Record):
     massless_motions: int
     """Number of motions without mass that elastic guides allow; their masses tend to zero from above."""
     depends_on_stiffness: bool | None = None
-    """Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent if
+    """True if the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent if
     not tried."""
     depends_on_mass_ratios: bool | None = None
-    """Whether the verdict depends on the ratios of the vanishing masses."""
+    """True if the verdict depends on the ratios of the vanishing masses."""
     flutter_damping: FlutterDamping | None = None
     """For flutter: the damping of the contacts that suppresses it."""
     separates: tuple[Mapping[str, Any] | str, Mapping[str, Any] | str] | None = None
@@ -824,7 +823,7 @@ class CauseReport(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class CheckReport(_mixins.CheckReport, Report):
-    """What a model consists of, and what stands in the way of solving it."""
+    """The parts of a model, and the hindrances to solving it."""
 
     _absent = {"sharing": None, "steps_from_drawing": None}
 
@@ -833,14 +832,14 @@ class CheckReport(_mixins.CheckReport, Report):
     title: str | None
     """The model's title."""
     sound: bool
-    """Whether nothing stands in the way of `solve` in this state: there are no findings. (What only the
+    """True if nothing stands in the way of `solve` in this state: there are no findings. (What only the
     enumeration of the modes can tell, such as too many preload gaps, is not tried.)"""
     findings: tuple[Finding, ...]
     """Everything for which that would be refused."""
     questions: tuple[Question, ...]
     """The questions, and which of them the model can answer in this state."""
     warnings: tuple[WarningReport, ...]
-    """What is perhaps not meant, though it does not stand in the way."""
+    """Warnings of what is perhaps not meant, though it does not stand in the way."""
     mobility: MobilitySummary
     """Degrees of freedom and determinacy."""
     sharing: LoadSharing | None
@@ -850,7 +849,7 @@ class CheckReport(_mixins.CheckReport, Report):
     condition: float | None
     """Ratio of the greatest to the least pivot of the kinetic equations, if they can be solved."""
     assembled: bool
-    """Whether the state could be assembled; if not, what depends on it is told of the drawing."""
+    """True if the state could be assembled; if not, what depends on it is that of the drawing."""
     steps_from_drawing: int | None
     """In how many steps the positions were followed from the drawing, each proven to stay on its assembly
     branch; absent where they are those of the drawing."""
@@ -881,7 +880,7 @@ class ClosestMode(Record):
     joints: tuple[JointMode, ...]
     """The contact mode of each sliding joint."""
     absolute_normal_forces: NDArray[np.float64]
-    """What the mode's equations give for |N| of each contact (N); a negative value contradicts the mode."""
+    """The value of |N| in the equations of the mode, of each contact (N); a negative value contradicts the mode."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -969,7 +968,7 @@ class ContactSummary(Record):
     mu: tuple[float, float]
     """Kinetic friction coefficient where the normal force is positive, and where it is negative."""
     mu_depends_on_speed: bool = False
-    """Whether it depends on the sliding speed; it is told at that of the state."""
+    """True if it depends on the sliding speed; it is given at that of the state."""
     mu_static: tuple[float, float]
     """Static friction coefficient, likewise."""
     preload: tuple[float, float]
@@ -995,7 +994,7 @@ class Continuum(Record):
     motion: tuple[DrivenMotion, ...] = ()
     """Efforts and accelerations at each vertex; none where a preload may rub at either face."""
     motion_along: tuple[DrivenMotion, ...] = ()
-    """What a unit of each direction adds to them."""
+    """The contributions of a unit of each direction to them."""
     tipping: tuple[str, ...]
     """The guided sliders that would tip in a part of it."""
     couple: CoupleRange | None = None
@@ -1041,7 +1040,7 @@ class CoordinateAcceleration(Record):
     acceleration_bounds: tuple[float, float] | None = None
     """Proven bounds of its acceleration; absent where there are none."""
     speed: SpeedChange | None = None
-    """What becomes of its speed; absent if a drive prescribes its motion."""
+    """The change of its speed; absent if a drive prescribes its motion."""
     stop: Stopping | None = None
     """If it slows down: when and where it stops if its acceleration stays as it is."""
 
@@ -1079,9 +1078,9 @@ class CoordinateSummary(Record):
     name: str
     """Its name."""
     kind: CoordinateForm
-    """What it measures."""
+    """Its kind."""
     positive: str
-    """What it means that it grows, in words."""
+    """Its positive direction, in words."""
     unit: str
     """"m" or "rad"."""
     value: float
@@ -1632,9 +1631,9 @@ class Finding(Record):
     """Something for which the model would be refused."""
 
     message: str
-    """What is wrong."""
+    """The fault in words."""
     hint: str | None
-    """What to do about it."""
+    """The remedy."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1679,7 +1678,7 @@ class HeldFriction(Record):
     """At each vertex: the friction force, positive against positive sliding, or the couple on the hinge's first
     body."""
     along: NDArray[np.float64]
-    """What a unit of each direction adds to it."""
+    """The contributions of a unit of each direction to it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1774,7 +1773,7 @@ class InertiaSummary(Record):
     """Inertia of the motions that the joints leave."""
 
     regular: bool
-    """Whether the mass matrix is regular on them: every motion has kinetic energy."""
+    """True if the mass matrix is regular on them: every motion has kinetic energy."""
     motions_without: tuple[str, ...]
     """The motions that have none."""
 
@@ -1792,7 +1791,7 @@ class InfluenceSummary(Record):
     eta_positive: tuple[NDArray[np.float64], ...]
     """eta_jk for friction at the faces of positive normal force; row j is the contact that answers."""
     eta_negative: tuple[NDArray[np.float64], ...]
-    """The same at the faces of negative normal force."""
+    """As above, at the faces of negative normal force."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1826,7 +1825,7 @@ class JointSummary(Record):
     name: str
     """Its name."""
     kind: JointForm
-    """What it is."""
+    """Its kind."""
     joins: tuple[str, str]
     """The bodies it joins; of a sliding joint first the block, then the guide."""
     constraints: int
@@ -1834,7 +1833,7 @@ class JointSummary(Record):
     direction: tuple[float, float] | None
     """Direction `u` of a sliding joint in this state: that of `along`, turned with the guide."""
     positive: str | None
-    """What it means that it slides in its positive direction, in words."""
+    """Its positive direction of sliding, in words."""
     displacement: float | None
     """Displacement of a sliding joint (m)."""
     overlap: float | None
@@ -1922,11 +1921,11 @@ class LoadSharing(Record):
     groups: tuple[tuple[str, ...], ...]
     """The contacts that share a load, in groups that do not act on one another by self-stresses."""
     elasticity: Elasticity
-    """What is taken for their elasticity."""
+    """Their assumed elasticity."""
     press_fits: tuple[PressFit, ...] = ()
     """The press fits."""
     stiffness_ratios: StiffnessRatios | None = None
-    """Whether other ratios of stiffnesses would change the contact modes; absent if that was not asked, for
+    """True if other ratios of stiffnesses would change the contact modes; absent if that was not asked, for
     rigid faces, and where there are too many patterns."""
 
 
@@ -2099,13 +2098,13 @@ class MobilitySummary(Record):
     degrees_of_freedom: int
     """Motions that the joints leave."""
     determinate: bool
-    """Whether all constraints are independent, so that the reactions are determinate."""
+    """True if all constraints are independent, so that the reactions are determinate."""
     singular_position: bool
-    """Whether dependent constraints are so in this position only."""
+    """True if dependent constraints are so in this position only."""
     joints_in_excess: tuple[str, ...]
     """The joints among which the excess lies."""
     suggestion: str | None
-    """What would make the structure determinate."""
+    """Changes that would make the structure determinate."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2150,14 +2149,14 @@ class ModeMargin(Record):
     factor: float | None = None
     """The factor; absent if the mode never ends."""
     ends_with: ModeEndCause
-    """What ends it."""
+    """The cause of its end."""
     contacts: tuple[str, ...]
     """The contacts that end it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ModelSummary(Record):
-    """What a model is."""
+    """A summary of a model."""
 
     title: str | None
     """Its title."""
@@ -2285,11 +2284,11 @@ class Question(Record):
     """The command that asks it: "solve" (and with it "limits", "size", "sweep", "map"), "drive", "hold",
     "simulate"."""
     ready: bool
-    """Whether nothing stands in its way."""
+    """True if nothing stands in its way."""
     findings: tuple[Finding, ...]
     """Everything for which it would be refused."""
     needs: tuple[str, ...]
-    """What it needs, in a few words, if that is little: "a rate"."""
+    """Its needs in a few words, if that is little: "a rate"."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2675,12 +2674,12 @@ class Solution(_mixins.Solution, Record):
     signs: tuple[int, ...]
     """Sign of each normal force, 0 where it vanishes."""
     on_boundary: bool
-    """Whether some contact is about to change side: its normal force is zero within rounding."""
+    """True if some contact is about to change side: its normal force is zero within rounding."""
     floating: tuple[str, ...] = ()
     """Contacts of redundant guides without normal force that do not settle where the block is within its play:
     it floats."""
     certificate: CertificateKind
-    """What is proven of it."""
+    """The kind of its proof."""
     margin: ModeMargin | None = None
     """By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at once."""
     determinant: float
@@ -2689,7 +2688,7 @@ class Solution(_mixins.Solution, Record):
     """D times the product of the signs; positive without friction (theory, section 5). Of redundant guides the
     mean of those of their determinate parts, 1 without friction (theory, eq. (R4))."""
     attainability: Attainability
-    """Whether a mechanism with slightly elastic guides settles on it."""
+    """The verdict on whether a mechanism with slightly elastic guides settles on it."""
     contacts: tuple[Contact, ...]
     """The contacts, in the order of the model."""
     joints: tuple[JointMode, ...]
@@ -2701,7 +2700,7 @@ class Solution(_mixins.Solution, Record):
     coordinates: tuple[CoordinateAcceleration, ...]
     """The accelerations of the chosen coordinates."""
     friction_exceeds_loads: bool
-    """Whether it is proven that the loads and weights push the motion and friction takes more power than they
+    """True if it is proven that the loads and weights push the motion and friction takes more power than they
     give; never with drives."""
     drives: tuple[Drive, ...]
     """The efforts of the drives."""
@@ -2720,11 +2719,11 @@ class SolveReport(_mixins.SolveReport, Report):
     status: Status
     """How many solutions there are; of those that were found if the search ended early."""
     complete: Proof
-    """Whether these are certainly all solutions of the mechanism, rounding included."""
+    """Proof that these are all solutions of the mechanism, rounding included."""
     partial: bool
-    """Whether the search ended before every possibility was dealt with."""
+    """True if the search ended before every possibility was dealt with."""
     open: tuple[str, ...]
-    """What remains open, in words; empty if `complete` is `Proof::Proven`."""
+    """The open questions, in words; empty if `complete` is `Proof::Proven`."""
     count: str
     """Number of solutions, as decimal text: it may be beyond any integer type, and more than are listed."""
     gap_state_count: str
@@ -2734,7 +2733,7 @@ class SolveReport(_mixins.SolveReport, Report):
     nodes: int
     """Nodes of the search that were visited."""
     model: ModelSummary
-    """What the model is."""
+    """A summary of the model."""
     state: tuple[CoordinateState, ...]
     """The state: chosen coordinates and their rates."""
     rates_not_given: tuple[str, ...]
@@ -2780,8 +2779,8 @@ class SolveReport(_mixins.SolveReport, Report):
     sharing: LoadSharing | None
     """How redundant guides share their load; absent if no constraint is redundant."""
     uncertainty: Uncertainty | None
-    """What parameters known within bounds leave certain; absent if there are none. Everything else in the report
-    holds for the middle of their ranges."""
+    """The results that hold for all values of parameters known within bounds; absent if there are none.
+    Everything else in the report holds for the middle of their ranges."""
     influence: InfluenceSummary
     """Accelerations and normal forces without friction, and the influence coefficients."""
     condition: float
@@ -2843,7 +2842,7 @@ class StiffnessRatios(Record):
     """How many combinations of 1/10, 1 and 10 were tried, in rounded numbers; beyond four contacts they are a
     sample of all."""
     same: bool
-    """Whether each has the same contact modes as the model."""
+    """True if each has the same contact modes as the model."""
     others: tuple[str, ...]
     """The other contact modes that were met: one sign or 0 for each contact."""
 
@@ -2919,13 +2918,14 @@ class Threshold(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tipping(Record):
-    """What tips where there is no solution: a guided slider has no state in which it is tipped."""
+    """The guided sliders that tip where there is no solution: a guided slider has no state in which it is
+    tipped."""
 
     joints: tuple[str, ...]
     """The guided sliders that would tip in a solution of the equations: as block sliders they show whether it
     moves."""
     throughout: bool
-    """Whether there is such a solution wherever that was asked: then friction does not lock it."""
+    """True if there is such a solution wherever that was asked: then friction does not lock it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -2971,7 +2971,7 @@ class UncertainParameter(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Uncertainty(Record):
-    """What is certain for all values of parameters that are known within bounds only."""
+    """Results for all values of parameters that are known within bounds only."""
 
     parameters: tuple[UncertainParameter, ...]
     """The parameters and their bounds."""
@@ -3001,7 +3001,7 @@ class UndecidedMode(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Undetermined(Record):
-    """What infinitely many solutions leave open, and between which values."""
+    """The quantities that infinitely many solutions leave open, and their ranges."""
 
     sharing: tuple[str, ...]
     """The joints whose share of a load is open."""
