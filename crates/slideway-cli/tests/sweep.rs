@@ -32,6 +32,14 @@ fn lines(table: &str) -> Vec<&str> {
     table.lines().filter(|line| !line.starts_with('#')).collect()
 }
 
+/// In sizes of the mechanism the way to them is longer than any number.
+#[test]
+fn places_beyond_all_numbers_are_no_positions_at_once() {
+    let run =
+        slideway(&["sweep", "models/wedge.toml", "--vary", "x=-1.7e308 m..3 m:7", "--time-limit", "10s"]);
+    assert!(run.stderr.contains("6   85.714 %  no position"), "{}", run.stderr);
+}
+
 /// Four hinges at rest are four faults, told on one line.
 #[test]
 fn several_faults_of_a_point_are_told_on_one_line() {

@@ -89,11 +89,6 @@ fn only(faults: &Faults) -> FaultKind {
 fn states_far_from_the_drawing_are_refused_after_so_many_steps() {
     let turned = faults("slider-crank", &Settings::default().position("phi", "1e5 rad"));
     assert!(matches!(only(&turned), FaultKind::TooFar { steps: 5000, .. }), "{turned}");
-    // In sizes of the mechanism these ways are longer than any number.
-    for x in ["1.7e308 m", "-1.7e308 m"] {
-        let moved = faults("wedge", &Settings::default().position("x", x));
-        assert!(matches!(only(&moved), FaultKind::TooFar { steps: 0, .. }), "{moved}");
-    }
 }
 
 #[test]

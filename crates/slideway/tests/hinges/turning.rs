@@ -49,17 +49,10 @@ fn a_hinge_that_just_turns_back_has_the_friction_of_what_follows() {
 #[test]
 fn a_check_finds_what_is_refused() {
     let crank = slider_crank_text();
-    let support =
-        "length = 0.06\nheight = 0.04\nplay = 1e-4\nstiffness = 1e7\nsupports = { middle = { at = 0.01 } }";
     let four_bar = gallery::find("four-bar").unwrap().text;
     let at_rest = four_bar.replace("rate = \"10 rad/s\"", "rate = 0");
     assert_ne!(four_bar, at_rest);
-    let texts = [
-        crank.replace("rate = 60", "rate = 0"),
-        crank.replace("length = 0.06", support),
-        at_rest,
-        two_that_never_turn().to_owned(),
-    ];
+    let texts = [crank.replace("rate = 60", "rate = 0"), at_rest, two_that_never_turn().to_owned()];
     for text in texts {
         let model = Model::parse(&text).unwrap();
         let refused = solve(&model).unwrap_err();
