@@ -44,8 +44,7 @@ fn a_hinge_that_just_turns_back_has_the_friction_of_what_follows() {
     assert!(here.2[0].contains("the sense in which B turns is not certain"), "{:?}", here.2);
 }
 
-/// A check finds whatever is refused: hinges at rest, also without any sliding joint, guides that share a load beside
-/// rough hinges, several hinges that never turn.
+/// A check finds whatever is refused: hinges at rest, also without any sliding joint, several hinges that never turn.
 #[test]
 fn a_check_finds_what_is_refused() {
     let crank = slider_crank_text();
