@@ -59,10 +59,10 @@ impl Over<Vec<Release>> {
     }
 }
 
-/// The states with these signs if hinges turn in them and the friction of what sticks is determined, so that their forces
-/// are isolated: then the search of the block mode problem finds all of them, or says that it does not.
+/// The states with these signs if hinges turn in them, the friction of what sticks is determined and guides share no load, so
+/// that their forces are isolated: then the search of the block mode problem finds all of them, or says that it does not.
 fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'_>) -> Option<TurningStates> {
-    if signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking) {
+    if setup.shared.is_some() || signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking) {
         return None;
     }
     let states = turning_states(setup, signs, motions, &mut |told| work.tell(told))?;

@@ -9,7 +9,7 @@ use crate::enclosure::{BlockCoefficients, BlockNumbers, TurningHinge};
 use crate::ids::ContactId;
 use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
-use crate::modes::{ContactState, SearchOptions, SharedLoad, Side};
+use crate::modes::{ContactState, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
 use crate::progress::Callback;
 use crate::solve::{friction_of_contacts, preload_columns, without_rounding};
@@ -30,8 +30,8 @@ pub(super) struct TurningStates {
     pub(super) determinate: bool,
 }
 
-/// The states with these signs of all joints and hinges; nothing where the equations are singular. Once the callback breaks
-/// they are not decided.
+/// The states with these signs of all joints and hinges, of mechanisms whose guides share no load; nothing where the
+/// equations are singular. Once the callback breaks they are not decided.
 pub(super) fn turning_states(
     setup: &Setup,
     signs: &Pattern,
@@ -185,29 +185,10 @@ impl<'h, 's> Blocks<'h, 's> {
             )?,
             leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
             frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
-            shared: match &setup.shared {
-                Some(shared) => Some(self.shared_in(shared, &rows)?),
-                None => None,
-            },
+            shared: None,
         };
         let BlockNumbers { response, jumps, load } = coefficients.numbers();
         BlockProblem::new(response, jumps, load).ok()
-    }
-
-    /// How redundant guides share their load, with the self-stresses in all these rows, those of the contacts first.
-    /// Returns `None` where the equations are singular.
-    fn shared_in(&self, shared: &SharedLoad, rows: &[usize]) -> Option<SharedLoad> {
-        let size = self.held.load.len();
-        let units: Vec<DVector<f64>> = self.held.setup.assembled.layout.cut_units();
-        let units: Vec<DVector<f64>> =
-            units.into_iter().map(|unit| unit.resize_vertically(size, 0.0)).collect();
-        let stresses = self.held.answers(&units)?;
-        let contacts = shared.self_stress.nrows();
-        let force = |row: usize, stress: usize| {
-            if row < contacts { shared.self_stress[(row, stress)] } else { stresses[stress][rows[row]] }
-        };
-        let self_stress = DMatrix::from_fn(rows.len(), stresses.len(), force);
-        Some(SharedLoad { self_stress, ..shared.clone() })
     }
 
     fn leverage(&self, hinge: usize) -> f64 {
