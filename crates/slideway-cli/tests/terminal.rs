@@ -22,7 +22,7 @@ fn on_terminal(command: &mut Command) -> (String, i32) {
     typing("", command)
 }
 
-/// The same if this is typed, which the terminal shows, too.
+/// The same if this has been typed before it begins: the terminal shows it first.
 fn typing(typed: &str, command: &mut Command) -> (String, i32) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&master).unwrap();
@@ -30,6 +30,8 @@ fn typing(typed: &str, command: &mut Command) -> (String, i32) {
     let name = ptsname(&master, Vec::new()).unwrap();
     let path = Path::new(std::ffi::OsStr::from_bytes(name.as_bytes()));
     let slave = OpenOptions::new().read(true).write(true).open(path).unwrap();
+    let mut master = File::from(master);
+    master.write_all(typed.as_bytes()).unwrap();
     let stream = || Stdio::from(slave.try_clone().unwrap());
     let mut child = command
         .env("TERM", "xterm-256color")
@@ -41,8 +43,6 @@ fn typing(typed: &str, command: &mut Command) -> (String, i32) {
     // The command keeps its streams until it is dropped or given others.
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     drop(slave);
-    let mut master = File::from(master);
-    master.write_all(typed.as_bytes()).unwrap();
     let mut bytes = Vec::new();
     // Reading ends with an error once the program has closed the terminal.
     let _ = master.read_to_end(&mut bytes);
