@@ -253,6 +253,8 @@ impl<'a, 'm> Run<'a, 'm> {
             without_ended(&self.smooth.equations, &mut successors.list, &causes, previous.as_ref());
             if !successors.list.is_empty() {
                 let taken = self.choose(&successors.list)?;
+                // Where its normal force vanishes, so does the room of a guided slider to tip: it goes on at the other face.
+                causes.retain(|cause| !matches!(cause, Cause::Tips(_)));
                 self.tell(causes, successors, taken);
                 let branching = self.branchings;
                 return Ok(if taken.is_some() { None } else { Some(End::NoSuchBranch { branching }) });

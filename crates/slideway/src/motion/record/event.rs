@@ -115,7 +115,7 @@ impl Words<'_> {
                 Some(_) => return None,
                 None => format!("{} stops turning", self.name(*joint)),
             },
-            Cause::Locks => "it jams in this state of contact".to_owned(),
+            Cause::Locks => "friction locks this state of contact".to_owned(),
             Cause::Folds => "this state of contact ends where it meets another one (a fold)".to_owned(),
             Cause::ReactionLimit(contact) => {
                 format!("the normal force of {} reaches its limit", self.contact(*contact))
