@@ -146,7 +146,7 @@ def test_same_model_of_a_drawing(program: Program, drawing: Path) -> None:
 def test_a_drawing_without_a_unit(tmp_path: Path) -> None:
     path = tmp_path / "crank.dxf"
     path.write_text("\n".join("0 SECTION 2 ENTITIES 0 CIRCLE 8 crank 10 0 20 0 40 60 0 ENDSEC 0 EOF".split()))
-    with pytest.raises(ValueError, match="say it with unit, such as unit mm"):
+    with pytest.raises(ValueError, match='for instance with `unit="mm"`'):
         slideway.import_dxf(path)
     with pytest.raises(ValueError, match="mm"):
         slideway.import_dxf(path, unit="miles")

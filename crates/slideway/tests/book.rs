@@ -112,7 +112,6 @@ fn tolerances_of_the_book_are_those_of_the_sources() {
             "slideway-modes" => "crates/slideway-modes/src".to_owned(),
             _ => format!("crates/slideway/src/{module}"),
         };
-        let folder = if top.join(&folder).is_dir() { folder } else { format!("{folder}.rs") };
         let paths = sources(&top.join(&folder));
         let defines = |path: &PathBuf| {
             let text = fs::read_to_string(path).unwrap();

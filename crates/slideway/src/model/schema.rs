@@ -1,7 +1,7 @@
 //! What the types of a model file give as JSON Schema, which `schema.json` has to be.
 //!
 //! The program reads `schema.json`. If the test says that it differs, this makes it anew:
-//! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > /tmp/schema.json`, to be moved here.
+//! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > target/schema.json`, to be moved here.
 
 use super::file::{
     BodyTable, ContactTable, CoordinateTable, DriveTable, EventTable, HingeTable, SliderTable, StopTable,
