@@ -130,7 +130,7 @@ pub struct Stretch<T> {
 pub struct Scan<'a, T> {
     /// The answer at a value.
     pub answer: &'a dyn Fn(f64) -> T,
-    /// Whether two answers are of one stretch.
+    /// True for two answers of one stretch.
     pub is_like: fn(&T, &T) -> bool,
     /// Stretches between neighbouring samples that are no longer than this are left out.
     pub narrowest: f64,
@@ -166,6 +166,16 @@ impl<T: Clone> Scan<'_, T> {
         stretches
     }
 
+    /// [`Self::stretches`], each of which begins where the one before ends.
+    pub fn adjoining(&self, samples: &[Sample<T>]) -> Vec<Stretch<T>> {
+        let mut end = None;
+        let begun = |stretch: Stretch<T>| {
+            let from = end.replace(stretch.to).unwrap_or(stretch.from);
+            Stretch { from, ..stretch }
+        };
+        self.stretches(samples).into_iter().map(begun).collect()
+    }
+
     /// Where an answer ends between a value that has it and one that has another.
     fn end(&self, inside: f64, outside: f64, found: &T) -> [f64; 2] {
         bisect(inside, outside, |at| (self.is_like)(&(self.answer)(at), found))
@@ -189,6 +199,9 @@ mod tests {
         assert_eq!((first, second.2), ((0.0, 0.1, 0), 1));
         assert_eq!((second.0, second.1.next_up()), (0.1_f64.next_up(), 0.75));
         assert_eq!(third, (0.75, 1.0, 2));
+        let samples = samples(evenly([0.0, 1.0], 2), Work::undisturbed(), |at, _| steps(at));
+        let adjoining = Scan { answer: &steps, is_like: u8::eq, narrowest: 0.0 }.adjoining(&samples);
+        assert_eq!(adjoining.iter().map(|one| one.from).collect::<Vec<_>>(), [0.0, first.1, second.1]);
     }
 
     #[test]

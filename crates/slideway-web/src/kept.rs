@@ -1,9 +1,9 @@
-//! What the drawings of one answer give to those of the next.
+//! Scale and place that the drawings of one answer hand on to those of the next.
 
 use serde::{Deserialize, Serialize};
 use slideway_pictures::drawing::{Bounds, Held, Point};
 
-/// What the page sends back with its next question of the same model: scale and place of the drawings.
+/// Scale and place of the drawings, which the page sends back with its next question of the same model.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct Kept {
     /// The force (N) whose arrow has the usual length.

@@ -59,7 +59,7 @@ impl Slider {
     }
 }
 
-/// Whether a guided slider with this couple tips, where `limit` is [`Slider::greatest_couple`], and the terms of the couple
+/// True if a guided slider with this couple tips, where `limit` is [`Slider::greatest_couple`], and the terms of the couple
 /// are of this size.
 pub(crate) fn tips(couple: f64, limit: f64, size: f64) -> bool {
     couple.abs() > limit + COUPLE_TOLERANCE * size

@@ -204,7 +204,7 @@ impl BlockProblem {
     }
 }
 
-/// Whether no force stands in the row of a contact.
+/// True if no force stands in the row of a contact.
 fn is_forceless(response: &BySide<IntervalMatrix>, row: usize) -> bool {
     Side::BOTH.into_iter().all(|side| {
         let own = |column: usize| if column == row { side.sign() } else { 0.0 };

@@ -10,7 +10,7 @@ use super::relaxation::{load_product, shares};
 use crate::problem::Side;
 use crate::simplex::{Bounds, LinearOutcome, LinearProgram};
 
-/// Whether a piece is proven to hold no solution by equations in which no force stands.
+/// True if equations in which no force stands prove that a piece holds no solution.
 ///
 /// They are `sum over open k of lambda_k d_k^+ + (1 - lambda_k) d_k^- = -(b + d)` with shares `lambda_k` from 0 to 1; by
 /// Farkas' lemma multipliers `v` show that there are none.

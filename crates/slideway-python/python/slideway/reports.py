@@ -218,7 +218,7 @@ CauseKind = Literal[
     "user",
     "jams",
 ]
-"""What an event tells of, in reports.
+"""The name of the cause of an event in reports.
 
 - `"start"`: The motion begins.
 - `"normal_force_zero"`: A normal force vanishes.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// So many steps of an elimination take less than a moment: matrices of few bodies are factored undisturbed.
+/// Steps of an elimination between two looks at the progress: those of few bodies take less than a moment in all.
 const ASKED: usize = 64;
 
 /// Triangular factors of a square matrix whose rows and columns have been exchanged, by elimination with
@@ -35,7 +35,7 @@ impl Factors {
         Self { entries: matrix.as_slice().to_vec(), rows: places(), columns: places() }
     }
 
-    /// Whether the elimination came to its end.
+    /// Eliminates; returns `false` if it was ended before.
     fn eliminate(&mut self, proceed: &mut dyn FnMut() -> bool) -> bool {
         let Self { entries, rows, columns } = self;
         let size = rows.len();
@@ -86,7 +86,7 @@ impl Factors {
         if size == 0 { 1.0 } else { greatest / least }
     }
 
-    /// Whether the matrix is certainly regular: no pivot is below this multiple of the greatest.
+    /// True if the matrix is certainly regular: no pivot is below this multiple of the greatest.
     pub(super) fn are_regular(&self, least: f64) -> bool {
         self.condition() * least < 1.0
     }

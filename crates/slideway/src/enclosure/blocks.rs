@@ -44,7 +44,7 @@ pub(crate) struct EnclosedBlockProblem {
     pub(crate) outputs: EnclosedOutputs,
     /// Which contacts may be open, and together.
     pub(crate) open: OpenContacts,
-    /// What its numbers are made of.
+    /// The coefficients of its numbers.
     coefficients: BlockCoefficients<Interval>,
     /// The friction circles of its hinges.
     circles: Vec<FrictionCircle<Interval>>,
@@ -256,7 +256,7 @@ impl Coefficients<'_> {
         })
     }
 
-    /// What a unit friction of each contact adds to these rows of hinge forces, which stand below those of the contacts, at
+    /// The contributions of a unit friction of each contact to these rows of hinge forces, below those of the contacts, at
     /// either face; and the same of its preload.
     ///
     /// A couple between both faces of a contact changes them only if a self-stress hands it on.

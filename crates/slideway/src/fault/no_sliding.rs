@@ -73,7 +73,7 @@ fn hint_at_rest(coordinates: &[String], face: &dyn Face) -> String {
     format!("{}; for friction in motion give it a velocity, for instance with `{rates}`", hold(face))
 }
 
-/// What to ask of a joint at rest.
+/// The question to ask of a joint at rest.
 fn hold(face: &dyn Face) -> String {
     format!("`{}` says whether it can stay at rest", face.question("hold"))
 }

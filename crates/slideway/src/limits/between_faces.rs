@@ -147,16 +147,12 @@ fn stretches(part: [f64; 2], candidates: &[f64], states: &dyn Fn(f64) -> usize) 
     values.sort_by(f64::total_cmp);
     let tried: Vec<Sample<usize>> = values.into_iter().map(|at| Sample { at, found: states(at) }).collect();
     let scan = Scan { answer: states, is_like: usize::eq, narrowest: margin_of(part) };
-    let mut found = Vec::new();
-    let mut begin = from;
-    for stretch in scan.stretches(&tried) {
-        let end = if stretch.to == tried[tried.len() - 1].at { to } else { stretch.to };
-        if stretch.found > 0 && end - begin > margin_of(part) {
-            found.push(Stretch { bounds: [begin, end], states: stretch.found });
-        }
-        begin = end;
-    }
-    found
+    let mut all = scan.adjoining(&tried);
+    // They reach the ends of the part.
+    all.first_mut().into_iter().for_each(|first| first.from = from);
+    all.last_mut().into_iter().for_each(|last| last.to = to);
+    all.retain(|stretch| stretch.found > 0 && stretch.to - stretch.from > scan.narrowest);
+    all.into_iter().map(|one| Stretch { bounds: [one.from, one.to], states: one.found }).collect()
 }
 
 /// An interval cut at the ends of stretches, with the number of states in each piece.

@@ -90,16 +90,14 @@ fn rest_limits_of(
 /// The range cut where the answer changes.
 fn spans(tried: &[Sample<Found>], answer: &dyn Fn(f64) -> Found, same_ends: &SameEnds) -> Vec<SpanOfRest> {
     let scan = Scan { answer, is_like: is_same, narrowest: same_ends.within };
-    let mut end = None;
     let span = |Stretch { from, to, found, .. }: Stretch<Found>| {
         let (holds, reason) = match found {
             Ok(holds) => (holds, None),
             Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
         };
-        let from = same_ends.told(end.replace(to).unwrap_or(from));
-        SpanOfRest { from, to: same_ends.told(to), holds, reason }
+        SpanOfRest { from: same_ends.told(from), to: same_ends.told(to), holds, reason }
     };
-    scan.stretches(tried).into_iter().map(span).collect()
+    scan.adjoining(tried).into_iter().map(span).collect()
 }
 
 /// True if two values have the same answer, or none for the same kind of reason.

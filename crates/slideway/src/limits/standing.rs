@@ -7,7 +7,7 @@ use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};
 use crate::progress::Work;
 use crate::report::Status;
-use crate::scan::{Scan, evenly, samples};
+use crate::scan::{Scan, Stretch, evenly, samples};
 
 /// Steps of the evenly spaced values.
 const STEPS: usize = 100;
@@ -24,17 +24,12 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
     let same_ends = SameEnds::bisected([from, to]);
     let scan = Scan { answer: &answer, is_like, narrowest: same_ends.within };
     let (mut counts, mut gaps) = (Vec::new(), Vec::new());
-    let mut begin = from;
-    for stretch in scan.stretches(&tried) {
-        let end = stretch.to;
-        match stretch.found {
-            Ok(numbers) if same_ends.are_two(begin, end) => {
-                counts.push(CountInterval { from: begin, to: end, ..numbers });
-            }
+    for Stretch { from, to, found, .. } in scan.adjoining(&tried) {
+        match found {
+            Ok(numbers) if same_ends.are_two(from, to) => counts.push(CountInterval { from, to, ..numbers }),
             Ok(_) => {}
-            Err(faults) => gaps.push(Gap { from: begin, to: end, faults }),
+            Err(faults) => gaps.push(Gap { from, to, faults }),
         }
-        begin = end;
     }
     let known = Knowledge::unproven(Elsewhere::Sampled((to - from) / STEPS as f64));
     Some(ModesFound {

@@ -195,7 +195,7 @@ impl LimitsReport {
     }
 }
 
-/// What scans can miss, in a sentence: what begins and ends within this width.
+/// The sentence on what scans can miss: whatever begins and ends within this width.
 pub(crate) fn could_be_missed(width: &str) -> String {
     format!("Sampled: ranges narrower than {width} could be missed.")
 }

@@ -165,13 +165,17 @@ impl Part {
     }
 }
 
-/// What a joint connects.
 /// Both sides of a joint.
 pub(crate) fn frames_of(mechanism: &Mechanism, joint: JointId) -> [Frame; 2] {
     match &mechanism.joints[joint.index()].kind {
         JointKind::Hinge(ends) => ends.each_ref().map(|end| end.frame),
         JointKind::Slider(slider) => [slider.block, slider.guide],
     }
+}
+
+/// A body that a joint holds: the first that is not the ground.
+pub(crate) fn body_of(mechanism: &Mechanism, joint: JointId) -> Option<BodyId> {
+    frames_of(mechanism, joint).into_iter().find_map(Frame::body)
 }
 
 impl Effort {

@@ -3,6 +3,7 @@
 use super::table::table;
 use super::{Status, Style};
 use crate::printable;
+use crate::units::Unit;
 use anstyle::{AnsiColor, Style as Ansi};
 use textwrap::core::Word;
 use textwrap::{Options, WordSeparator, WordSplitter, wrap};
@@ -161,14 +162,10 @@ fn is_first_component(word: &str) -> bool {
     word.starts_with('(') && word.strip_suffix(',').is_some_and(is_number)
 }
 
-/// True for the symbols of units, and their products and ratios: "mm", "N/mm", "m/s^2", "%".
+/// True for units without blanks: "mm", "N/mm", "m/s^2", "%".
 fn is_unit(word: &str) -> bool {
-    const SYMBOLS: [&str; 25] = [
-        "m", "mm", "cm", "um", "km", "N", "kN", "MN", "mN", "Pa", "kPa", "MPa", "GPa", "J", "kJ", "mJ", "W",
-        "kW", "mW", "kg", "s", "ms", "rad", "deg", "rpm",
-    ];
     let word = word.trim_end_matches(['.', ',', ';', ':', ')']);
-    word == "%" || word.split('/').all(|part| SYMBOLS.contains(&part.split('^').next().unwrap_or(part)))
+    !word.is_empty() && Unit::of_text(word).is_some()
 }
 
 #[cfg(test)]
@@ -194,7 +191,8 @@ mod tests {
         page.line("(up to the 5 m/s^2) it is");
         page.line("at 12 of them a b m");
         page.line("slides along (-1, 0)");
-        let expected = "from 10 to\n250 mm.\nit needs a\n2 N m torque\n(up to the\n5 m/s^2) it is\nat 12 of them\na b m\nslides along\n(-1, 0)\n";
+        page.line("with up to 12 lbf");
+        let expected = "from 10 to\n250 mm.\nit needs a\n2 N m torque\n(up to the\n5 m/s^2) it is\nat 12 of them\na b m\nslides along\n(-1, 0)\nwith up to\n12 lbf\n";
         assert_eq!(page.text(), expected);
     }
 

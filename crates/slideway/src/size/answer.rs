@@ -23,7 +23,7 @@ pub(super) struct Sought<'q> {
     pub(super) value: f64,
     /// The margin in the model.
     pub(super) present: Option<Margin>,
-    /// What tips in the model, if there is no solution for that reason.
+    /// The joints that tip in the model, if there is no solution for that reason.
     pub(super) tipping: Option<Tipping>,
     pub(super) found: SizesFound,
 }
@@ -98,7 +98,7 @@ pub(super) fn unit(model: &Model, against: &Against) -> &'static str {
     }
 }
 
-/// What a margin of the search stands for.
+/// The meaning of a margin of the search.
 type Told<'t> = &'t dyn Fn(Margin) -> (SampleKind, Option<f64>);
 
 fn interval([from, to]: &[End; 2], same_ends: SameEnds, told: Told<'_>) -> MetInterval {

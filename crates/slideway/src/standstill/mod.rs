@@ -92,8 +92,8 @@ pub struct HoldOptions {
     /// "gravity" all weights together.
     pub load: Option<String>,
     /// The parameter of static friction that is varied for the threshold of self-locking; without it, and with
-    /// [`FRICTION`](crate::model::FRICTION), all static coefficients are multiplied by a factor. Without a load it is that for the only one, weights
-    /// together being one.
+    /// [`FRICTION`](crate::model::FRICTION), all static coefficients are multiplied by a factor. Without a load it is that
+    /// for the only one, weights together being one.
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.
     pub hold_drives: bool,
@@ -246,8 +246,7 @@ pub(crate) fn beginning_within(
     Ok((beginning.releases.undecided == 0).then_some(beginning))
 }
 
-/// Whether a mechanism can stay at rest in its position; none where that could
-/// not be decided.
+/// Returns `true` if a mechanism can stay at rest in its position, and none where that could not be decided.
 ///
 /// # Errors
 /// As [`hold`].

@@ -1,4 +1,4 @@
-//! What a sweep varies, and its points.
+//! The varied quantities of a sweep, and its points.
 
 use super::CHUNKS;
 use super::columns::Columns;
@@ -13,7 +13,7 @@ use crate::modes::screen::MOST_CONTACTS;
 use crate::solve::Trail;
 use std::sync::Arc;
 
-/// What a sweep varies, and what has to be computed anew at every point.
+/// The varied quantities, and what has to be computed anew at every point.
 #[derive(Debug, Clone)]
 pub(super) struct Plan {
     pub(super) model: Model,
@@ -28,7 +28,7 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// Whether position, velocities and loads are the same at all points.
+    /// True if position, velocities and loads are the same at all points.
     pub(super) fn same_state(&self) -> bool {
         let keeps = |kind: &Kind| matches!(kind, Kind::Parameter(_) | Kind::Friction);
         self.friction.is_some() && self.varied.iter().all(keeps)

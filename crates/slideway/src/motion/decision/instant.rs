@@ -6,10 +6,10 @@ use super::scale::{Scale, rounding, scale};
 use super::units::Units;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, Frame};
+use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Mechanism, frames_of};
+use crate::mechanism::{Contact, Mechanism, body_of};
 use crate::pattern::{Law, Phase};
 use nalgebra::DVector;
 use std::borrow::Cow;
@@ -84,8 +84,9 @@ impl<'m> Instant<'m> {
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
         let of = |joint: &SlidingJoint| {
-            let body = frames_of(self.mechanism, joint.id).into_iter().find_map(Frame::body);
-            body.and_then(|body| rounding.get(body.index()).copied()).unwrap_or(0.0)
+            body_of(self.mechanism, joint.id)
+                .and_then(|body| rounding.get(body.index()).copied())
+                .unwrap_or(0.0)
         };
         let of_joints: Vec<f64> = self.joints.iter().map(of).collect();
         if self.joints.iter().zip(&of_joints).all(|(joint, rounding)| joint.units.force >= *rounding) {

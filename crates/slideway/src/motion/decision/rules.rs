@@ -55,7 +55,7 @@ impl<'a> EventInstant<'a> {
         Self { mechanism, configuration, signs, spins: &[], zero: &[], rounding: &[], previous, work }
     }
 
-    /// What rounding leaves of the greatest forces so far on any body (N).
+    /// The greatest rounding error of forces on any body (N).
     pub(crate) fn greatest_rounding(&self) -> f64 {
         self.rounding.iter().copied().fold(0.0, f64::max)
     }

@@ -217,7 +217,7 @@ impl<'a, 'm> Run<'a, 'm> {
         Ok(Some(End::Interrupted))
     }
 
-    /// The same, after impulses if it must; nothing is decided once the work is to end.
+    /// Decides how the motion goes on, after impulses if it must; nothing is decided once the work is to end.
     fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
         if self.hit(&mut causes)? {

@@ -76,7 +76,7 @@ pub enum Cause {
 
 kinds! {
     Cause =>
-    /// What an event tells of, in reports.
+    /// The name of the cause of an event in reports.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
     #[serde(rename_all = "snake_case")]
     #[non_exhaustive]

@@ -2,8 +2,8 @@
 //! part changes what counts in another.
 
 use super::equations::{Equations, independent};
-use crate::ids::{BodyId, Frame, JointId};
-use crate::mechanism::{Mechanism, frames_of};
+use crate::ids::{BodyId, JointId};
+use crate::mechanism::{Mechanism, body_of};
 
 /// Velocities below this part of what the greatest force gives a part on the size of the mechanism do not count.
 const LITTLE_VELOCITY: f64 = 1e-2;
@@ -64,13 +64,7 @@ impl Magnitudes {
 
     /// Those of the part of a joint.
     pub(in crate::motion) fn of_joint(&self, mechanism: &Mechanism, joint: JointId) -> Magnitude {
-        self.of_frames(&frames_of(mechanism, joint))
-    }
-
-    /// Those of the part of what belongs together.
-    fn of_frames(&self, frames: &[Frame]) -> Magnitude {
-        let body = frames.iter().find_map(|frame| frame.body());
-        body.map_or_else(|| self.greatest(), |body| self.of_body(body.index()))
+        body_of(mechanism, joint).map_or_else(|| self.greatest(), |body| self.of_body(body.index()))
     }
 
     /// The greatest of all parts.
@@ -132,7 +126,7 @@ impl Magnitudes {
         self.notice_forces(equations);
     }
 
-    /// Whether the forces of a part have grown by more than a factor since the phase has begun.
+    /// True if the forces of a part have grown by more than a factor since the phase has begun.
     pub(in crate::motion) fn has_grown(&self, factor: f64) -> bool {
         self.list.iter().any(|one| one.first_force > 0.0 && one.force > factor * one.first_force)
     }

@@ -64,8 +64,8 @@ fn region_in_words(region: &OpenRegion) -> String {
 pub(super) struct HingedAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
-    /// The problem without friction.
-    pub(super) frictionless: &'a BlockProblem,
+    /// The problem without friction; none unless guides share a load.
+    pub(super) frictionless: Option<&'a BlockProblem>,
     pub(super) hinges: &'a [TurningHinge],
 }
 
@@ -102,7 +102,7 @@ impl HingedAnswer<'_> {
                 gaps.push(kept);
                 continue;
             }
-            if self.answer.shared.is_some() {
+            if self.frictionless.is_some() {
                 kept.oriented_determinant = oriented;
             }
             kept.attainability = if solution.on_boundary.is_empty() && solution.unloaded.is_empty() {
@@ -130,15 +130,11 @@ impl HingedAnswer<'_> {
             ..self.answer.report_without_solutions(open)
         }
     }
-}
 
-impl HingedAnswer<'_> {
     /// The determinant of `I - H D`; of guides that share a load relative to that of the same contacts without friction,
     /// with the columns of open contacts in their places.
     fn oriented(&self, directions: &DMatrix<f64>, solution: &BlockSolution) -> f64 {
-        if self.answer.shared.is_none() {
-            return directions.determinant();
-        }
+        let Some(frictionless) = self.frictionless else { return directions.determinant() };
         let with_open = |mut matrix: DMatrix<f64>| {
             for (k, _) in solution.states.iter().enumerate().filter(|(_, state)| state.side().is_none()) {
                 let [positive, negative] =
@@ -147,7 +143,7 @@ impl HingedAnswer<'_> {
             }
             matrix.determinant()
         };
-        let without = self::directions(self.frictionless, &solution.states, &solution.reactions);
+        let without = self::directions(frictionless, &solution.states, &solution.reactions);
         let [with, without] = [directions.clone(), without].map(with_open);
         if without == 0.0 { 0.0 } else { with / without }
     }

@@ -76,8 +76,10 @@ pub(super) fn solve(
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);
     let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
-    let frictionless = GrowingFriction::new(stages, &turning)?.at(0.0)?.problem;
-    let answer = HingedAnswer { answer, problem: &problem, frictionless: &frictionless, hinges: &turning };
+    let without_friction = || Ok::<_, Faults>(GrowingFriction::new(stages, &turning)?.at(0.0)?.problem);
+    let frictionless = answer.shared.is_some().then(without_friction).transpose()?;
+    let answer =
+        HingedAnswer { answer, problem: &problem, frictionless: frictionless.as_ref(), hinges: &turning };
     let (report, _) = as_far_as_wanted(progress, |work| {
         let growth = options.margins.then(|| Growth::new(stages, &turning, work)).transpose()?;
         let unique_at_least = growth
@@ -151,7 +153,7 @@ fn exact_problem(BlockNumbers { response, jumps, load }: BlockNumbers<f64>) -> R
     BlockProblem::new(response, jumps, load).map_err(|_| overflow())
 }
 
-/// What the block mode problem is made of, in floating point, with these unknowns below its rows.
+/// The coefficients of the block mode problem in floating point, with these unknowns below its rows.
 ///
 /// # Errors
 /// Nothing says how redundant guides share their load.
@@ -187,7 +189,7 @@ pub(super) fn block_coefficients(
     })
 }
 
-/// What a unit friction force of each contact adds to these unknowns, at either face.
+/// The contributions of a unit friction force of each contact to these unknowns, at either face.
 fn answers(influence: &Influence, rows: &[usize]) -> [DMatrix<f64>; 2] {
     let columns = &influence.columns;
     [0, 1].map(|side| DMatrix::from_fn(rows.len(), columns.len(), |row, k| columns[k][side][rows[row]]))

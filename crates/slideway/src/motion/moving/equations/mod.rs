@@ -30,9 +30,9 @@ pub(in crate::motion) use rest::{bodies_of_drive, independent, joint_rests};
 
 use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;
-use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
+use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
-use crate::mechanism::{Mechanism, frames_of};
+use crate::mechanism::{Mechanism, body_of};
 use crate::modes::Side;
 use crate::motion::moving::linear::{Determinant, LinearSystem};
 use crate::motion::moving::stepper::Derivative;
@@ -360,8 +360,7 @@ impl<'m> Equations<'m> {
         let hinges = self.hinges.iter().enumerate();
         let hinges = hinges.map(|(index, hinge)| (hinge.joint, self.hinge_force(index).map_or(0.0, norm)));
         for (joint, force) in normal.chain(hinges) {
-            let body = frames_of(self.mechanism, joint).into_iter().find_map(Frame::body);
-            body.into_iter().for_each(|body| tell(body, force));
+            body_of(self.mechanism, joint).into_iter().for_each(|body| tell(body, force));
         }
     }
 }
