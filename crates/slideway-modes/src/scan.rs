@@ -78,7 +78,7 @@ pub struct Run<'s, S> {
     /// The neighbour before it.
     pub before: Option<&'s S>,
     /// At least one.
-    pub alike: &'s [S],
+    pub(crate) alike: &'s [S],
     /// The neighbour behind it.
     pub after: Option<&'s S>,
 }
@@ -121,7 +121,7 @@ pub struct Stretch<T> {
     /// The last one.
     pub to: f64,
     /// A value for which the answer stands.
-    pub at: f64,
+    pub(crate) at: f64,
     /// The answer there.
     pub found: T,
 }

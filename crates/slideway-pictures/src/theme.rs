@@ -10,15 +10,15 @@ pub struct Theme {
     /// Text, axes, outlines.
     pub ink: &'static str,
     /// Grid lines, dimensions, what matters less.
-    pub muted: &'static str,
+    pub(crate) muted: &'static str,
     /// The insides of bodies.
-    pub body: &'static str,
+    pub(crate) body: &'static str,
     /// Reactions.
-    pub reaction: &'static str,
+    pub(crate) reaction: &'static str,
     /// Friction.
-    pub friction: &'static str,
+    pub(crate) friction: &'static str,
     /// What warns: locking, jams.
-    pub warning: &'static str,
+    pub(crate) warning: &'static str,
     /// Branches, modes and areas, in the order in which they are given out.
     pub series: [&'static str; 8],
 }

@@ -68,7 +68,7 @@ pub struct PartialFile {
 /// Where a sweep goes on.
 pub struct Continued {
     /// Where the rows go.
-    pub file: PartialFile,
+    pub(crate) file: PartialFile,
     /// What is done of it.
     pub state: SweepState,
 }

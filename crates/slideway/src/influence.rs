@@ -24,10 +24,10 @@ pub struct Influence {
     /// at the one where it is negative.
     pub columns: Vec<[DVector<f64>; 2]>,
     /// For each friction circle: what a unit couple on the first body of its hinge, and its opposite on the second, add.
-    pub couples: Vec<DVector<f64>>,
+    pub(crate) couples: Vec<DVector<f64>>,
     /// For each contact that is cut because redundant guides share a load: what a unit normal force of it adds to
     /// all unknowns, a self-stress. Its own normal force is 1, every acceleration 0.
-    pub self_stresses: Vec<DVector<f64>>,
+    pub(crate) self_stresses: Vec<DVector<f64>>,
     /// Index of each contact's normal force among the unknowns.
     normal: Vec<usize>,
 }
@@ -57,13 +57,13 @@ impl ContactFriction {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HingeState {
     /// Its friction circle, among those of the mechanism.
-    pub circle: usize,
+    pub(crate) circle: usize,
     /// The hinge.
-    pub joint: JointId,
+    pub(crate) joint: JointId,
     /// Its force on the first body (N).
-    pub force: [f64; 2],
+    pub(crate) force: [f64; 2],
     /// Its friction couple on the first body (N m).
-    pub couple: f64,
+    pub(crate) couple: f64,
 }
 
 impl Influence {

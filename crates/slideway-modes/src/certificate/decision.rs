@@ -84,7 +84,7 @@ pub struct DecisionCounts {
     /// Decided with residuals of twice the digits.
     pub double_double: u64,
     /// Decided in rational numbers.
-    pub rational: u64,
+    pub(crate) rational: u64,
     /// Not decided, for data within bounds.
     pub undecided: u64,
 }

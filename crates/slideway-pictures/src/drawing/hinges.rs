@@ -18,13 +18,13 @@ const BEYOND: f64 = 26.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct PinForce {
     /// The name of the hinge.
-    pub hinge: String,
+    pub(crate) hinge: String,
     /// Its force on the body for which it is told (N).
-    pub force: [f64; 2],
+    pub(crate) force: [f64; 2],
     /// Its friction couple on that body (N m).
-    pub couple: f64,
+    pub(crate) couple: f64,
     /// The radius of its friction circle (m).
-    pub radius: f64,
+    pub(crate) radius: f64,
 }
 
 impl PinForce {

@@ -62,11 +62,11 @@ pub(crate) const VALUE_SIZE: f64 = 14.0;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactStates {
     /// One for each contact, in the order of the mechanism.
-    pub contacts: Vec<ContactState>,
+    pub(crate) contacts: Vec<ContactState>,
     /// The effort of each drive (N or N m).
-    pub efforts: Vec<f64>,
+    pub(crate) efforts: Vec<f64>,
     /// The forces of hinges with friction.
-    pub pins: Vec<PinForce>,
+    pub(crate) pins: Vec<PinForce>,
 }
 
 /// How a contact is drawn.
@@ -74,25 +74,25 @@ pub struct ContactStates {
 pub struct ContactState {
     /// Where the block lies in its play: 1 if the normal force is positive, -1 if it is negative, 0 in the
     /// middle.
-    pub side: f64,
+    pub(crate) side: f64,
     /// Its forces, if they are known.
-    pub forces: Option<ContactForces>,
+    pub(crate) forces: Option<ContactForces>,
     /// By how much the block is displaced against its guide, towards +n (m), if that is known: where redundant
     /// contacts share a load.
-    pub deflection: Option<f64>,
+    pub(crate) deflection: Option<f64>,
     /// Whether such a contact touches neither face.
-    pub is_open: bool,
+    pub(crate) is_open: bool,
 }
 
 /// Forces of a contact on its block; signs as in theory, section 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForces {
     /// Normal force along n (N).
-    pub normal: f64,
+    pub(crate) normal: f64,
     /// Friction force, positive against positive sliding (N).
-    pub friction: f64,
+    pub(crate) friction: f64,
     /// Couple of a guided slider about the middle of the pressed face (N m).
-    pub couple: f64,
+    pub(crate) couple: f64,
 }
 
 impl ContactStates {

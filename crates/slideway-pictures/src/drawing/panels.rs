@@ -73,22 +73,22 @@ pub enum Shown {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Caption {
     /// Its first line.
-    pub heading: String,
+    pub(crate) heading: String,
     /// What follows.
-    pub lines: Vec<String>,
+    pub(crate) lines: Vec<String>,
     /// A table below: a row for each pin with friction, after one of headings.
-    pub table: Vec<[String; 4]>,
+    pub(crate) table: Vec<[String; 4]>,
 }
 
 /// One drawing of a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// The drawing.
-    pub scene: Scene,
+    pub(crate) scene: Scene,
     /// What is written below it.
-    pub caption: Caption,
+    pub(crate) caption: Caption,
     /// Drawing units for a newton, if its forces are to scale.
-    pub force_scale: Option<f64>,
+    pub(crate) force_scale: Option<f64>,
 }
 
 /// What is drawn.

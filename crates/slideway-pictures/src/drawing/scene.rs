@@ -107,9 +107,9 @@ pub struct Text {
     /// The left, middle or right of its base line.
     pub at: Point,
     /// Where `at` lies in it.
-    pub anchor: Anchor,
+    pub(crate) anchor: Anchor,
     /// Size of the letters.
-    pub size: f64,
+    pub(crate) size: f64,
 }
 
 /// Which part of a text is at its place.
@@ -150,9 +150,9 @@ pub struct Scene {
     /// without such guides.
     pub magnification: Option<f64>,
     /// By how much friction circles of hinges are magnified; none without them.
-    pub friction_circles: Option<f64>,
+    pub(crate) friction_circles: Option<f64>,
     /// Whether the overlap of two friction cones is drawn, with the line of a push through it.
-    pub has_overlap: bool,
+    pub(crate) has_overlap: bool,
 }
 
 impl Bounds {

@@ -184,23 +184,23 @@ pub fn class_name(class: Class) -> &'static str {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Colour {
     /// Behind everything.
-    pub background: String,
+    pub(crate) background: String,
     /// Text and outlines.
-    pub ink: String,
+    pub(crate) ink: String,
     /// Dimensions and hatching.
-    pub muted: String,
+    pub(crate) muted: String,
     /// Insides of bodies.
-    pub body: String,
+    pub(crate) body: String,
     /// Reactions.
-    pub reaction: String,
+    pub(crate) reaction: String,
     /// Friction.
-    pub friction: String,
+    pub(crate) friction: String,
     /// Loads.
-    pub load: String,
+    pub(crate) load: String,
     /// Velocities.
-    pub velocity: String,
+    pub(crate) velocity: String,
     /// What jams.
-    pub warning: String,
+    pub(crate) warning: String,
 }
 
 impl Colour {

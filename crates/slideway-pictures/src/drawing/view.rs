@@ -16,7 +16,7 @@ pub struct View {
     /// The place (m) at the origin of the drawing.
     pub middle: Vector2<f64>,
     /// Least and greatest displacement (m) of each joint, zero for hinges: guides reach that far.
-    pub slides: Vec<[f64; 2]>,
+    pub(crate) slides: Vec<[f64; 2]>,
     /// Where the drawing of each body with a long rectangle begins and ends along its longer side (m, from
     /// its centre of mass): beyond, nothing else is to be seen. None for bodies that are drawn whole.
     pub cuts: Vec<Option<[f64; 2]>>,

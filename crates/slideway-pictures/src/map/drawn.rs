@@ -14,30 +14,30 @@ use slideway::model::Settings;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnMap {
     /// Headline.
-    pub title: String,
+    pub(crate) title: String,
     /// A line below it that tells what was changed in the model; may be empty.
-    pub subtitle: String,
+    pub(crate) subtitle: String,
     /// The horizontal axis, with its range.
-    pub x: Axis,
+    pub(crate) x: Axis,
     /// The vertical axis, with its range.
-    pub y: Axis,
+    pub(crate) y: Axis,
     /// The classes, in the order of the report.
-    pub classes: Vec<DrawnClass>,
+    pub(crate) classes: Vec<DrawnClass>,
     /// What signs of modes mean that no class tells, for the end of the legend.
-    pub modes: Vec<String>,
+    pub(crate) modes: Vec<String>,
     /// The values of the model, in the units of the axes; absent if they are not on the map.
-    pub model: Option<[f64; 2]>,
+    pub(crate) model: Option<[f64; 2]>,
 }
 
 /// A class of points.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct DrawnClass {
     /// Its colour, as a CSS colour.
-    pub fill: &'static str,
+    pub(crate) fill: &'static str,
     /// How it is hatched, if it is.
-    pub hatching: Option<Hatching>,
+    pub(crate) hatching: Option<Hatching>,
     /// What it means and its share of the map, for the legend.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 /// The map of a model with these settings in words and colours.

@@ -9,25 +9,25 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Film<'a> {
     /// Its title.
-    pub title: &'a str,
+    pub(crate) title: &'a str,
     /// The part of the plane that is shown: left, top, width and height.
-    pub view_box: String,
+    pub(crate) view_box: String,
     /// The shapes that occur, each once.
     pub shapes: &'a [String],
     /// What is shown of each.
     pub frames: Vec<FilmFrame<'a>>,
     /// What the modes that occur are, in words, each once.
-    pub words: &'a [String],
+    pub(crate) words: &'a [String],
     /// What happens: its time (s), in words.
-    pub events: &'a [(f64, String)],
+    pub(crate) events: &'a [(f64, String)],
     /// Seconds on the clock between two frames.
-    pub frame_time: f64,
+    pub(crate) frame_time: f64,
     /// How fast it is shown, in words.
-    pub speed: String,
+    pub(crate) speed: String,
     /// An arrow of a round force with its value, as SVG.
-    pub force_scale: String,
+    pub(crate) force_scale: String,
     /// Whether the play of guides is drawn greater than it is.
-    pub is_exaggerated: bool,
+    pub(crate) is_exaggerated: bool,
     /// How large friction circles of hinges are drawn, in words; absent without them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_circles: Option<&'a str>,
@@ -37,11 +37,11 @@ pub struct Film<'a> {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FilmFrame<'a> {
     /// s
-    pub time: f64,
+    pub(crate) time: f64,
     /// The contact mode.
-    pub mode: &'a str,
+    pub(crate) mode: &'a str,
     /// Index of its words.
-    pub words: usize,
+    pub(crate) words: usize,
     /// Indices of its shapes, in the order in which they are drawn.
     pub shapes: &'a [usize],
 }

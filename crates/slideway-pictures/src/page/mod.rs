@@ -30,41 +30,41 @@ const HEAD: &str = include_str!("head.html");
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
     /// The command that made it.
-    pub command: &'a str,
+    pub(crate) command: &'a str,
     /// Name of the model.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// Text of the model file.
-    pub text: &'a str,
+    pub(crate) text: &'a str,
     /// What was changed in it, one line each.
-    pub settings: &'a [String],
+    pub(crate) settings: &'a [String],
     /// The title of the mechanism.
-    pub title: &'a str,
+    pub(crate) title: &'a str,
     /// The parameters that are known within bounds, each with its middle, for which everything holds but the answer
     /// for the whole ranges.
-    pub at_middle: &'a [String],
+    pub(crate) at_middle: &'a [String],
     /// The drawings of the mechanism and its solutions.
-    pub drawings: &'a [Sheet],
+    pub(crate) drawings: &'a [Sheet],
     /// All solutions, or why there is no answer.
-    pub report: Result<&'a SolveReport, &'a [String]>,
+    pub(crate) report: Result<&'a SolveReport, &'a [String]>,
     /// Which efforts the drives need, and the efficiency, in sentences; empty without drives.
-    pub efficiency: &'a [String],
+    pub(crate) efficiency: &'a [String],
     /// Whether it stays at rest, or why that is not known.
-    pub rest: Result<&'a HoldReport, &'a [String]>,
+    pub(crate) rest: Result<&'a HoldReport, &'a [String]>,
     /// For which values modes exist.
-    pub limits: &'a [LimitsReport],
+    pub(crate) limits: &'a [LimitsReport],
     /// Further figures.
-    pub figures: &'a [Figure],
+    pub(crate) figures: &'a [Figure],
 }
 
 /// A figure of a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
     /// What it shows.
-    pub caption: String,
+    pub(crate) caption: String,
     /// The picture on a light background, as SVG.
-    pub light: String,
+    pub(crate) light: String,
     /// The picture on a dark background, as SVG.
-    pub dark: String,
+    pub(crate) dark: String,
 }
 
 /// The page as HTML. Every name and text from the model is escaped, and its characters that are not seen

@@ -13,78 +13,78 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnPanel {
     /// From where to where the horizontal axis goes.
-    pub x: [f64; 2],
+    pub(crate) x: [f64; 2],
     /// From where to where the vertical axis goes.
-    pub y: [f64; 2],
+    pub(crate) y: [f64; 2],
     /// The curves; those that cannot be told apart are one line.
-    pub lines: Vec<DrawnLine>,
+    pub(crate) lines: Vec<DrawnLine>,
     /// The labels of marked values.
-    pub flags: Vec<DrawnFlag>,
+    pub(crate) flags: Vec<DrawnFlag>,
     /// Where curves go on above or below the frame.
-    pub exits: Vec<DrawnExit>,
+    pub(crate) exits: Vec<DrawnExit>,
     /// The legend.
-    pub legend: Vec<LegendEntry>,
+    pub(crate) legend: Vec<LegendEntry>,
 }
 
 /// A line for one curve or for several.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnLine {
     /// Points in the units of the axes, within the frame.
-    pub points: Vec<[f64; 2]>,
+    pub(crate) points: Vec<[f64; 2]>,
     /// The branches that it stands for.
-    pub branches: Vec<usize>,
+    pub(crate) branches: Vec<usize>,
     /// Index into the quantities of the figure.
-    pub quantity: usize,
+    pub(crate) quantity: usize,
     /// Places of the markers of its quantity, if there are several quantities.
-    pub markers: Vec<[f64; 2]>,
+    pub(crate) markers: Vec<[f64; 2]>,
     /// Arrowheads that show the order of its points, if the panel has them.
-    pub arrows: Vec<DrawnArrow>,
+    pub(crate) arrows: Vec<DrawnArrow>,
 }
 
 /// An arrowhead.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DrawnArrow {
     /// Its tip, in the units of the axes.
-    pub at: [f64; 2],
+    pub(crate) at: [f64; 2],
     /// Its direction in the picture, from the right counterclockwise (deg).
-    pub angle: f64,
+    pub(crate) angle: f64,
 }
 
 /// The label of a marked value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnFlag {
     /// The value.
-    pub at: f64,
+    pub(crate) at: f64,
     /// Its label.
-    pub label: String,
+    pub(crate) label: String,
     /// Whether curves grow without bound there.
-    pub asymptote: bool,
+    pub(crate) asymptote: bool,
     /// Where the label begins, from the left edge of the frame (px).
-    pub left: f64,
+    pub(crate) left: f64,
     /// The row above the frame in which it stands, from 0.
-    pub row: usize,
+    pub(crate) row: usize,
     /// Whether it stands beside its line, not above it.
-    pub beside: bool,
+    pub(crate) beside: bool,
 }
 
 /// Where a curve leaves the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DrawnExit {
     /// Where, in the units of the axes.
-    pub at: [f64; 2],
+    pub(crate) at: [f64; 2],
     /// The branch of the curve.
-    pub branch: usize,
+    pub(crate) branch: usize,
     /// Whether it goes on above the frame, not below it.
-    pub upwards: bool,
+    pub(crate) upwards: bool,
 }
 
 /// An entry of a legend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LegendEntry {
     /// What stands beside the text.
-    pub sample: LegendSample,
+    pub(crate) sample: LegendSample,
     /// The text.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 /// What the panels of a figure show in frames of this width and height, in units of which the small text of

@@ -179,7 +179,7 @@ pub struct MarkedValue {
     /// Above the frame.
     pub label: String,
     /// Whether curves grow without bound there; a heavier line then.
-    pub asymptote: bool,
+    pub(crate) asymptote: bool,
 }
 
 /// A hatched interval of x.
@@ -190,7 +190,7 @@ pub struct Zone {
     /// Where it ends.
     pub to: f64,
     /// How it is hatched.
-    pub hatching: Hatching,
+    pub(crate) hatching: Hatching,
     /// What it means, for the legend.
     pub meaning: String,
 }
@@ -211,13 +211,13 @@ pub enum Hatching {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bar {
     /// Its left and its right side.
-    pub sides: [f64; 2],
+    pub(crate) sides: [f64; 2],
     /// Where it stands, and its upper end.
-    pub ends: [f64; 2],
+    pub(crate) ends: [f64; 2],
     /// Index into the series of the theme, modulo their number.
-    pub colour: usize,
+    pub(crate) colour: usize,
     /// What it means, for the legend.
-    pub meaning: String,
+    pub(crate) meaning: String,
 }
 
 /// A coloured stretch along the x axis.
@@ -228,7 +228,7 @@ pub struct Band {
     /// Where it ends.
     pub to: f64,
     /// Index into the series of the theme, modulo their number.
-    pub colour: usize,
+    pub(crate) colour: usize,
     /// What it means, for the legend.
-    pub meaning: String,
+    pub(crate) meaning: String,
 }

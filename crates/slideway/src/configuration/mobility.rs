@@ -22,24 +22,24 @@ const NO_INERTIA: f64 = 1e-12;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mobility {
     /// Coordinates of all bodies: 3 b.
-    pub body_coordinates: usize,
+    pub(crate) body_coordinates: usize,
     /// Scalar joint equations.
-    pub constraints: usize,
+    pub(crate) constraints: usize,
     /// How many of them are independent: the rank of their Jacobian.
-    pub independent: usize,
+    pub(crate) independent: usize,
     /// What is in excess, if anything.
-    pub redundancy: Option<Redundancy>,
+    pub(crate) redundancy: Option<Redundancy>,
 }
 
 /// Joint equations in excess.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Redundancy {
     /// The joints among which the excess lies.
-    pub joints: Vec<JointId>,
+    pub(crate) joints: Vec<JointId>,
     /// What would make the structure determinate, if one of the joints offers it.
-    pub suggestion: Option<String>,
+    pub(crate) suggestion: Option<String>,
     /// Whether the excess vanishes in a neighbouring position: the position is singular, not the structure.
-    pub only_here: bool,
+    pub(crate) only_here: bool,
 }
 
 impl Mobility {

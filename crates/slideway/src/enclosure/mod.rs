@@ -152,9 +152,9 @@ pub struct EnclosedModeProblem {
     /// moved to the right-hand side, so that they do not look like a jump.
     pub problem: IntervalModeProblem,
     /// Which contacts may be open: others between their faces are in preload gaps.
-    pub open: OpenContacts,
+    pub(crate) open: OpenContacts,
     /// Bounds of how redundant guides share their load; none if nothing is in excess.
-    pub shared: Option<SharedLoad<Interval>>,
+    pub(crate) shared: Option<SharedLoad<Interval>>,
 }
 
 /// Why the numbers of a mechanism could not be enclosed.

@@ -19,9 +19,9 @@ pub enum Beyond {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// The number.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Where it lies exactly.
-    pub enclosure: Interval,
+    pub(crate) enclosure: Interval,
 }
 
 /// A function of one argument, linear between the rows of a table.

@@ -143,7 +143,7 @@ impl Layout {
 #[derive(Debug, Clone)]
 pub struct KineticEquations {
     /// Where the unknowns stand.
-    pub layout: Layout,
+    pub(crate) layout: Layout,
     /// The contacts in this configuration.
     pub contacts: Vec<ContactGeometry>,
     /// All that acts on the bodies besides reactions and friction: weights and loads.

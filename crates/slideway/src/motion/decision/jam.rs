@@ -17,12 +17,12 @@ use nalgebra::DVector;
 #[derive(Debug, Clone)]
 pub struct Impulse {
     /// The joint that wedges; its tangential impulse is a reaction.
-    pub wedged: JointId,
+    pub(crate) wedged: JointId,
     /// The sliding joints without velocity afterwards: those that stopped first, and those that were at rest
     /// and stay at rest.
     pub at_rest: Vec<JointId>,
     /// The sides at which the contacts are pressed during the impulse.
-    pub sides: Vec<ContactPhase>,
+    pub(crate) sides: Vec<ContactPhase>,
     /// Impulse of the normal force of each contact, with its sign (N s).
     pub normal_impulses: Vec<f64>,
     /// Impulse of the friction of each contact, positive along -u on the block (N s).
@@ -34,7 +34,7 @@ pub struct Impulse {
     /// Kinetic energy before minus kinetic energy afterwards (J).
     pub energy_lost: f64,
     /// The least slack of the inequalities, as a fraction of the greatest impulse of the state.
-    pub margin: f64,
+    pub(crate) margin: f64,
 }
 
 /// All impulses that can end a jam.

@@ -69,7 +69,7 @@ pub struct Continuation {
     /// Whether a real mechanism can follow it (theory, section 7).
     pub verdict: Verdict,
     /// Whether it continues the present motion without a jump in the forces.
-    pub continues: bool,
+    pub(crate) continues: bool,
 }
 
 /// The phases in which the motion can continue.
@@ -85,9 +85,9 @@ pub struct Continuations {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HaltingImpulse {
     /// The velocities after it.
-    pub velocities: Vec<Velocity>,
+    pub(crate) velocities: Vec<Velocity>,
     /// The kinetic energy that is lost (J).
-    pub energy_lost: f64,
+    pub(crate) energy_lost: f64,
 }
 
 /// Decides how a motion continues (theory, section 8).
@@ -156,18 +156,18 @@ pub trait Decisions {
 #[derive(Debug, Clone, Copy)]
 pub struct Resting<'a> {
     /// The states of all joints and contacts.
-    pub phase: &'a Phase,
+    pub(crate) phase: &'a Phase,
     /// For each body, whether it stands still and stays so as long as joints stick.
-    pub bodies: &'a [bool],
+    pub(crate) bodies: &'a [bool],
 }
 
 /// What is known about the future of bodies that stand still.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlook {
     /// It is proven that nothing slips until this time (s).
-    pub proven: f64,
+    pub(crate) proven: f64,
     /// Whether something slips then.
-    pub slips: bool,
+    pub(crate) slips: bool,
 }
 
 /// Bodies that stand still while their loads change.

@@ -33,7 +33,7 @@ pub struct PhaseState {
     pub margin: Option<f64>,
     /// The least slack of all bounds of the phase, also in units of the greatest force or acceleration;
     /// negative if the phase is not admissible.
-    pub least_slack: f64,
+    pub(crate) least_slack: f64,
 }
 
 /// The state of a mechanism in a phase.

@@ -32,7 +32,7 @@ pub struct Successors {
     pub unsolved: Vec<Phase>,
     /// Whether the list is complete; otherwise there are so many states that some in which fewer joints stick
     /// were omitted.
-    pub complete: bool,
+    pub(crate) complete: bool,
 }
 
 /// A phase that can follow.
@@ -57,9 +57,9 @@ pub struct Successor {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TippingPhase {
     /// The phase.
-    pub phase: Phase,
+    pub(crate) phase: Phase,
     /// The sliders.
-    pub joints: Vec<JointId>,
+    pub(crate) joints: Vec<JointId>,
 }
 
 /// The phases that can follow at an instant, in order of preference. Groups of joints without influence on

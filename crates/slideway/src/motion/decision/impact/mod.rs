@@ -21,19 +21,19 @@ use nalgebra::DVector;
 #[derive(Debug, Clone)]
 pub struct Impact {
     /// The mechanism afterwards: the same positions, new velocities.
-    pub after: Configuration,
+    pub(crate) after: Configuration,
     /// The blows, one for each set of joints that act on one another; they are independent. With friction in hinges one for
     /// all.
-    pub blows: Vec<Blow>,
+    pub(crate) blows: Vec<Blow>,
 }
 
 /// The impact of joints that act on one another.
 #[derive(Debug, Clone)]
 pub struct Blow {
     /// The joints, each with the impulse with which its stop pushes (N s).
-    pub stops: Vec<(JointId, f64)>,
+    pub(crate) stops: Vec<(JointId, f64)>,
     /// Kinetic energy before minus kinetic energy afterwards (J).
-    pub energy_lost: f64,
+    pub(crate) energy_lost: f64,
 }
 
 /// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution

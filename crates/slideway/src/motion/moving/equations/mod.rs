@@ -88,9 +88,9 @@ struct Stuck {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Drift {
     /// Of positions (in sizes of the mechanism, or rad).
-    pub position: f64,
+    pub(crate) position: f64,
     /// Of velocities (in sizes of the mechanism, or rad, per s).
-    pub velocity: f64,
+    pub(crate) velocity: f64,
 }
 
 impl Drift {
