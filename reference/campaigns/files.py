@@ -36,7 +36,8 @@ MCP = json.dumps({"type": "mcp", "M": [[2]], "q": [-1], "l": [-3], "u": [3]}).en
 INPUTS = {"m.toml": MODEL, "o.toml": MOTION, "d.dxf": DRAWING, "p.json": LCP, "b.json": MCP}
 VICTIM = b"this belongs to someone else\n"
 SWEEP = "sweep m.toml --vary mu=0..1:5"
-LONG = "sweep m.toml --vary mu=0..1:40001 --no-breakpoints"
+# Long enough that a sweep of an optimised program can be interrupted.
+LONG = "sweep m.toml --vary mu=0..1:200001 --no-breakpoints"
 # Unicode's Default_Ignorable_Code_Point where its general category does not say it.
 FILLERS = "\u115f\u1160\u3164\uffa0\u034f\u17b4\u17b5"
 
