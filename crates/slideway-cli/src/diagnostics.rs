@@ -2,7 +2,7 @@
 //!
 //! They tell of names and texts from elsewhere. All of them become printable here, before colours come in.
 
-use crate::columns::wrapped;
+use crate::columns::{self, wrapped};
 use crate::faulty_input::FaultyInput;
 use annotate_snippets::{
     Annotation, AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet, Title,
@@ -234,4 +234,13 @@ fn closing_line(faults: &[&Fault], model: &str) -> String {
     };
     let more = if faults.len() > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
     format!("{count} {place}{more}{strict}")
+}
+
+/// A complaint, and below it a list of what there is.
+pub(crate) fn listing(note: &Note, all: Vec<(String, String)>) -> String {
+    let all: Vec<(String, String)> = all
+        .into_iter()
+        .map(|(name, meaning)| (printable::line(&name).into_owned(), printable::line(&meaning).into_owned()))
+        .collect();
+    format!("{}\n\n{}", self::note(note), columns::list(&all, 2).trim_end())
 }

@@ -1,8 +1,7 @@
 //! What is wrong with the arguments, in the words of [`clap`]; where a name is not known, with all that there are.
 
 use crate::arguments::Arguments;
-use crate::columns;
-use crate::diagnostics::{self, Note};
+use crate::diagnostics::{Note, listing};
 use crate::outcome::Outcome;
 use crate::output::{Look, Output, complain};
 use crate::refuse;
@@ -74,15 +73,6 @@ fn with_all_names(error: &clap::Error) -> Option<String> {
         _ => return None,
     };
     Some(listing(&Note { message, hint: Some(hint) }, all))
-}
-
-/// A complaint, and below it a list of what there is.
-pub(crate) fn listing(note: &Note, all: Vec<(String, String)>) -> String {
-    let all: Vec<(String, String)> = all
-        .into_iter()
-        .map(|(name, meaning)| (printable::line(&name).into_owned(), printable::line(&meaning).into_owned()))
-        .collect();
-    format!("{}\n\n{}", diagnostics::note(note), columns::list(&all, 2).trim_end())
 }
 
 fn meant(near: Option<String>, help: &str) -> String {

@@ -1,7 +1,6 @@
 //! Why a command could not do what it was asked to do.
 
-use crate::diagnostics::{self, Note};
-use crate::explain::listing;
+use crate::diagnostics::{self, Note, listing};
 use crate::faulty_input::FaultyInput;
 use crate::halt::Halt;
 use crate::outcome::Outcome;

@@ -8,6 +8,7 @@ use crate::arguments::Destination;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Output;
+use crate::places::{followed, is_regular};
 use slideway_tables::{FileIdentity, PARTIAL, beside};
 use std::ffi::OsString;
 use std::fs;
@@ -165,29 +166,5 @@ fn be_possible(path: &Path) -> Result<(), Failure> {
         Some(Ok(folder)) if !folder.is_dir() => failure(io::ErrorKind::NotADirectory.into()),
         Some(Err(error)) => failure(error),
         _ => Ok(()),
-    }
-}
-
-/// Whether a path leads to a regular file.
-pub(crate) fn is_regular(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|metadata| metadata.is_file())
-}
-
-/// The file that is meant by a path, whether it exists or not: the same one however the path is spelt. Links
-/// are followed, also those to what does not exist yet.
-pub(crate) fn followed(path: &Path) -> PathBuf {
-    let mut path = path.to_owned();
-    // As many links as systems follow at most; those in a circle are left to the system to complain about.
-    for _ in 0..40 {
-        if let Ok(found) = fs::canonicalize(&path) {
-            return found;
-        }
-        let Ok(target) = fs::read_link(&path) else { break };
-        path = path.parent().unwrap_or(Path::new("")).join(target);
-    }
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    match (fs::canonicalize(folder), path.file_name()) {
-        (Ok(folder), Some(name)) => folder.join(name),
-        _ => path,
     }
 }

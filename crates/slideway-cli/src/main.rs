@@ -18,6 +18,7 @@ mod output;
 mod own_file;
 mod picture;
 mod pixels;
+mod places;
 mod threads;
 mod time_series;
 mod watch;

@@ -3,7 +3,7 @@
 
 use crate::arguments::CheckFormat;
 use crate::failure::Failure;
-use crate::files::{followed, is_regular};
+use crate::places::{followed, is_regular};
 use anstream::{AutoStream, ColorChoice};
 use slideway::report::{Report, Style};
 use slideway_tables::{PARTIAL, beside};

@@ -3,7 +3,6 @@
 use nalgebra::DVector;
 
 use crate::findings::candidate::Candidate;
-use crate::findings::reported::gaps_in;
 use crate::problem::{ContactState, Side};
 use crate::solutions::{Certificate, GapShare, GapState, ModeSolution, ModeState, Support, UndecidedPattern};
 
@@ -154,4 +153,9 @@ impl Certificate {
         in_doubt.sort_unstable();
         in_doubt.dedup();
     }
+}
+
+/// The number of contacts in their gaps.
+pub(super) fn gaps_in(pattern: &[ContactState]) -> usize {
+    pattern.iter().filter(|state| **state == ContactState::Gap).count()
 }

@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use crate::findings::candidate::{Candidate, solve_pattern};
 use crate::findings::collection::{Findings, canonical};
 use crate::findings::degenerate::same_point;
-use crate::findings::found::{Found, sides};
+use crate::findings::found::{Found, gaps_in, sides};
 use crate::problem::{ContactState, SolutionSet};
 use crate::solutions::{
     ClosestMode, ContactSet, GapState, ModeSolution, SingularMode, Solutions, Support, oriented,
@@ -156,11 +156,6 @@ impl Findings<'_> {
 /// Whether a singular pattern admits one state only.
 fn is_one_state(mode: &SingularMode) -> bool {
     matches!(mode.set, SolutionSet::Point(_)) && !mode.shares_vary
-}
-
-/// The number of contacts in their gaps.
-pub(super) fn gaps_in(pattern: &[ContactState]) -> usize {
-    pattern.iter().filter(|state| **state == ContactState::Gap).count()
 }
 
 /// Marks states that are part of a larger set.

@@ -13,6 +13,7 @@ use nalgebra::DVector;
 use super::leaf::Leaves;
 use super::monitor::Monitor;
 use super::reduced::ReducedRelaxation;
+use super::relaxation::Positive;
 use super::separation::Separated;
 use super::signs::RowSigns;
 use super::states::StateSet;
@@ -37,26 +38,6 @@ pub(super) struct Faces {
     /// Whether nodes are settled with the columns of the positive unknowns, not with all of a pattern, if
     /// possible.
     to_support: bool,
-}
-
-/// The unknowns of one contact that are positive inside a face: `y^+`, `y^-`, `lambda`, `1 - lambda`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Positive {
-    pub(super) sides: [bool; 2],
-    pub(super) shares: [bool; 2],
-}
-
-impl Positive {
-    /// Whether all positive unknowns belong to this state.
-    pub(super) fn agrees_with(self, state: ContactState) -> bool {
-        let [positive, negative] = self.sides;
-        let [share, rest] = self.shares;
-        match state {
-            ContactState::Positive => !negative && !rest,
-            ContactState::Negative => !positive && !share,
-            ContactState::Gap => !positive && !negative,
-        }
-    }
 }
 
 /// How a node is settled by a face.

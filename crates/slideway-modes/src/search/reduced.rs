@@ -6,8 +6,7 @@
 
 use nalgebra::DVector;
 
-use super::faces::Positive;
-use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
+use super::relaxation::{Positive, Relaxation, Relaxed, RelaxedContact};
 use super::states::StateSet;
 use crate::problem::{IntervalModeProblem, ProblemView, ScaledProblem};
 use crate::simplex::Basis;

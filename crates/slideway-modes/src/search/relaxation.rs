@@ -14,7 +14,6 @@ mod half_spaces;
 use nalgebra::DVector;
 
 use super::UNDERFLOW;
-use super::faces::Positive;
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
 use crate::simplex::{Basis, Bounds, LinearOutcome, LinearProgram, dot};
@@ -396,6 +395,26 @@ fn uneven_cost(variable: usize) -> f64 {
 
 fn power_of_two_below(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { size.log2().floor().clamp(-1000.0, 1000.0).exp2() }
+}
+
+/// The unknowns of one contact that are positive inside a face: `y^+`, `y^-`, `lambda`, `1 - lambda`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Positive {
+    pub(super) sides: [bool; 2],
+    pub(super) shares: [bool; 2],
+}
+
+impl Positive {
+    /// Whether all positive unknowns belong to this state.
+    pub(super) fn agrees_with(self, state: ContactState) -> bool {
+        let [positive, negative] = self.sides;
+        let [share, rest] = self.shares;
+        match state {
+            ContactState::Positive => !negative && !rest,
+            ContactState::Negative => !positive && !share,
+            ContactState::Gap => !positive && !negative,
+        }
+    }
 }
 
 #[cfg(test)]

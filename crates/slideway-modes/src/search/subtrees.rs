@@ -13,14 +13,16 @@ use std::sync::mpsc::{Sender, channel};
 
 use super::leaf::Leaves;
 use super::monitor::Monitor;
+use super::proof_log::ProofLog;
 use super::report::StopReason;
-use super::tree::{BASES_OF_WAITING, Node, Tree};
+use super::states::{StateSet, all_states, fraction_of_patterns};
+use super::tree::{BASES_OF_WAITING, Node, Tree, TreeReport};
 use crate::progress::Progress;
 
 /// Nodes that are visited before a tree is divided: in less time, threads are not worth starting.
-pub(super) const ALONE: u64 = 1024;
+const ALONE: u64 = 1024;
 /// The number of subtrees.
-pub(super) const SUBTREES: usize = 64;
+const SUBTREES: usize = 64;
 /// A thread tells how it proceeds once in so many calls: each time another thread wakes up.
 const CALLS: u64 = 64;
 /// Nodes of each subtree in the first round, ...
@@ -43,9 +45,58 @@ struct Told {
     found: u64,
 }
 
+impl Tree<'_> {
+    /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
+    /// patterns.
+    pub(super) fn run(self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
+        let root = all_states(self.problem);
+        self.run_from(root, (leaves, monitor)).0
+    }
+
+    /// [`run`](Self::run) from a node on, with what was written.
+    ///
+    /// A tree with many nodes is divided into subtrees, which threads share. What they are does not depend on
+    /// the number of threads. A proof is written in the order of one thread.
+    pub(super) fn run_from(
+        mut self,
+        states: Vec<StateSet>,
+        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
+    ) -> (TreeReport, Option<ProofLog>) {
+        let root = Node { states, basis: None };
+        let mut open = vec![root];
+        let alone = if self.log.is_some() { u64::MAX } else { ALONE };
+        self.work(&mut open, alone, (leaves, monitor));
+        if !open.is_empty() && !monitor.has_ended() {
+            self.widen(&mut open, (leaves, monitor));
+            open = solve(&mut self, open, (leaves, monitor));
+        }
+        self.report.shares.unexplored +=
+            open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum::<f64>();
+        (self.report, self.log)
+    }
+
+    /// Visits the nodes with most patterns until there are enough subtrees.
+    fn widen(&mut self, open: &mut Vec<Node>, (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>)) {
+        let size = |node: &Node| fraction_of_patterns(self.problem, &node.states);
+        let mut sizes: Vec<f64> = open.iter().map(size).collect();
+        while open.len() < SUBTREES
+            && let Some(largest) = (0..open.len()).max_by(|&one, &other| sizes[one].total_cmp(&sizes[other]))
+        {
+            let node = open.remove(largest);
+            sizes.remove(largest);
+            if !self.visit_next(node, open, (leaves, monitor)) {
+                break;
+            }
+            sizes.extend(
+                open[sizes.len()..].iter().map(|node| fraction_of_patterns(self.problem, &node.states)),
+            );
+        }
+    }
+}
+
 /// Visits all subtrees; the results are added to the tree and to `leaves`. Returns the nodes that are still open
 /// if the monitor stops the search.
-pub(super) fn solve<'t, 'l>(
+fn solve<'t, 'l>(
     tree: &mut Tree<'t>,
     open: Vec<Node>,
     (leaves, monitor): (&mut Leaves<'l>, &mut Monitor<'_>),

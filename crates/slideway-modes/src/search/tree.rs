@@ -5,17 +5,16 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::branching::{branching, candidates};
-use super::faces::{Faces, Positive, Settled};
+use super::faces::{Faces, Settled};
 use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::monitor::Monitor;
 use super::proof_log::ProofLog;
 use super::propagation::SolvedForm;
 use super::reduced::ReducedRelaxation;
-use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
+use super::relaxation::{Positive, Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
-use super::states::{StateSet, all_states, fraction_of_patterns};
-use super::subtrees;
+use super::states::{StateSet, fraction_of_patterns};
 use crate::problem::{ContactState, ScaledProblem};
 use crate::simplex::Basis;
 use crate::solutions::ContactSet;
@@ -32,7 +31,7 @@ pub(super) const BASES_OF_WAITING: usize = 1 << 17;
 /// A waiting node, with the basis of its parent: `None` if it was dropped to save memory.
 pub(super) struct Node {
     pub(super) states: Vec<StateSet>,
-    basis: Option<Arc<Basis>>,
+    pub(super) basis: Option<Arc<Basis>>,
 }
 
 /// What a tree search did.
@@ -56,7 +55,7 @@ impl TreeReport {
 
 #[derive(Clone)]
 pub(super) struct Tree<'a> {
-    problem: &'a ScaledProblem,
+    pub(super) problem: &'a ScaledProblem,
     propagation: Option<&'a SolvedForm>,
     relaxation: Arc<Relaxation>,
     /// Only if the numbers are exact: within bounds, no unknown vanishes for all values.
@@ -64,8 +63,8 @@ pub(super) struct Tree<'a> {
     keep_exclusions: bool,
     threads: usize,
     /// Only if a proof file is written.
-    log: Option<ProofLog>,
-    report: TreeReport,
+    pub(super) log: Option<ProofLog>,
+    pub(super) report: TreeReport,
 }
 
 impl<'a> Tree<'a> {
@@ -110,35 +109,6 @@ impl<'a> Tree<'a> {
         Self { log: Some(log), faces: self.faces.map(Faces::with_supports), ..self }
     }
 
-    /// Visits nodes until none is left or the monitor stops the search; `leaves` receives the remaining
-    /// patterns.
-    pub(super) fn run(self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
-        let root = all_states(self.problem);
-        self.run_from(root, (leaves, monitor)).0
-    }
-
-    /// [`run`](Self::run) from a node on, with what was written.
-    ///
-    /// A tree with many nodes is divided into subtrees, which threads share. What they are does not depend on
-    /// the number of threads. A proof is written in the order of one thread.
-    pub(super) fn run_from(
-        mut self,
-        states: Vec<StateSet>,
-        (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
-    ) -> (TreeReport, Option<ProofLog>) {
-        let root = Node { states, basis: None };
-        let mut open = vec![root];
-        let alone = if self.log.is_some() { u64::MAX } else { subtrees::ALONE };
-        self.work(&mut open, alone, (leaves, monitor));
-        if !open.is_empty() && !monitor.has_ended() {
-            self.widen(&mut open, (leaves, monitor));
-            open = subtrees::solve(&mut self, open, (leaves, monitor));
-        }
-        self.report.shares.unexplored +=
-            open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum::<f64>();
-        (self.report, self.log)
-    }
-
     /// Visits up to `most` nodes, the latest ones first.
     pub(super) fn work(
         &mut self,
@@ -160,26 +130,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Visits the nodes with most patterns until there are enough subtrees.
-    fn widen(&mut self, open: &mut Vec<Node>, (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>)) {
-        let size = |node: &Node| fraction_of_patterns(self.problem, &node.states);
-        let mut sizes: Vec<f64> = open.iter().map(size).collect();
-        while open.len() < subtrees::SUBTREES
-            && let Some(largest) = (0..open.len()).max_by(|&one, &other| sizes[one].total_cmp(&sizes[other]))
-        {
-            let node = open.remove(largest);
-            sizes.remove(largest);
-            if !self.visit_next(node, open, (leaves, monitor)) {
-                break;
-            }
-            sizes.extend(
-                open[sizes.len()..].iter().map(|node| fraction_of_patterns(self.problem, &node.states)),
-            );
-        }
-    }
-
     /// Visits a node; `false`, with the node still open, if the monitor stops the search.
-    fn visit_next(
+    pub(super) fn visit_next(
         &mut self,
         node: Node,
         open: &mut Vec<Node>,

@@ -2,20 +2,16 @@
 
 use super::Painter;
 use super::hidden::Bar;
-use super::looks::{self, Look, sliders};
-use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit, upper_side};
+use super::looks::{self, Look, lean, sliders};
+use super::outline::{Local, capsule, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
-use super::sliders::Slide;
+use super::slide::{BAR, SUPPORT, Slide};
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
-use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Shape, Slider};
+use slideway::mechanism::{Attachment, JointKind, LoadKind, Shape};
 use slideway::model::SliderKind;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Half the width of a bar of no particular width.
-pub(super) const BAR: f64 = 5.0;
-/// Height of a pedestal.
-pub(super) const SUPPORT: f64 = 17.0;
 /// Radius of a hinge.
 const HINGE: f64 = 5.0;
 
@@ -390,16 +386,6 @@ impl Painter<'_> {
     }
 }
 
-/// By how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment
-/// of inertia leaves that open.
-pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
-    let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
-    let mut all = sliders(mechanism).map(|(_, slider)| slider);
-    let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
-    let angle = tangent.y.atan2(tangent.x);
-    angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
-}
-
 /// A rectangle that may be torn off at its ends.
 struct TornPlate {
     local: Local,
@@ -422,24 +408,6 @@ fn nearest(polygon: &[Point], place: Point) -> Point {
     let next = polygon.iter().cycle().skip(1);
     let sides = polygon.iter().zip(next).map(|(from, to)| nearest_on_line(place, [*from, *to]));
     sides.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(place, |(_, nearest)| nearest)
-}
-
-/// An end of a plate across `local`, from one side to the other; a zigzag where the plate is torn off.
-pub(super) fn edge(local: &Local, along: f64, is_torn: bool, half: f64) -> Vec<Point> {
-    const TOOTH: f64 = 9.0;
-    const DEPTH: f64 = 4.0;
-    if !is_torn {
-        return vec![local.at(along, -half), local.at(along, half)];
-    }
-    let count = (2.0 * half / TOOTH).ceil().clamp(3.0, 200.0);
-    let mut corners = vec![local.at(along, -half)];
-    let (mut tooth, mut side) = (0.5, DEPTH);
-    while tooth < count {
-        corners.push(local.at(along + side, half * (2.0 * tooth / count - 1.0)));
-        (tooth, side) = (tooth + 1.0, -side);
-    }
-    corners.push(local.at(along, half));
-    corners
 }
 
 /// Bars along the hull of places, and its inside; a disc for a single place without a block.

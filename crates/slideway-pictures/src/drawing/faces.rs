@@ -5,7 +5,7 @@ use super::Painter;
 use super::looks::{Look, sliders};
 use super::outline::{Local, upper_side};
 use super::scene::{Class, Point};
-use super::sliders::{Slide, WALL};
+use super::slide::{Slide, Station, WALL};
 use slideway::ids::ContactId;
 use slideway::mechanism::Slider;
 use slideway::model::CarriedBy;
@@ -15,19 +15,6 @@ const TAPER: f64 = 14.0;
 /// Half the length and the depth of a pad of a block with more than two.
 const HALF_PAD: f64 = 6.0;
 const PAD_DEPTH: f64 = 4.0;
-
-/// What a guide is at one of its contacts, in drawing units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Station {
-    /// Where, from the middle of the guide along its tangent.
-    pub(super) along: f64,
-    /// How far the line of the guide is displaced there.
-    pub(super) offset: f64,
-    /// Play on either side.
-    pub(super) clearance: f64,
-    /// By how much the block is displaced beyond its play, where a face gives way.
-    pub(super) yielding: f64,
-}
 
 /// Values at places along a line, and straight between them.
 struct Polyline(Vec<[f64; 2]>);

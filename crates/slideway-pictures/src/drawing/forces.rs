@@ -4,7 +4,7 @@ use super::labels::{obstacles, reserve};
 use super::looks::{Look, sliders};
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
-use super::sliders::Slide;
+use super::slide::Slide;
 use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::mechanism::Mechanism;

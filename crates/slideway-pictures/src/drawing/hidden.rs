@@ -18,7 +18,7 @@ impl Painter<'_> {
     /// Dashes the edges of bars where bodies are drawn in front of them; not where hardly more than a rounded end is hidden,
     /// as at every hinge.
     pub(super) fn hidden_edges(&mut self, bars: &[Bar]) {
-        let least = TAU * super::bodies::BAR;
+        let least = TAU * super::slide::BAR;
         let lines: Vec<Vec<Point>> = bars.iter().flat_map(|bar| self.hidden_parts(bar)).collect();
         lines
             .into_iter()

@@ -8,7 +8,7 @@ use super::Painter;
 use super::loads::{CORNER, LEAST_ARROW};
 use super::outline::{clipped, turned, unit};
 use super::scene::{Class, Point, Shape};
-use super::sliders::Slide;
+use super::slide::Slide;
 use slideway::ids::{ContactId, Frame};
 use slideway::mechanism::Effort;
 use slideway::model::SliderKind;

@@ -4,7 +4,7 @@ use super::Painter;
 use super::looks::Look;
 use super::outline::{turned, unit};
 use super::scene::{Class, Element, Point, Shape};
-use super::sliders::Slide;
+use super::slide::Slide;
 use super::view::is_zero;
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;

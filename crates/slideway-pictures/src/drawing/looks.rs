@@ -13,12 +13,12 @@
 //! A face is drawn as one only where the contact does not pull at it, and has no play that counts.
 
 use super::ContactStates;
-use super::bodies::lean;
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
 use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
 use slideway::model::outline::polygon;
 use slideway::model::{CarriedBy, SliderKind};
+use std::f64::consts::FRAC_PI_2;
 
 /// Places nearer to a line than this part of the size of the mechanism lie on it, as rounding goes.
 const ON_LINE: f64 = 1e-9;
@@ -236,4 +236,14 @@ pub(super) fn on_rail_of(mechanism: &Mechanism, joint: JointId) -> Vec<JointId> 
     let Some(slider) = mechanism.slider(joint) else { return Vec::new() };
     let all = sliders(mechanism).filter(|(_, other)| on_one_rail(mechanism, slider, other));
     all.map(|(id, _)| id).collect()
+}
+
+/// By how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment
+/// of inertia leaves that open.
+pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
+    let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
+    let mut all = sliders(mechanism).map(|(_, slider)| slider);
+    let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
+    let angle = tangent.y.atan2(tangent.x);
+    angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
 }

@@ -133,3 +133,35 @@ pub(super) fn clipped(polygon: &[Point], within: &[Point]) -> Vec<Point> {
     }
     left
 }
+
+/// An end of a plate across `local`, from one side to the other; a zigzag where the plate is torn off.
+pub(super) fn edge(local: &Local, along: f64, is_torn: bool, half: f64) -> Vec<Point> {
+    const TOOTH: f64 = 9.0;
+    const DEPTH: f64 = 4.0;
+    if !is_torn {
+        return vec![local.at(along, -half), local.at(along, half)];
+    }
+    let count = (2.0 * half / TOOTH).ceil().clamp(3.0, 200.0);
+    let mut corners = vec![local.at(along, -half)];
+    let (mut tooth, mut side) = (0.5, DEPTH);
+    while tooth < count {
+        corners.push(local.at(along + side, half * (2.0 * tooth / count - 1.0)));
+        (tooth, side) = (tooth + 1.0, -side);
+    }
+    corners.push(local.at(along, half));
+    corners
+}
+
+/// From where to where an outline reaches along the axis of a frame; nothing if that does not cross it.
+pub(super) fn reach_along(outline: &[Point], local: &Local) -> Option<[f64; 2]> {
+    let next = outline.iter().cycle().skip(1);
+    let crossings = outline.iter().zip(next).filter_map(|(from, to)| {
+        let [before, after] = [from, to].map(|corner| (corner - local.origin).dot(&local.across));
+        if (before > 0.0) == (after > 0.0) {
+            return None;
+        }
+        let crossing = from + (to - from) * (before / (before - after));
+        Some([(crossing - local.origin).dot(&local.along); 2])
+    });
+    crossings.reduce(|[least, greatest], [other, _]| [least.min(other), greatest.max(other)])
+}

@@ -1,12 +1,9 @@
 //! Sliding joints: walls, slots, rods, blocks and pins.
 
-use super::bodies::SUPPORT;
-use super::bodies::edge;
-use super::faces::Station;
 use super::looks::{Look, corners, on_rail_of, sliders};
-use super::outline::{Local, capsule, turned, upper_side};
+use super::outline::{Local, capsule, edge, reach_along, turned, upper_side};
 use super::scene::{Class, Point};
-use super::stops::{EndStop, reach_along};
+use super::slide::{PIN, SUPPORT, Slide, Station, WALL};
 use super::{Painter, View};
 use slideway::configuration::Configuration;
 use slideway::ids::{ContactId, Frame, JointId};
@@ -15,8 +12,6 @@ use slideway::model::{CarriedBy, SliderKind};
 
 /// Least drawn height of a block or rod.
 const LEAST_HEIGHT: f64 = 9.0;
-/// Radius of a pin.
-pub(super) const PIN: f64 = 5.5;
 /// Half the space between a block and its walls where no contact mode is shown.
 const NO_PLAY: f64 = 1.0;
 /// Height of a block that is a body of its own on a face, in lengths, and the greatest.
@@ -28,38 +23,6 @@ const FOOT: f64 = 8.0;
 /// Radius of the rollers of a belt, and the distance of the lines across it that show how it moves.
 const ROLLER: f64 = 9.0;
 const MARK: f64 = 30.0;
-/// Thickness of the walls of a slot in a body.
-pub(super) const WALL: f64 = 6.0;
-
-/// A sliding joint in drawing units.
-#[derive(Debug, Clone)]
-pub(super) struct Slide {
-    pub(super) kind: SliderKind,
-    pub(super) look: Look,
-    pub(super) around: bool,
-    pub(super) block_frame: Frame,
-    pub(super) guide_frame: Frame,
-    /// Around the middle of the block, along its axis.
-    pub(super) block: Local,
-    /// Around the middle of the guide, along its tangent.
-    pub(super) guide: Local,
-    /// From where to where the block reaches along its axis.
-    pub(super) block_reach: [f64; 2],
-    /// From where to where the guide reaches along its tangent.
-    pub(super) guide_reach: [f64; 2],
-    /// Which ends of the guide, rear and front, are open: the block leaves it there.
-    pub(super) open: [bool; 2],
-    /// Which ends of the block are torn off, as the model does not say where they are.
-    pub(super) torn: [bool; 2],
-    /// What stands at the least and at the greatest displacement.
-    pub(super) stops: [Option<EndStop>; 2],
-    /// Drawn distance of the rubbing faces.
-    pub(super) height: f64,
-    /// Play on either side, the greatest where it differs.
-    pub(super) gap: f64,
-    /// The contacts of a guide that shares its load, by their places along it; none of any other.
-    pub(super) stations: Vec<Station>,
-}
 
 impl Slide {
     /// The part that surrounds the other: its frame, where it lies and how far it reaches.

@@ -7,9 +7,9 @@
 //! none of it.
 
 use super::Painter;
-use super::outline::Local;
+use super::outline::{Local, reach_along};
 use super::scene::{Class, Point};
-use super::sliders::{PIN, Slide, WALL};
+use super::slide::{EndStop, PIN, Slide, WALL};
 use slideway::ids::{Frame, JointId};
 use slideway::mechanism::Slider;
 use slideway::model::SliderKind;
@@ -19,17 +19,6 @@ const PAD: f64 = 20.0;
 const LEAST_PAD: f64 = 12.0;
 /// Half the least width of what meets a plate.
 const BEFORE_PLATE: f64 = 14.0;
-
-/// A stop or a pad, in places along the tangent of its guide from the middle of that.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct EndStop {
-    /// The face that the block meets: at a pad into which it has come, where it is.
-    pub(super) face: f64,
-    /// The end of the guide: a pad fills what is between.
-    pub(super) wall: f64,
-    /// Half its width across the guide.
-    pub(super) half: f64,
-}
 
 /// The end of a block.
 #[derive(Debug, Clone, Copy)]
@@ -142,18 +131,4 @@ impl Painter<'_> {
             diagonal += 1.0;
         }
     }
-}
-
-/// From where to where an outline reaches along the axis of a frame; nothing if that does not cross it.
-pub(super) fn reach_along(outline: &[Point], local: &Local) -> Option<[f64; 2]> {
-    let next = outline.iter().cycle().skip(1);
-    let crossings = outline.iter().zip(next).filter_map(|(from, to)| {
-        let [before, after] = [from, to].map(|corner| (corner - local.origin).dot(&local.across));
-        if (before > 0.0) == (after > 0.0) {
-            return None;
-        }
-        let crossing = from + (to - from) * (before / (before - after));
-        Some([(crossing - local.origin).dot(&local.along); 2])
-    });
-    crossings.reduce(|[least, greatest], [other, _]| [least.min(other), greatest.max(other)])
 }

@@ -1,7 +1,6 @@
 //! From metres to drawing units, and how far guides reach.
 
-use super::bodies::lean;
-use super::looks::{corners, is_belt};
+use super::looks::{corners, is_belt, lean};
 use super::scene::{Bounds, Point};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;

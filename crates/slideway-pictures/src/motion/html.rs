@@ -2,15 +2,27 @@
 
 use super::animation::Animation;
 use super::page::{colours, force_scale, samples, speed, view_box};
-use crate::coordinate::exact;
+use crate::coordinate::{NotFinite, exact, finished, finished_parts};
 use crate::drawing::svg::{Colour, rules};
 use crate::drawing::{Class, EXAGGERATED, Point};
 use crate::escaped;
 use crate::typeface::STACK;
 use std::fmt::Write;
 
+impl Animation {
+    /// Returns a page by itself, with a slider for the time and the log of events.
+    ///
+    /// # Errors
+    /// If a place or a size is infinite or undefined.
+    pub fn to_html(&self) -> Result<String, NotFinite> {
+        // In the page they are parts of a program, in which characters are written otherwise.
+        finished_parts(&self.shapes)?;
+        finished(html(self))
+    }
+}
+
 /// A page with a slider for the time and the log of events.
-pub(super) fn html(animation: &Animation) -> String {
+fn html(animation: &Animation) -> String {
     let theme = &animation.theme;
     let mut out = String::new();
     let _ = write!(

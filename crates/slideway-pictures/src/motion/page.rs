@@ -1,8 +1,7 @@
 //! A moving picture as a document by itself.
 
 use super::animation::{Animation, FrameOf};
-use super::html::html;
-use crate::coordinate::{NotFinite, coordinate, finished, finished_parts, tenths, thousandths};
+use crate::coordinate::{NotFinite, coordinate, finished, tenths, thousandths};
 use crate::drawing::svg::{Colour, class_name, markup, rules};
 use crate::drawing::{Class, Element, Point, Shape, nice, quantity, sample};
 use crate::escaped;
@@ -33,16 +32,6 @@ const LINES: usize = 6;
 const LINE: f64 = 16.0;
 
 impl Animation {
-    /// As a page by itself, with a slider for the time and the log of events.
-    ///
-    /// # Errors
-    /// If a place or a size is infinite or undefined.
-    pub fn to_html(&self) -> Result<String, NotFinite> {
-        // In the page they are parts of a program, in which characters are written otherwise.
-        finished_parts(&self.shapes)?;
-        finished(html(self))
-    }
-
     /// As an SVG document that moves by itself.
     ///
     /// # Errors

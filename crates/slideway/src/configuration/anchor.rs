@@ -41,8 +41,8 @@
 use super::Pose;
 use super::curvature::Curvature;
 use super::factors::Factors;
-use super::following::Leg;
 use super::joint_equations::JointEquations;
+use super::leg::Leg;
 use super::mobility::advance;
 use crate::mechanism::Mechanism;
 use nalgebra::{DMatrix, DVector};

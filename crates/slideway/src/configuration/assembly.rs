@@ -1,8 +1,9 @@
 //! The closed drawing, and why a drawing or a state beyond it cannot be had.
 
 use super::anchor::Anchor;
-use super::following::{Halt, Leg, drawn, follow};
+use super::following::{Halt, follow};
 use super::joint_equations::JointEquations;
+use super::leg::{Leg, drawn};
 use super::mobility::{
     Mobility, RANK_TOLERANCE, advance, least_squares, null_space_within, rank, regularity,
 };

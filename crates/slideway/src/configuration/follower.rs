@@ -1,8 +1,9 @@
 //! States of one mechanism after another, each on the branch of the drawing.
 
 use super::assembly::{check_position, closed_drawing, singular_state, way_fault};
-use super::following::{Arrival, Halt, Leg, Settled, drawn, follow, scale, settle};
+use super::following::{Arrival, Halt, Settled, follow, settle};
 use super::joint_equations::JointEquations;
+use super::leg::{Leg, drawn, scale};
 use super::{Configuration, Pose, Velocity};
 use crate::fault::Faults;
 use crate::ids::Frame;

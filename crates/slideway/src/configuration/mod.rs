@@ -18,6 +18,7 @@ mod factors;
 mod follower;
 mod following;
 mod joint_equations;
+mod leg;
 mod mobility;
 mod standing;
 

@@ -1,10 +1,10 @@
 //! Blocks: groups of entities that a drawing inserts, scaled and turned, also within each other.
 
 use super::curves::arcs;
-use super::entities::{Drawing, Layer, Path, Words, sign_of_plane};
+use super::entities::sign_of_plane;
 use super::groups::{Record, Sections};
-use super::paths::Corner;
-use super::{ImportFault, goes_on, shown};
+use super::layers::{Corner, Drawing, Layer, Path, Words};
+use super::{ImportFault, goes_on};
 use crate::model::OutlineCorner;
 use crate::model::outline::Piece;
 use crate::progress::Work;
@@ -113,12 +113,6 @@ impl<'s, 't> Reader<'s, 't> {
         let placements = places.map(|[x, y]| placement(Vector2::new(x * apart[0], y * apart[1])));
         Ok(Some((contents, placements.collect())))
     }
-}
-
-/// Why an `INSERT` is left out whose plane and sheet are not the reason.
-pub(super) fn left_out(record: &Record<'_>) -> String {
-    let name = record.first(2).map_or("", |group| group.value);
-    format!("INSERT of {}, which is no block of the drawing, or within itself", shown(name))
 }
 
 impl Drawing {

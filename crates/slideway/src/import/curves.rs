@@ -1,9 +1,8 @@
 //! Curves that are no arcs of circles: ellipses and splines, as arcs that stay near them.
 
 use super::ImportFault;
-use super::entities::Path;
 use super::groups::Record;
-use super::paths::Corner;
+use super::layers::{Corner, Path};
 use crate::model::OutlineCorner;
 use crate::model::outline::Piece;
 use nalgebra::{Vector2, Vector3};

@@ -1,60 +1,12 @@
 //! Entities of a drawing: lines, circles, points and words of each layer.
 
-use super::blocks::left_out;
 use super::curves::{ellipse, spline};
 use super::groups::Record;
-use super::paths::{Corner, arc, bulge};
+use super::layers::{Corner, Layer, Path, Words};
+use super::paths::{arc, bulge};
 use super::{ImportFault, shown};
 use crate::model::OutlineCorner;
 use nalgebra::Vector2;
-use std::collections::BTreeMap;
-
-/// A drawing, layer by layer in the order in which they occur.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Drawing {
-    pub(super) layers: Vec<Layer>,
-    /// Which layer has a name.
-    named: BTreeMap<String, usize>,
-}
-
-/// What a layer holds, in units of the drawing.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Layer {
-    pub(super) name: String,
-    pub(super) paths: Vec<Path>,
-    pub(super) circles: Vec<(Vector2<f64>, f64)>,
-    pub(super) points: Vec<Vector2<f64>>,
-    pub(super) words: Vec<Words>,
-    /// How many entities of each kind are left out.
-    pub(super) left_out: BTreeMap<String, usize>,
-}
-
-/// A line of straight pieces and arcs.
-#[derive(Debug, Clone)]
-pub(super) struct Path {
-    pub(super) corners: Vec<Corner>,
-    pub(super) is_closed: bool,
-}
-
-/// A line of text.
-#[derive(Debug, Clone)]
-pub(super) struct Words {
-    pub(super) text: String,
-    pub(super) at: Vector2<f64>,
-    pub(super) height: f64,
-}
-
-impl Drawing {
-    pub(super) fn layer(&mut self, name: &str) -> &mut Layer {
-        let found = self.named.get(name).copied();
-        let index = found.unwrap_or_else(|| {
-            self.layers.push(Layer { name: name.to_owned(), ..Layer::default() });
-            self.named.insert(name.to_owned(), self.layers.len() - 1);
-            self.layers.len() - 1
-        });
-        &mut self.layers[index]
-    }
-}
 
 impl Layer {
     pub(super) fn read(&mut self, record: &Record<'_>, vertices: &[&Record<'_>]) -> Result<(), ImportFault> {
@@ -175,4 +127,10 @@ fn polyline(vertices: &[(Vector2<f64>, f64)], flags: u32) -> Path {
         OutlineCorner { at: *at, arc_through }
     };
     Path { corners: vertices.iter().enumerate().map(corner).collect(), is_closed }
+}
+
+/// Why an `INSERT` is left out whose plane and sheet are not the reason.
+pub(super) fn left_out(record: &Record<'_>) -> String {
+    let name = record.first(2).map_or("", |group| group.value);
+    format!("INSERT of {}, which is no block of the drawing, or within itself", shown(name))
 }

@@ -14,6 +14,7 @@ mod curves;
 mod entities;
 mod grid;
 mod groups;
+mod layers;
 mod paths;
 mod written;
 

@@ -1,8 +1,8 @@
 //! Polygons of lines and arcs, and the bodies and points that a drawing shows.
 
-use super::entities::{Drawing, Layer, Path, Words};
 use super::goes_on;
 use super::grid::Grid;
+use super::layers::{Corner, Drawing, Layer, Path, Words};
 use super::shown;
 use crate::expression::{is_reserved, is_valid_name};
 use crate::model::OutlineCorner;
@@ -17,9 +17,6 @@ use std::f64::consts::{PI, TAU};
 const JOINED: f64 = 1e-6;
 /// How far a text may be from the point that it names, in heights of its letters.
 const BESIDE: f64 = 4.0;
-
-/// A corner of a line, and the arc that begins there.
-pub(super) type Corner = OutlineCorner<Vector2<f64>>;
 
 /// The bodies and points of a drawing, in its units.
 #[derive(Debug, Clone)]

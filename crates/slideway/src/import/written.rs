@@ -1,6 +1,7 @@
 //! The model file that a drawing becomes.
 
-use super::paths::{Bodies, Body, Corner, Spot};
+use super::layers::Corner;
+use super::paths::{Bodies, Body, Spot};
 use super::{Unit, shown};
 use crate::drawing::{quoted, written_key};
 use nalgebra::Vector2;

@@ -11,7 +11,8 @@
 //! regions over directions, known from inside and from outside, and sectors are halved until the two agree (theory of
 //! friction in hinges, section 7). The difference is of second order in `d`.
 
-use super::program::{End, NOTHING, Region, Unsolved};
+use super::program::{End, NOTHING, Region};
+use super::simplex::Unsolved;
 use super::{Affine, Extent};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -28,7 +28,8 @@ pub(crate) use affine::{Affine, AffineExpression, AffineSet};
 pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipping};
 pub(crate) use friction_circle::{Pin, direction};
 pub(crate) use phase::{ContactPhase, HingePhase, JointPhase, Phase};
-pub(crate) use program::{NOTHING, Region, Unsolved};
+pub(crate) use program::{NOTHING, Region};
+pub(crate) use simplex::Unsolved;
 
 /// Least and greatest value; nothing where there is none.
 pub(crate) type Extent = [Option<f64>; 2];

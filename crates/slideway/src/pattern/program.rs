@@ -1,7 +1,7 @@
 //! A region of points within linear inequalities, and the linear programs that ask for its extent.
 
 use super::friction_circle::{Pin, Pinned};
-use super::simplex::{Optimum, least};
+use super::simplex::{Optimum, Unsolved, least};
 use super::{Affine, Extent};
 use crate::progress::Work;
 use nalgebra::Vector3;
@@ -51,10 +51,6 @@ impl End {
         Self { value: self.value.map(|value| -value), ..self }
     }
 }
-
-/// The solver gave up, its answer contradicts what is known, or the work is to end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Unsolved;
 
 impl Region<'static> {
     /// The points of so many coordinates at which every function is at least zero.

@@ -10,7 +10,7 @@ use crate::ids::JointId;
 use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
 use crate::motion::moving::energy::kinetic;
-use crate::pattern::{ContactPhase, JointPhase, Phase};
+use crate::pattern::{JointPhase, Phase};
 use nalgebra::DVector;
 
 /// The effect of an impulse that ends a jam.
@@ -21,8 +21,6 @@ pub struct Impulse {
     /// The sliding joints without velocity afterwards: those that stopped first, and those that were at rest
     /// and stay at rest.
     pub at_rest: Vec<JointId>,
-    /// The sides at which the contacts are pressed during the impulse.
-    pub(crate) sides: Vec<ContactPhase>,
     /// Impulse of the normal force of each contact, with its sign (N s).
     pub normal_impulses: Vec<f64>,
     /// Impulse of the friction of each contact, positive along -u on the block (N s).
@@ -148,7 +146,6 @@ impl ImpulseSearch<'_> {
         Some(Impulse {
             wedged: instant.joints[joint].id,
             at_rest: rest.map(|(joint, _)| joint.id).collect(),
-            sides: state.phase.contacts.clone(),
             normal_impulses: normals.map(|(k, normal)| normal * self.impulses.unit(k) * part).collect(),
             friction_impulses: whole.into_iter().map(|friction| friction.times(part)).collect(),
             energy_lost: kinetic(instant.mechanism, self.configuration) - kinetic(instant.mechanism, &after),
