@@ -18,6 +18,7 @@
 //! Contacts in their gap have the column `-(d_k^+ - d_k^-)`, and their unknown is the share `lambda_k`,
 //! `0 <= lambda_k <= 1`. Any difference between `d_k^+` and `d_k^-`, however small, is a jump.
 
+mod admissible;
 mod cell;
 mod decision;
 mod elimination;

@@ -12,6 +12,7 @@ use super::fault::ExpressionFault;
 use super::function::{Binary, Unary};
 use super::names::Symbol;
 use super::program::{Expression, Operation};
+use super::table::End;
 use crate::interval::Real;
 
 /// On which piece a relation is: the sign of its argument (`sign`, `step`, `abs`), 0 or 1 for the first or
@@ -23,19 +24,6 @@ pub(crate) enum Piece {
     Held(i64),
     /// The argument decides at every evaluation.
     Free,
-}
-
-/// An end of a piece.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum End {
-    /// Below.
-    Lower,
-    /// Above.
-    Upper,
-}
-
-impl End {
-    pub(crate) const BOTH: [Self; 2] = [Self::Lower, Self::Upper];
 }
 
 /// A relation within an expression.

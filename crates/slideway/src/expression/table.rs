@@ -1,7 +1,6 @@
 //! Functions that a table of values gives.
 
 use super::dimension::Inferred;
-use super::relation::End;
 use crate::interval::{Interval, Real};
 use std::sync::Arc;
 
@@ -215,6 +214,19 @@ impl Table {
 
 fn hull(intervals: impl Iterator<Item = Interval>) -> Interval {
     intervals.reduce(Interval::hull).unwrap_or(Interval::REAL_LINE)
+}
+
+/// An end of a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum End {
+    /// Below.
+    Lower,
+    /// Above.
+    Upper,
+}
+
+impl End {
+    pub(crate) const BOTH: [Self; 2] = [Self::Lower, Self::Upper];
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::solve::mode_in_words;
 use nalgebra::Vector2;
 
 /// The words of an event that changes nothing.
-pub(in crate::motion) const NOTHING: &str = "it continues as before";
+const NOTHING: &str = "it continues as before";
 
 /// Something that happened at an instant.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +56,13 @@ pub fn phase_in_words(mechanism: &Mechanism, configuration: &Configuration, phas
     let sliders = sliding_joints(mechanism);
     let words = Words { mechanism, configuration, sliders: &sliders };
     words.event(&[], None, Some(phase))
+}
+
+impl Event {
+    /// Returns whether anything happens: a normal force may touch zero once more within rounding.
+    pub(in crate::motion) fn is_reported(&self) -> bool {
+        self.words != NOTHING
+    }
 }
 
 /// Tells events of a mechanism.

@@ -1,21 +1,13 @@
 //! Why a motion ends, as a kind and as a sentence.
 
-use super::report::{EndReport, is_told};
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::Event;
 use crate::motion::record::history::{End, History};
 use crate::report::count;
 
-/// How a motion ends.
-pub(super) fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
-    let locked =
-        matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
-    EndReport { kind: history.end.kind(), words: end_in_words(history, options), locked }
-}
-
 /// The end in a sentence.
-fn end_in_words(history: &History, options: &SimulateOptions) -> String {
+pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> String {
     let mechanism = &history.mechanism;
     let time = history.mechanism.units.of("s").brief(history.stop());
     let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
@@ -60,7 +52,8 @@ fn finished(history: &History, time: &str) -> String {
     let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest());
     // The stop itself is no event before it.
     let end = rest.map_or(f64::INFINITY, |rest| rest.from);
-    let counts = |event: &&Event| is_told(event) && !event.causes.contains(&Cause::Start) && event.time < end;
+    let counts =
+        |event: &&Event| event.is_reported() && !event.causes.contains(&Cause::Start) && event.time < end;
     let after = match history.events.iter().filter(counts).count() {
         0 => String::new(),
         events => format!(" after {}", count(events, "event", "events")),

@@ -1,6 +1,6 @@
 //! The report of a motion: plain data, which are the JSON output.
 
-use super::end::end_report;
+use super::end::end_in_words;
 use super::series::Series;
 use crate::choice::kinds;
 use crate::configuration::{Configuration, unit};
@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
-use crate::motion::record::event::{Event, NOTHING};
+use crate::motion::record::event::Event;
 use crate::motion::record::history::{End, Energy, History, PhaseInterval};
 use crate::pattern::phase::JointPhase;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
@@ -276,7 +276,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         events: history
             .events
             .iter()
-            .filter(|event| is_told(event))
+            .filter(|event| event.is_reported())
             .map(|event| event_report(history, event))
             .collect(),
         phases: phases(history),
@@ -289,7 +289,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             steps: history.statistics.steps,
             repeated: history.statistics.rejected,
             evaluations: history.statistics.evaluations,
-            events: history.events.iter().filter(|event| is_told(event)).count(),
+            events: history.events.iter().filter(|event| event.is_reported()).count(),
             sampled: (history.statistics.sampled > 0.0).then_some(SampledReport {
                 time: history.statistics.sampled,
                 longest_step: history.statistics.sampled_step,
@@ -345,9 +345,10 @@ fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateStat
         .collect()
 }
 
-/// A normal force may touch zero once more within rounding: then nothing changes, and nothing is reported.
-pub(super) fn is_told(event: &Event) -> bool {
-    event.words != NOTHING
+fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
+    let locked =
+        matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
+    EndReport { kind: history.end.kind(), words: end_in_words(history, options), locked }
 }
 
 fn event_report(history: &History, event: &Event) -> EventReport {
