@@ -43,7 +43,8 @@ pub(crate) fn explain(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code());
 }
 
-/// That there is no such command, or that a template has no such dimension, and what there is.
+/// Builds the complaint that there is no such command, or that a template has no such dimension, with a list
+/// of those that there are. Returns `None` for other errors.
 fn with_all_names(error: &clap::Error) -> Option<String> {
     let (command, path) = command(std::env::args_os());
     let quoted = |kind| match error.get(kind) {

@@ -11,7 +11,7 @@ use slideway::gallery::{self, GREATEST_STAGES, MODELS};
 
 /// Stands for words that have no room.
 const MORE: &str = " ...";
-/// What to do with the list.
+/// Hint below the list: the command that writes one of its models to a file.
 const START: &str = "`slideway models NAME > NAME.toml` writes one to start from.\n";
 
 /// Lists the gallery, or writes one of its models.

@@ -120,7 +120,7 @@ fn outcome(end: &End) -> Outcome {
     }
 }
 
-/// What is asked of a model.
+/// A simulation that is asked for, with the model that it is asked of.
 struct Question<'q> {
     arguments: &'q SimulateArguments,
     input: &'q Input,
