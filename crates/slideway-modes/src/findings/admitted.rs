@@ -6,7 +6,7 @@ use crate::certificate::ExactSet;
 use crate::problem::{ContactState, SolutionSet};
 use crate::solutions::{GapShare, Support};
 
-/// What a singular pattern admits.
+/// The set of solutions that a singular pattern admits.
 #[derive(Debug, Clone)]
 pub(crate) struct Admitted {
     pub(crate) set: SolutionSet,

@@ -106,7 +106,7 @@ fn status(result: &SearchResult, counts: &Counts) -> Status {
     }
 }
 
-/// What prevents the list from being proven complete.
+/// Returns the reasons, in words, why the list is not proven complete; empty if it is.
 fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
     match result.completeness {
         Completeness::Proven => Vec::new(),
@@ -289,7 +289,8 @@ impl<'a> Teller<'a> {
         radius.is_finite().then_some(radius)
     }
 
-    /// The same for a point that is known exactly.
+    /// Returns the maximum distance of the values from those of a point that is known exactly; `None` if
+    /// unknown. It ignores the values that `radius` ignores.
     fn exact_radius(&self, exact_unknowns: &mut ExactUnknowns<'_>, values: &Values) -> Option<f64> {
         let mut distance = |at: usize| {
             let error = exact_unknowns.of(at)? - exact(values.signed[at].abs());

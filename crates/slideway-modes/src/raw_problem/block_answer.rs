@@ -78,7 +78,7 @@ fn strategy(equation: &BlockEquation, result: &BlockResult) -> String {
     )
 }
 
-/// What prevents the list from being proven complete.
+/// Returns the reasons, in words, why the list is not proven complete; empty if it is.
 fn open(equation: &BlockEquation, result: &BlockResult, options: &SearchOptions) -> Vec<String> {
     let region = |region: &OpenRegion| {
         let (place, x) = match region.label {

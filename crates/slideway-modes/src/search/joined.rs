@@ -25,7 +25,7 @@ impl CombinedState<'_> {
         }
     }
 
-    /// What is proven about the combination.
+    /// Returns the statement that is proven about the combination.
     pub fn certificate(&self, contacts: usize) -> Certificate {
         Joint { state: self, contacts, listed: 1 }.certificate()
     }

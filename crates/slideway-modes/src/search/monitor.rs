@@ -28,7 +28,7 @@ pub(super) struct Monitor<'a> {
     states: Option<&'a mut StateCallback<'a>>,
 }
 
-/// What has as many solutions as are wanted.
+/// Flags for groups that have as many solutions as are wanted.
 #[derive(Default)]
 struct Enough {
     /// The current group.

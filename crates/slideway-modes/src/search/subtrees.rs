@@ -35,7 +35,7 @@ struct Subtree<'t, 'l> {
     stopped: Option<StopReason>,
 }
 
-/// What a subtree tells while it is visited.
+/// The progress of a subtree, sent while it is visited.
 struct Told {
     subtree: usize,
     nodes: u64,
