@@ -38,7 +38,7 @@ pub(crate) fn typed_settings(settings: &Settings) -> Settings {
     kinds.into_iter().flat_map(of_kind).map(typed).fold(Settings::default(), Settings::with)
 }
 
-/// What is swept, with values as texts.
+/// Returns the options of a sweep with values as texts.
 pub(crate) fn typed_options(options: &SweepOptions) -> SweepOptions {
     let mut typed = options.clone();
     typed.points = match &options.points {

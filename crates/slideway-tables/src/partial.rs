@@ -27,7 +27,7 @@ const CONVERTED: &str = ".partial.converted";
 /// Time between two states.
 const BETWEEN: Duration = Duration::from_secs(2);
 
-/// What is kept beside an unfinished table.
+/// The state of an unfinished table, kept in a file beside it.
 #[derive(Debug, Serialize, Deserialize)]
 struct Kept {
     schema: String,
@@ -69,7 +69,7 @@ pub struct PartialFile {
 pub struct Continued {
     /// Where the rows go.
     pub file: PartialFile,
-    /// What is done of it.
+    /// The state with which it goes on: the part that is done.
     pub state: SweepState,
 }
 
@@ -159,7 +159,7 @@ impl PartialFile {
         Ok(Continued { file, state: kept.state })
     }
 
-    /// What makes bytes of its rows.
+    /// Returns the encoder that makes bytes of its rows.
     pub fn encoder(&self) -> &Encoder {
         &self.encoder
     }
@@ -294,7 +294,7 @@ impl PartialFile {
     }
 }
 
-/// What becomes of an unfinished table that is there.
+/// The fate of an unfinished table that is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Old {
     /// There has to be one.

@@ -14,9 +14,9 @@ pub struct ShardedSweep {
     /// The text of the model, and the command, which every shard and the merged table tell of themselves.
     /// Nothing depends on the command.
     pub metadata: Metadata,
-    /// What is changed in the model.
+    /// The changes of the model.
     pub settings: Settings,
-    /// What is swept.
+    /// The options of the sweep: the quantities that are varied, and what is computed.
     pub options: SweepOptions,
 }
 
@@ -54,9 +54,9 @@ pub struct Part {
     pub points: u64,
     /// ... of so many.
     pub points_of_sweep: u64,
-    /// What is changed in the model.
+    /// The changes of the model.
     pub settings: Settings,
-    /// What is swept.
+    /// The options of the sweep: the quantities that are varied, and what is computed.
     pub options: SweepOptions,
     /// The exact ends of modes that are inserted into the whole sweep.
     pub breakpoints: Breakpoints,
@@ -79,12 +79,12 @@ impl Part {
     }
 }
 
-/// What stands in the metadata of the file of a shard, as JSON, besides the text of the model.
+/// The metadata in the file of a shard, as JSON, besides the text of the model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Which part of which sweep it is.
     pub part: Part,
-    /// What its points come to.
+    /// Numbers of its points, of their rows and of kinds of outcome.
     pub tally: Tally,
 }
 

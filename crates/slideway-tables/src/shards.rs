@@ -202,7 +202,7 @@ impl Shards {
         &self.sweep
     }
 
-    /// What was computed, with the command of the first shard.
+    /// Returns the sweep that was computed, with the command of the first shard.
     pub fn sharded(&self) -> &ShardedSweep {
         &self.sharded
     }

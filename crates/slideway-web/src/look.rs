@@ -17,7 +17,7 @@ use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Held, Sheet, title};
 use slideway_pictures::page::{reasons, solve_parts};
 
-/// What the page shows of a state.
+/// The look of a state on the page: its quantities, drawings and answer.
 #[derive(Debug, Serialize)]
 pub(crate) struct Look {
     title: String,
@@ -30,7 +30,7 @@ pub(crate) struct Look {
     drives: Vec<String>,
     /// The mechanism, each of its solutions, and the key to the colours.
     drawings: Vec<Drawing>,
-    /// What the drawings of the next state of the same model keep of these.
+    /// The scale and the place that the drawings of the next state of the same model keep of these.
     held: Option<Kept>,
     /// How many solutions there are; absent where the question has no answer.
     answer: Option<Verdict>,

@@ -86,7 +86,7 @@ struct Group {
 }
 
 impl Group {
-    /// What stands in a field that begins at this byte of each record.
+    /// Returns the values of the field that begins at this byte of each record.
     fn values(&self, kind: FieldKind, start: usize) -> Values {
         match kind {
             FieldKind::Point => Values::Unsigned64(self.fields(start).map(u64::from_le_bytes).collect()),
