@@ -28,7 +28,7 @@ pub struct PinForce {
 }
 
 impl PinForce {
-    /// What a solution says of the hinges with friction.
+    /// Returns the forces in a solution of the hinges with friction.
     pub(super) fn of(solution: &Solution) -> Vec<Self> {
         let one = |hinge: &slideway::report::Hinge| {
             let friction = hinge.friction?;

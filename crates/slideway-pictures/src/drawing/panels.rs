@@ -15,7 +15,7 @@ pub(super) const MOST: usize = 24;
 pub(super) const LONGEST_FORCE: f64 = 76.0;
 const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
 
-/// What is said of a picture whose guides have play that can be seen.
+/// Remark on a picture whose guides are drawn with a play that can be seen instead of their own.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
 
 /// By how much play and what else is small are magnified in a drawing, in words.
@@ -69,12 +69,12 @@ pub enum Shown {
     GapState(usize),
 }
 
-/// What is written below a panel.
+/// The words below a panel.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Caption {
     /// Its first line.
     pub heading: String,
-    /// What follows.
+    /// The lines that follow.
     pub lines: Vec<String>,
     /// A table below: a row for each pin with friction, after one of headings.
     pub table: Vec<[String; 4]>,
@@ -85,13 +85,13 @@ pub struct Caption {
 pub struct Panel {
     /// The drawing.
     pub scene: Scene,
-    /// What is written below it.
+    /// The words below it.
     pub caption: Caption,
     /// Drawing units for a newton, if its forces are to scale.
     pub force_scale: Option<f64>,
 }
 
-/// What is drawn.
+/// The subject of drawings: a mechanism in a configuration, with its solutions.
 pub(super) struct Drawn<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) configuration: &'a Configuration,

@@ -23,7 +23,7 @@ pub struct DrawnMap {
     pub y: Axis,
     /// The classes, in the order of the report.
     pub classes: Vec<DrawnClass>,
-    /// What signs of modes mean that no class tells, for the end of the legend.
+    /// The meanings of signs of modes that no class states, for the end of the legend.
     pub modes: Vec<String>,
     /// The values of the model, in the units of the axes; absent if they are not on the map.
     pub model: Option<[f64; 2]>,
@@ -36,7 +36,7 @@ pub struct DrawnClass {
     pub fill: &'static str,
     /// How it is hatched, if it is.
     pub hatching: Option<Hatching>,
-    /// What it means and its share of the map, for the legend.
+    /// Its meaning and its share of the map, for the legend.
     pub text: String,
 }
 

@@ -207,7 +207,7 @@ fn seconds(animation: &Animation, time: f64) -> String {
     format!("{time:.decimals$} s")
 }
 
-/// What the colours of arrows mean, of those that occur.
+/// Returns the classes of arrows that occur, with the meanings of their colours.
 pub(super) fn colours(animation: &Animation) -> Vec<(Class, &'static str)> {
     let all = [
         (Class::Reaction, "normal reaction"),
@@ -247,7 +247,7 @@ fn title_and_key(animation: &Animation, foot: &Foot, out: &mut String) {
     out.push_str(&arrows);
 }
 
-/// What a class looks like, in a key.
+/// Returns the sample of a class for a key, as SVG.
 pub(super) fn samples(class: Class, place: Point) -> String {
     sample(class, place, SAMPLE).into_iter().map(|shape| markup(&Element { class, shape })).collect()
 }
@@ -358,7 +358,7 @@ fn events(animation: &Animation, foot: &Foot, out: &mut String) {
     }
 }
 
-/// What makes a group visible from a time of the clock on, for some time (s).
+/// Returns the SVG that makes a group visible from a time of the clock on, for some time (s).
 fn shown(begin: f64, duration: f64) -> String {
     let [begin, duration] = [begin, duration].map(thousandths);
     format!(
