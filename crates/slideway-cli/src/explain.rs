@@ -1,4 +1,5 @@
-//! What is wrong with the arguments, in the words of [`clap`]; where a name is not known, with all that there are.
+//! Complaints about the arguments, in the words of [`clap`]; where a name is not known, with all that there
+//! are.
 
 use crate::arguments::Arguments;
 use crate::columns;
@@ -18,8 +19,8 @@ use std::io::{self, Write};
 
 /// Says what is wrong with the arguments, or the help or version that they ask for, and ends the program.
 ///
-/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so
-/// that whatever is still in it comes from the arguments.
+/// A complaint quotes arguments as they are. If one of them is not printable, it is written without colours,
+/// so that whatever is still in it comes from the arguments.
 pub(crate) fn explain(error: &clap::Error) -> ! {
     let is_printable = |word: OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
     if !error.use_stderr() {

@@ -1,4 +1,4 @@
-//! What ends work before it is done.
+//! Reasons for which work ends before it is done.
 
 use crate::outcome::Outcome;
 use std::time::Duration;

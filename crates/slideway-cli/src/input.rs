@@ -51,7 +51,7 @@ impl Input {
         }
     }
 
-    /// The model with its settings; what is perhaps not meant in it is told on standard error.
+    /// Returns the model with its settings, and writes its warnings to standard error.
     ///
     /// # Errors
     /// All faults of both; the warnings if they are to be errors.

@@ -1,4 +1,4 @@
-//! What methods take: numbers or texts, names with ranges.
+//! Arguments of methods: numbers or texts, names with ranges.
 
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};

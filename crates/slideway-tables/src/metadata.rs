@@ -1,4 +1,4 @@
-//! What every table tells of itself.
+//! The metadata that every table carries.
 
 /// The origin of a table, which every table states.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! A table on its way: `FILE.partial` holds what is done, `FILE.partial.state` what is needed to go on.
 //!
-//! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
-//! Checksums tell whether both files are still what was written. Only regular files are written, and only new ones
-//! or what has been checked: never what a link of such a name leads to.
+//! The writer of a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
+//! Checksums show whether both files are still what was written. Only regular files are written, and only new
+//! ones or those that have been checked: never the target of a link of such a name.
 
 use crate::{Encoder, FileIdentity, Metadata, Part, TableError, TableFormat, npz};
 use crc32fast::Hasher;
@@ -217,8 +217,8 @@ impl PartialFile {
         written
     }
 
-    /// Completes the table, which has come to this state, and gives it its name. `go_on` is told which part is done, and breaks to leave it
-    /// unfinished.
+    /// Completes the table, which has come to this state, and gives it its name. `go_on` receives the
+    /// fraction that is done, and breaks to leave the table unfinished.
     ///
     /// # Errors
     /// If it cannot be written, or a file of that name has appeared meanwhile.

@@ -1,4 +1,4 @@
-//! What a shard of a sweep tells of itself.
+//! The metadata that a shard of a sweep carries.
 
 use crate::Metadata;
 use crate::command::{command, typed_options, typed_settings};
@@ -21,8 +21,8 @@ pub struct ShardedSweep {
 }
 
 impl ShardedSweep {
-    /// A sweep of the model in a file, as the command line is told of it: with values as texts. If there is no such
-    /// command, its tables name `otherwise` in its place.
+    /// Returns a sweep of the model in a file, as the command line receives it: with values as texts. If
+    /// there is no such command, its tables name `otherwise` in its place.
     pub fn typed(
         (file, model): (&str, &str),
         (settings, options): (&Settings, &SweepOptions),

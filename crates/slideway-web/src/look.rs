@@ -1,4 +1,5 @@
-//! What the page shows of a state: what can be changed in it, its drawings, and its solutions in words.
+//! The look of a state on the page: the quantities that can be changed in it, its drawings, and its solutions
+//! in words.
 
 use crate::kept::Kept;
 use crate::quantity::{MOST, Quantity, quantities};

@@ -1,6 +1,7 @@
-//! What can be changed in a model, and between which ends a slider moves it.
+//! The quantities that can be changed in a model, and between which ends a slider moves them.
 //!
-//! The ends are a matter of the page, not of mechanics: whoever wants others types them, or the value itself.
+//! The ends are a matter of the page, not of mechanics: a user who wants others types them, or the value
+//! itself.
 
 use serde::Serialize;
 use slideway::check::CoordinateSummary;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use slideway::fault::{Fault, FaultKind, Faults, Source};
 use slideway::printable;
 
-/// At most so many faults are told.
+/// Maximum number of faults that are reported.
 const MOST: usize = 200;
 
 /// A fault, or something that is perhaps not meant.

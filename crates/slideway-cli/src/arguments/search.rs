@@ -1,4 +1,4 @@
-//! What a search may cost.
+//! Limits of a search.
 
 use super::TimeArguments;
 use clap::Args;

@@ -69,7 +69,7 @@ fn shortened(text: &str, width: usize) -> String {
     }
 }
 
-/// Names, what each of them is, and below that what else is told of it.
+/// Lists names, a summary of each, and below that more words about it.
 pub(super) fn list<'a>(entries: impl Iterator<Item = (&'a str, &'a str, String)>) -> String {
     let entries: Vec<(String, String)> = entries
         .flat_map(|(name, summary, more)| {

@@ -184,7 +184,7 @@ impl Question<'_> {
     }
 }
 
-/// The files that are written beside what is told.
+/// The files that are written beside the answer.
 struct Written<'a> {
     arguments: &'a SimulateArguments,
     table: Option<(SeriesFormat, Output)>,

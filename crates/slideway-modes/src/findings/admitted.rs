@@ -1,4 +1,4 @@
-//! What a singular pattern admits, as it is recorded.
+//! The set of solutions that a singular pattern admits, as it is recorded.
 
 use dashu_ratio::RBig;
 

@@ -195,7 +195,7 @@ impl<'a> Teller<'a> {
         Self { correspondence, problem, equations: Equations::of(raw, problem) }
     }
 
-    /// A state as a line of a stream, given how many solutions were told before.
+    /// Returns a state as a line of a stream, given how many solutions were written before.
     pub(super) fn told(&self, state: &CombinedState<'_>, number: usize, most: usize) -> RawLine {
         match Sort::of(state) {
             Sort::Point => RawLine::Solution(self.point(state, number)),
@@ -272,8 +272,8 @@ impl<'a> Teller<'a> {
         }
     }
 
-    /// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Sums, values
-    /// without a floating-point number, and those that are not told, are ignored.
+    /// Returns the maximum distance of a pattern's values from those of its exact solution; `None` if
+    /// unknown. Sums, values without a floating-point number, and those that are not reported, are ignored.
     fn radius(&self, pattern: &[ContactState], values: &Values) -> Option<f64> {
         let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
             decide(self.problem, pattern).decision
@@ -305,7 +305,7 @@ impl<'a> Teller<'a> {
         error > WIDE * sizes.fold(0.0, f64::max)
     }
 
-    /// The unknowns of the mode problem whose values are told as they are.
+    /// Finds the unknowns of the mode problem whose values are reported as they are.
     fn told_values(&self, values: &Values) -> impl Iterator<Item = usize> {
         let is_told = |&at: &usize| {
             let value = values.signed[at];

@@ -12,7 +12,7 @@ use crate::progress::Callback;
 use crate::search::SearchOptions;
 use crate::status::{Proof, Status};
 
-/// Regions that are told one by one.
+/// Maximum number of open regions that are listed one by one.
 const MOST_REGIONS: usize = 8;
 
 /// All solutions of a block equation, of which up to `most` are listed.

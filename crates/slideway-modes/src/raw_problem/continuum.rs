@@ -242,7 +242,7 @@ fn corners(
     })
 }
 
-/// Without those that are told like one before.
+/// Drops those that read like one before.
 fn distinct(all: impl Iterator<Item = Unknowns>) -> Vec<Unknowns> {
     let mut kept: Vec<Unknowns> = Vec::new();
     for one in all {

@@ -1,4 +1,4 @@
-//! How the unknowns of a problem follow from those of its mode problem, and how they are told.
+//! How the unknowns of a problem follow from those of its mode problem, and how they are reported.
 
 use std::collections::{BTreeMap, BTreeSet};
 

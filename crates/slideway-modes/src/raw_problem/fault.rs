@@ -1,4 +1,4 @@
-//! What can be wrong with a raw problem: every kind of fault, with its values.
+//! Faults of a raw problem: every kind, with its values.
 
 use std::fmt;
 

@@ -65,7 +65,7 @@ pub struct RawReport {
     pub groups: Vec<RawGroup>,
 }
 
-/// A line of an answer that is told state by state: [`solve_streaming`](super::solve_streaming).
+/// A line of an answer that is written state by state: [`solve_streaming`](super::solve_streaming).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

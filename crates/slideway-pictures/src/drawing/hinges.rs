@@ -19,7 +19,7 @@ const BEYOND: f64 = 26.0;
 pub struct PinForce {
     /// The name of the hinge.
     pub hinge: String,
-    /// Its force on the body for which it is told (N).
+    /// Its force on the body on which the report counts it (N).
     pub force: [f64; 2],
     /// Its friction couple on that body (N m).
     pub couple: f64,

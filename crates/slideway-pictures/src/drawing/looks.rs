@@ -1,5 +1,5 @@
-//! What a body and a sliding joint look like: an outline where the model gives one, else what can be told
-//! from how the joints lie.
+//! Looks of a body and a sliding joint: an outline where the model gives one, else those that follow from how
+//! the joints lie.
 //!
 //! A model says which faces rub, not what its parts look like. These looks follow from it alone:
 //!

@@ -211,7 +211,8 @@ impl Drawn<'_> {
         Panel { scene, caption: Caption { heading, lines, ..Caption::default() }, force_scale }
     }
 
-    /// Drawing units for a newton where this is the greatest force, those that can be told, and the longest arrow.
+    /// Returns the drawing units for a newton where this is the greatest force, those that can be stated, and
+    /// the longest arrow.
     fn scale(&self, greatest: f64) -> (f64, Option<f64>, f64) {
         let longest = self.longest_force.unwrap_or(greatest);
         let scale = if longest > 0.0 { LONGEST_FORCE / longest } else { 1.0 };

@@ -1,5 +1,5 @@
-//! What a drawing consists of: shapes in drawing units (x to the right, y down), each with a class that says
-//! what it shows.
+//! The shapes of a drawing in drawing units (x to the right, y down), each with a class that says what it
+//! shows.
 
 use nalgebra::Vector2;
 
@@ -104,7 +104,7 @@ pub enum Shape {
 pub struct Text {
     /// The words of the line.
     pub text: String,
-    /// The left, middle or right of its base line.
+    /// The left end or the middle of its base line.
     pub at: Point,
     /// Where `at` lies in it.
     pub anchor: Anchor,

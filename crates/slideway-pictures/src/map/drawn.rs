@@ -1,4 +1,4 @@
-//! What a map shows, for those who draw it by other means than SVG.
+//! The contents of a map, for those who draw it by other means than SVG.
 
 use super::colours::paint;
 use super::{draws_model, shown, told, untold_modes};

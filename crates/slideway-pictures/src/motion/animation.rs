@@ -86,7 +86,8 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
     animation_with(history, options, theme, &mut |_| ControlFlow::Continue(())).expect("nothing ends it")
 }
 
-/// A motion as a moving picture; nothing if the callback, which is told how many frames are drawn, ended the work.
+/// Draws a motion as a moving picture. Returns `None` if the callback, which receives the number of frames
+/// that are drawn, ended the work.
 pub fn animation_with(
     history: &History,
     options: &AnimationOptions,

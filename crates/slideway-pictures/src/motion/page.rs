@@ -19,7 +19,7 @@ const INDENT: f64 = 12.0;
 /// How far the background of a frame that stands still goes beyond its edges (drawing units).
 #[cfg(feature = "png")]
 const BLEED: f64 = 2.0;
-/// At most so many events are told in an SVG document.
+/// Maximum number of events whose words are in an SVG document.
 const MOST_TOLD: usize = 200;
 /// Size of the words below the drawing.
 const WORDS: f64 = 13.0;
@@ -105,7 +105,7 @@ fn svg(animation: &Animation) -> String {
     out
 }
 
-/// One frame as a document that stands still, with what is told at its time; its sides are whole numbers.
+/// Draws one frame as a document that stands still, with the words of its time; its sides are whole numbers.
 #[cfg(feature = "png")]
 pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
     let [width, height] = still_size(animation);

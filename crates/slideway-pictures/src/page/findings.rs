@@ -1,4 +1,4 @@
-//! What a page tells of a model: the answer to every question that can be asked without further arguments.
+//! The answers about a model on a page: to every question that can be asked without further arguments.
 
 use super::{Figure, Page, to_html};
 use crate::coordinate::NotFinite;

@@ -1,5 +1,5 @@
-//! What the panels of a figure show in frames of a given size, in the units of their axes: for those who draw a
-//! figure by other means than SVG.
+//! The contents of the panels of a figure in frames of a given size, in the units of their axes: for those
+//! who draw a figure by other means than SVG.
 
 use super::figure::Figure;
 use super::flags::Flag;

@@ -1,4 +1,4 @@
-//! What a figure shows, as plain data.
+//! The contents of a figure, as plain data.
 
 use crate::changes::changes;
 use serde::Serialize;

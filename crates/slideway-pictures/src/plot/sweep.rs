@@ -269,7 +269,7 @@ impl SweepPlot {
         }
     }
 
-    /// Notes how many branches the sweep has: those that are not drawn are told of.
+    /// Notes how many branches the sweep has, so that the figure mentions those that are not drawn.
     pub fn set_branches(&mut self, count: u32) {
         self.left_out = count.saturating_sub(MOST_BRANCHES);
     }

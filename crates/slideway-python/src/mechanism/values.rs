@@ -1,4 +1,4 @@
-//! What methods take, converted before it is said of a drawing.
+//! Arguments of methods, converted before they go into a drawing.
 
 use crate::arguments::{pair, quantity, sequence, two};
 use pyo3::exceptions::{PyTypeError, PyValueError};

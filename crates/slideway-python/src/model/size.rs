@@ -1,4 +1,4 @@
-//! What `Model.size` is asked to keep to.
+//! The limits that `Model.size` is asked to keep.
 
 use crate::arguments::value;
 use pyo3::exceptions::{PyTypeError, PyValueError};

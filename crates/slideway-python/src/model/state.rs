@@ -1,4 +1,4 @@
-//! What a model holds, and how it is asked.
+//! The contents of a model, and how it is asked.
 
 use super::{Model, pickle};
 use crate::answer::{Answer, Asked};

@@ -11,8 +11,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
-/// Makes a Parquet file of so many bytes of records, sealed if it is a shard, which comes to `tally`. `go_on` is told which part is done, and breaks to end it
-/// early.
+/// Makes a Parquet file of so many bytes of records, sealed if it is a shard, which comes to `tally`. `go_on`
+/// receives the fraction that is done, and breaks to end the work early.
 ///
 /// # Errors
 /// If a file cannot be read or written.

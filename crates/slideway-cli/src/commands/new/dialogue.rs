@@ -1,4 +1,5 @@
-//! What `slideway new` asks on a terminal: which template, its dimensions, the name of the file. A slip costs one line.
+//! Questions of `slideway new` on a terminal: which template, its dimensions, the name of the file. A slip
+//! costs one line.
 
 use crate::columns;
 use crate::failure::Failure;
