@@ -27,9 +27,9 @@ const COMMAND_LINE: &str = "command line";
 
 /// A message without a place.
 pub(crate) struct Note {
-    /// What is wrong.
+    /// The fault in words.
     pub(crate) message: String,
-    /// What to do about it.
+    /// The advice what to do about it, if there is any.
     pub(crate) hint: Option<String>,
 }
 
@@ -40,12 +40,12 @@ pub(crate) fn note(note: &Note) -> String {
     Renderer::styled().render(&[group])
 }
 
-/// What is wrong.
+/// Builds the line that says what is wrong.
 fn title(level: Level<'static>, message: &str) -> Title<'static> {
     level.primary_title(on_screen(message, TITLE))
 }
 
-/// What to do about it.
+/// Builds the line that says what to do about it.
 fn help(hint: &str) -> Message<'static> {
     Level::HELP.message(on_screen(hint, HINT))
 }

@@ -1,4 +1,5 @@
-//! What is wrong with the arguments, in the words of [`clap`]; where a name is not known, with all that there are.
+//! Complaints about the arguments, in the words of [`clap`]; where a name is not known, with all that there
+//! are.
 
 use crate::arguments::Arguments;
 use crate::diagnostics::{Note, listing};
@@ -17,8 +18,8 @@ use std::io::{self, Write};
 
 /// Says what is wrong with the arguments, or the help or version that they ask for, and ends the program.
 ///
-/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so
-/// that whatever is still in it comes from the arguments.
+/// A complaint quotes arguments as they are. If one of them is not printable, it is written without colours,
+/// so that whatever is still in it comes from the arguments.
 pub(crate) fn explain(error: &clap::Error) -> ! {
     let is_printable = |word: OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
     if !error.use_stderr() {
@@ -42,7 +43,8 @@ pub(crate) fn explain(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code());
 }
 
-/// That there is no such command, or that a template has no such dimension, and what there is.
+/// Builds the complaint that there is no such command, or that a template has no such dimension, with a list
+/// of those that there are. Returns `None` for other errors.
 fn with_all_names(error: &clap::Error) -> Option<String> {
     let (command, path) = command(std::env::args_os());
     let quoted = |kind| match error.get(kind) {

@@ -16,7 +16,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-/// What to do where a file is in the way.
+/// Hint for a file that is in the way.
 const OVERWRITE: &str = "choose another name, or overwrite it with --force";
 
 /// Why a command could not do what it was asked to do.
@@ -135,7 +135,7 @@ impl Failure {
         }
     }
 
-    /// What is wrong, where it is not the model itself.
+    /// Returns in words what is wrong; empty if it is the model or the problem itself.
     fn message(&self) -> String {
         match self {
             Self::NotFound { path, .. } | Self::NoProblem { path } => {
@@ -225,7 +225,7 @@ impl Failure {
         }
     }
 
-    /// What to do about it.
+    /// Returns what to do about it, if there is anything to say.
     fn hint(&self) -> Option<String> {
         match self {
             Self::NotFound { gallery_name: Some(name), .. } => Some(format!(
@@ -331,7 +331,7 @@ impl Failure {
     }
 }
 
-/// What to do about a table that cannot be written.
+/// Returns what to do about a table that cannot be written, if there is anything to say.
 fn hint_on(error: &TableError) -> Option<&'static str> {
     match error {
         TableError::Exists { .. } => Some(OVERWRITE),

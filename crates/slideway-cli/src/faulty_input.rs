@@ -10,10 +10,10 @@ pub(crate) struct FaultyInput {
     pub(crate) name: String,
     /// The text of the model.
     pub(crate) text: String,
-    /// What the command line changes in it.
+    /// The changes of the model by the command line.
     pub(crate) settings: Settings,
     /// The option of the command line that sets a parameter, as it stands before the name.
     pub(crate) parameter_option: &'static str,
-    /// What is wrong.
+    /// The faults, whose places are in these texts.
     pub(crate) faults: Faults,
 }

@@ -101,7 +101,7 @@ impl<'o> Files<'o> {
     }
 }
 
-/// What tells a regular file from others, whether it exists or not; nothing of devices and pipes, in which nothing is
+/// The identity of a regular file, whether it exists or not; empty for devices and pipes, in which nothing is
 /// lost.
 #[derive(Default)]
 struct Place {

@@ -1,9 +1,9 @@
-//! What ends work before it is done.
+//! Reasons for which work ends before it is done.
 
 use crate::outcome::Outcome;
 use std::time::Duration;
 
-/// What ended the work before it was done.
+/// The reason why work ended before it was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Halt {
     /// Someone interrupted it.
@@ -13,7 +13,7 @@ pub(crate) enum Halt {
 }
 
 impl Halt {
-    /// What to tell who waits.
+    /// Returns the reason in words, for messages.
     pub(crate) fn in_words(self) -> String {
         match self {
             Self::Interrupted => "interrupted".to_owned(),

@@ -23,7 +23,7 @@ pub(crate) struct Input {
     pub(crate) name: String,
     /// Its bytes.
     bytes: Vec<u8>,
-    /// What the command line changes in it.
+    /// The changes of the model by the command line.
     pub(crate) settings: Settings,
     /// Settings that could not be read.
     malformed: Vec<Fault>,
@@ -51,7 +51,7 @@ impl Input {
         }
     }
 
-    /// The model with its settings; what is perhaps not meant in it is told on standard error.
+    /// Returns the model with its settings, and writes its warnings to standard error.
     ///
     /// # Errors
     /// All faults of both; the warnings if they are to be errors.
@@ -63,7 +63,8 @@ impl Input {
         Ok(model)
     }
 
-    /// The same for who answers for whole ranges of parameters.
+    /// Returns the model with its settings for questions that cover whole ranges of parameters:
+    /// [`Input::model`] without the warnings of ranges that are taken at their middle.
     ///
     /// # Errors
     /// As [`Input::model`].
@@ -94,7 +95,7 @@ impl Input {
         }
     }
 
-    /// That no quantity is named by this option, and which ones there are.
+    /// Builds the failure that this option names no quantity, with a list of those that there are.
     pub(crate) fn nothing_varied(&self, model: &Model, option: &'static str) -> Failure {
         match variables(model) {
             Ok(variables) => Failure::NothingVaried { option, variables },
@@ -232,7 +233,7 @@ pub(crate) fn open(path: &Path) -> Result<(Box<dyn Read>, u64), Failure> {
     Ok((Box::new(file), metadata.len()))
 }
 
-/// That a file cannot be read.
+/// Builds the failure of a file that cannot be read.
 pub(crate) fn cannot_read(path: &Path, error: io::Error) -> Failure {
     match error.kind() {
         io::ErrorKind::NotFound => {

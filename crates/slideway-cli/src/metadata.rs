@@ -1,4 +1,4 @@
-//! What a table tells of this run.
+//! The metadata of this run in a table.
 
 use crate::input::Input;
 use slideway_tables::{Metadata, quoted};

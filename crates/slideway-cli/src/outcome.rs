@@ -3,7 +3,7 @@
 use slideway::report::Status;
 use std::process::ExitCode;
 
-/// What a command found, as its exit code.
+/// The outcome of a command, as its exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// There are solutions, or the command did what it was asked to do.

@@ -98,7 +98,7 @@ impl Output {
         opened.map(|file| Box::new(file) as Box<dyn Write + Send>).map_err(|error| self.failure(error))
     }
 
-    /// That the stream cannot be written.
+    /// Builds the failure of a stream that cannot be written.
     pub(crate) fn failure(&self, error: io::Error) -> Failure {
         match &self.file {
             Some(file) => Failure::CannotWrite { path: file.path.clone(), error },

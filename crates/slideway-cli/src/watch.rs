@@ -51,7 +51,7 @@ impl Alarm {
         Self { start: Instant::now(), limit }
     }
 
-    /// The same with as much time from now on.
+    /// Returns the alarm with as much time from now on.
     pub(crate) fn afresh(self) -> Self {
         Self { start: Instant::now(), ..self }
     }
@@ -72,7 +72,8 @@ pub(crate) struct Watch {
     start: Instant,
     shown: Duration,
     limit: Option<Duration>,
-    /// What had been done when it was first asked.
+    /// The elapsed time and the fraction done at the first report with a fraction, from which the time left
+    /// is estimated.
     first: Option<(Duration, f64)>,
     line: ProgressLine,
     halt: Option<Halt>,
@@ -84,7 +85,8 @@ impl Watch {
         Self::since(Instant::now(), limit)
     }
 
-    /// The same for work that was begun before, by what cannot be ended.
+    /// Counts the time from `start` on, for work that was begun before in a part that cannot be ended. Until
+    /// it is dropped an interruption ends the work, not the program.
     pub(crate) fn since(start: Instant, limit: Option<Duration>) -> Self {
         // Without a handler an interruption ends the program at once.
         HANDLER.call_once(|| {
@@ -94,7 +96,8 @@ impl Watch {
         Self { start, shown: Duration::ZERO, limit, first: None, line: ProgressLine::new(), halt: None }
     }
 
-    /// The same without progress, where the answer itself appears bit by bit on the terminal.
+    /// Starts now, as [`Self::new`], but shows no progress where the answer itself appears bit by bit on the
+    /// terminal.
     pub(crate) fn beside_rows(limit: Option<Duration>) -> Self {
         let mut watch = Self::new(limit);
         if io::stdout().is_terminal() {
@@ -127,7 +130,7 @@ impl Watch {
         }
     }
 
-    /// What else tells that the work is to end.
+    /// Returns the alarm that says to any thread when the work is to end, with the same start and limit.
     pub(crate) fn alarm(&self) -> Alarm {
         Alarm { start: self.start, limit: self.limit }
     }
@@ -144,7 +147,7 @@ impl Watch {
         }
     }
 
-    /// What has ended the work so far.
+    /// Returns what has ended the work so far, if anything has.
     pub(crate) fn halt(&self) -> Option<Halt> {
         self.halt
     }

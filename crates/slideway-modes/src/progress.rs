@@ -142,7 +142,7 @@ impl<'w> Work<'w> {
         self.flow().is_break()
     }
 
-    /// Breaks if the work is to end: for callbacks of inner work whose own progress is not told.
+    /// Breaks if the work is to end: for callbacks of inner work whose own progress is not reported.
     pub fn flow(self) -> ControlFlow<()> {
         (self.tell)(None)
     }

@@ -3,8 +3,8 @@
 use crate::escaped;
 use thiserror::Error;
 
-/// What stands where a number has no text. Neither XML nor [`crate::escaped`] lets such a character through,
-/// so that nothing else in a picture looks like it.
+/// Placeholder for a number that has no text. Neither XML nor [`crate::escaped`] lets such a character
+/// through, so that nothing else in a picture looks like it.
 const NONE: &str = "\u{ffff}";
 
 /// A picture with a place or a size that is infinite or undefined.
@@ -14,7 +14,7 @@ const NONE: &str = "\u{ffff}";
 )]
 pub struct NotFinite;
 
-/// What a format makes of a number; [`finished`] refuses a picture with one that is not finite.
+/// Formats a number. One that is not finite becomes a placeholder, and [`finished`] refuses the picture.
 fn text(value: f64, format: impl FnOnce(f64) -> String) -> String {
     if value.is_finite() { format(value) } else { NONE.to_owned() }
 }

@@ -5,7 +5,7 @@
 //! prints nothing.
 //!
 //! # Features
-//! - `png` (on unless told otherwise): pictures of pixels, `raster` and [`motion::Animation::to_gif`].
+//! - `png` (on by default): pictures of pixels, `raster` and [`motion::Animation::to_gif`].
 
 #![forbid(unsafe_code)]
 

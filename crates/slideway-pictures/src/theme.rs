@@ -17,7 +17,7 @@ pub struct Theme {
     pub(crate) reaction: &'static str,
     /// Friction.
     pub(crate) friction: &'static str,
-    /// What warns: locking, jams.
+    /// Warnings: locking, jams.
     pub(crate) warning: &'static str,
     /// Branches, modes and areas, in the order in which they are given out.
     pub series: [&'static str; 8],

@@ -25,7 +25,7 @@ static ADVANCES: LazyLock<HashMap<char, f64>> = LazyLock::new(|| {
 static OUTLINES: LazyLock<HashMap<char, &'static str>> =
     LazyLock::new(|| lines(include_str!("../fonts/outlines.txt")).collect());
 
-/// What a file says of each character.
+/// Returns each character of a file, with the data of its line.
 fn lines(file: &'static str) -> impl Iterator<Item = (char, &'static str)> {
     file.lines().filter_map(|line| {
         let (number, rest) = line.split_once(' ')?;
@@ -71,7 +71,7 @@ fn commands(outline: &str) -> impl Iterator<Item = &str> {
     starts.zip(ends).map(|(start, end)| &outline[start..end])
 }
 
-/// What there is of a character; of the sign for what is missing if the typeface does not have it.
+/// Finds the data of a character, or of the sign for what is missing if the typeface does not have it.
 fn found<T>(glyphs: &HashMap<char, T>, character: char) -> Option<&T> {
     glyphs.get(&character).or_else(|| glyphs.get(&'\u{fffd}'))
 }

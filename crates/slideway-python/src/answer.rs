@@ -22,7 +22,7 @@ use slideway_pictures::theme::Theme;
 use std::any::Any;
 use std::sync::Arc;
 
-/// What every report can do without its type.
+/// A report without its type, with what every report can do.
 trait AnyReport: Send + Sync {
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>>;
     fn json(&self) -> String;
@@ -64,7 +64,7 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
-    /// What is wrong with it.
+    /// Builds the Python error for its faults.
     pub(crate) fn refused(&self, py: Python<'_>, faults: &slideway::Faults) -> PyErr {
         Texts { model: &self.text, settings: &self.settings }.error(py, faults)
     }
@@ -113,7 +113,7 @@ impl Answer {
         Self { report: Box::new(report), asked, curves: None }.in_class(py, class)
     }
 
-    /// The same with the curves of its plot.
+    /// Returns the report as an object of its class, with the curves of its plot.
     pub(crate) fn with_curves<'py, R: Report + Send + Sync + 'static>(
         py: Python<'py>,
         class: &str,

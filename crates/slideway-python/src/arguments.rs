@@ -1,4 +1,4 @@
-//! What methods take: numbers or texts, names with ranges.
+//! Arguments of methods: numbers or texts, names with ranges.
 
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -32,7 +32,7 @@ pub(crate) fn value(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     }
 }
 
-/// The same for a drawing.
+/// Reads such a value as a quantity of a drawing: a number in SI units, or a text.
 pub(crate) fn quantity(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Quantity> {
     Ok(match value(name, object)? {
         Value::Number(number) => number.into(),
@@ -91,7 +91,7 @@ pub(crate) fn numbers(name: &str, given: &Bound<'_, PyAny>) -> PyResult<(Vec<usi
     Ok((array.shape().to_vec(), array.to_vec()?))
 }
 
-/// What `with_` changes: parameters and coordinates by their names, rates, the time.
+/// Returns the settings of `with_`: parameters and coordinates by their names, rates, the time.
 pub(crate) fn settings(
     model: &Model,
     named: Option<&Bound<'_, PyDict>>,
@@ -150,7 +150,7 @@ pub(crate) fn varied_one(
     }
 }
 
-/// The same where one is needed.
+/// Returns the one quantity that is varied, as [`varied_one`], where one is needed.
 pub(crate) fn vary(
     name: Option<&str>,
     ends: [Option<&Bound<'_, PyAny>>; 2],
@@ -170,7 +170,8 @@ fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyResult<Vary> 
     Ok(Vary::between(name, end("start", from)?, end("end", to)?))
 }
 
-/// What is varied, each over the pair of its ends, or over its usual range if that is None.
+/// Returns the quantities that are varied, each over the pair of its ends, or over its usual range if that is
+/// None.
 pub(crate) fn varied(ranges: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<Vary>> {
     let mut varied = Vec::new();
     for (name, range) in ranges.into_iter().flatten() {

@@ -15,12 +15,12 @@ use std::path::Path;
 pub(crate) struct Texts<'t> {
     /// The model's.
     pub(crate) model: &'t str,
-    /// What was changed in it.
+    /// The changes of that text.
     pub(crate) settings: &'t Settings,
 }
 
 impl Texts<'_> {
-    /// What is wrong, as `slideway.ModelError`.
+    /// Builds the `slideway.ModelError` with these faults.
     pub(crate) fn error(self, py: Python<'_>, faults: &Faults) -> PyErr {
         self.exception(py, faults).unwrap_or_else(|error| error)
     }
@@ -73,7 +73,7 @@ impl Texts<'_> {
     }
 }
 
-/// What is wrong with a file, as the `OSError` of its kind with the file's name.
+/// Builds the `OSError` for an error with a file: of the kind of the error, with the file's name.
 pub(crate) fn file_error(path: &Path, error: &io::Error) -> PyErr {
     let whole = error.to_string();
     // The number is an argument of its own.
@@ -84,7 +84,7 @@ pub(crate) fn file_error(path: &Path, error: &io::Error) -> PyErr {
     }
 }
 
-/// What is wrong with the model in a file, with the file's name.
+/// Adds the name of a file to an error of the model in it.
 pub(crate) fn in_file(py: Python<'_>, path: &Path, error: PyErr) -> PyErr {
     let named = error.value(py).setattr("filename", path.to_string_lossy());
     named.err().unwrap_or(error)

@@ -31,7 +31,7 @@ pub(crate) fn filled_in(py: Python<'_>, name: &str, sizes: Option<&Bound<'_, PyD
     template.model(&settings, &format!("{name}.toml")).map_err(refused)
 }
 
-/// That there is nothing of a name, and which one is perhaps meant.
+/// Builds the `KeyError` for a name of which there is nothing, with the one that is perhaps meant.
 fn unknown(message: &str, nearest: Option<String>) -> PyErr {
     let meant = nearest.map(|near| format!("; did you mean {near:?}?"));
     PyKeyError::new_err(format!("{message}{}", meant.unwrap_or_default()))

@@ -22,7 +22,7 @@ fn array<'n>(name: &'n str, given: &Bound<'_, PyAny>) -> PyResult<Array<'n>> {
     Ok((name, sizes, entries))
 }
 
-/// What a search may cost, and what is listed.
+/// Limits of a search, and options for what is listed.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options {

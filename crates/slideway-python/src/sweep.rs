@@ -23,7 +23,7 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
-/// What is asked of a sweep beside its axes.
+/// The options of a sweep beside its axes.
 pub(crate) struct Question {
     pub(crate) samples: Option<i64>,
     pub(crate) sampling: Spread,
@@ -34,7 +34,7 @@ pub(crate) struct Question {
 }
 
 impl Question {
-    /// What the library is asked for.
+    /// Returns the options of the sweep for the library.
     pub(crate) fn options(
         &self,
         refused: &dyn Fn(Faults) -> PyErr,
@@ -183,13 +183,13 @@ fn room(rows: u64, layout: &Layout) -> PyResult<()> {
     Err(PyMemoryError::new_err(message))
 }
 
-/// That there was no time for all points.
+/// Builds the `TimeoutError` of a sweep that had no time for all points.
 pub(crate) fn unfinished(state: &SweepState, points: u64) -> PyErr {
     let done = state.done;
     PyTimeoutError::new_err(format!("the sweep was not done within time_limit: {done} of {points} points"))
 }
 
-/// What is wrong with files.
+/// Builds the `OSError` for an error with files.
 pub(crate) fn os_error(error: &TableError) -> PyErr {
     let hint = error.source().map(|source| format!(": {source}")).unwrap_or_default();
     PyOSError::new_err(printable::lines(&format!("{error}{hint}")))

@@ -94,7 +94,7 @@ type Made<'py> = Result<Bound<'py, PyAny>, Error>;
 #[derive(Clone)]
 struct Serializer<'py> {
     py: Python<'py>,
-    /// What the class with this value in a field says of it.
+    /// The hint that the class with this value in a field gives of it.
     hint: Option<String>,
 }
 
@@ -103,7 +103,7 @@ impl<'py> Serializer<'py> {
         Ok(value.into_bound_py_any(self.py)?)
     }
 
-    /// The same for what is within.
+    /// Returns the serializer for values within this one: without a hint.
     fn plain(&self) -> Self {
         Self { py: self.py, hint: None }
     }

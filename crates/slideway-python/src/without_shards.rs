@@ -1,4 +1,4 @@
-//! What stands for `shards.rs` where the package is built without Parquet files.
+//! A stand-in for `shards.rs` where the package is built without Parquet files.
 
 use crate::answer::Asked;
 use crate::work::Watch;

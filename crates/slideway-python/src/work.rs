@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// Time between two looks at signals, and between two calls of a callback.
 const BETWEEN: Duration = Duration::from_millis(50);
 
-/// What ends work early, and who is told of its progress.
+/// The limit that ends work early, and the callback that hears of its progress.
 pub(crate) struct Watch {
     limit: Option<Duration>,
     progress: Option<Py<PyAny>>,
@@ -28,7 +28,7 @@ enum Halt {
     Raised(PyErr),
 }
 
-/// What came of work.
+/// The result of work.
 pub(crate) enum Ended<T> {
     /// It was done.
     Done(T),
@@ -117,8 +117,8 @@ impl Watch {
         ended(value, halt)
     }
 
-    /// The same on a thread of its own: for work that is done, and told of, by many threads. Python hears of
-    /// Ctrl-C only on the one that called.
+    /// Runs work as [`Self::run`] does, but on a thread of its own: for work that is done and reported by
+    /// many threads. Python hears of Ctrl-C only on the thread that called.
     ///
     /// # Errors
     /// As [`Self::run`].
@@ -164,7 +164,7 @@ impl Watch {
         self.limit.is_some_and(|limit| begun.elapsed() >= limit)
     }
 
-    /// What ends work now, if anything does.
+    /// Returns what ends work now, if anything does.
     fn look(&self, begun: Instant, progress: Option<Progress>) -> Option<Halt> {
         if self.is_up(begun) {
             return Some(Halt::TimeUp);
@@ -181,7 +181,7 @@ impl Watch {
     }
 }
 
-/// What came of work, as far as it panicked or was ended.
+/// Returns the result of work, or the error if it panicked or was ended by an exception.
 fn ended<T>(value: thread::Result<T>, halt: Option<Halt>) -> PyResult<Ended<T>> {
     let value = value.map_err(|panic| {
         let words = panic.downcast_ref::<String>().map(String::as_str);

@@ -49,7 +49,7 @@ pub fn columns(layout: &Layout, rows: &Rows) -> Vec<ArrayRef> {
     fields(layout).iter().map(|field| column(field, rows)).collect()
 }
 
-/// What stands in one column of rows.
+/// Builds one column of rows.
 fn column(field: &Field, rows: &Rows) -> ArrayRef {
     let heads = rows.heads.iter();
     let room = (rows.len(), rows.len() * field.kind.size());

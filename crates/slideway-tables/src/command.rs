@@ -30,7 +30,7 @@ pub fn quoted(word: &OsStr) -> String {
     }
 }
 
-/// Settings as the command line is told of them: values as texts, those of one kind side by side.
+/// Returns the settings as the command line receives them: values as texts, those of one kind side by side.
 pub(crate) fn typed_settings(settings: &Settings) -> Settings {
     let kinds = [SettingKind::Parameter, SettingKind::Position, SettingKind::Rate, SettingKind::Time];
     let of_kind = |kind| settings.entries().iter().filter(move |setting| setting.kind == kind);
@@ -38,7 +38,7 @@ pub(crate) fn typed_settings(settings: &Settings) -> Settings {
     kinds.into_iter().flat_map(of_kind).map(typed).fold(Settings::default(), Settings::with)
 }
 
-/// What is swept, with values as texts.
+/// Returns the options of a sweep with values as texts.
 pub(crate) fn typed_options(options: &SweepOptions) -> SweepOptions {
     let mut typed = options.clone();
     typed.points = match &options.points {

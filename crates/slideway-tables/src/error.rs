@@ -70,9 +70,9 @@ pub enum TableError {
 pub enum Difference {
     /// The text of the model.
     Model,
-    /// What is changed in the model.
+    /// The changes of the model.
     Settings,
-    /// What is varied or computed.
+    /// The quantities that are varied or computed.
     Options,
     /// How many shards there are, or which one it is.
     Shard,
@@ -93,18 +93,18 @@ impl fmt::Display for Difference {
 }
 
 impl TableError {
-    /// That this file cannot be read.
+    /// Builds the error of a file that cannot be read.
     pub(crate) fn reading(path: &Path, error: io::Error) -> Self {
         Self::CannotRead { path: path.to_owned(), error }
     }
 
-    /// That this file cannot be written.
+    /// Builds the error of a file that cannot be written.
     pub(crate) fn writing(path: &Path, error: io::Error) -> Self {
         Self::CannotWrite { path: path.to_owned(), error }
     }
 }
 
-/// What the system says, without its error number: "no space left on device".
+/// The message of the system, without its error number: "no space left on device".
 pub struct Reason<'e>(pub &'e io::Error);
 
 impl fmt::Display for Reason<'_> {

@@ -34,7 +34,7 @@ impl TableFormat {
         }
     }
 
-    /// What it is, in words.
+    /// Returns a description in words.
     pub fn description(self) -> &'static str {
         match self {
             Self::Csv => "Comma-separated values, with comment lines at the top",

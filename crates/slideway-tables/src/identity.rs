@@ -3,8 +3,8 @@
 use std::fs::{self, File, Metadata};
 use std::path::Path;
 
-/// What all paths that lead to a file have in common, hard and symbolic links included: device and number of the
-/// file, or its path without links where the system tells no numbers.
+/// The identity of a file, which all paths that lead to it share, hard and symbolic links included: device
+/// and number of the file, or its path without links where the system gives no numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileIdentity(Identity);
 

@@ -1,6 +1,6 @@
-//! What every table tells of itself.
+//! The metadata that every table carries.
 
-/// What every table tells of itself.
+/// The origin of a table, which every table states.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Metadata {
     /// The command that made it.

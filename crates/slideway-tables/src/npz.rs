@@ -14,7 +14,7 @@ const ROWS: &str = "rows.npy";
 /// Version that a reader needs for ZIP64, and 1 January 1980, the first date of the format.
 const VERSION: u16 = 45;
 const DATE: u16 = 0x21;
-/// What stands in place of a size that a ZIP64 field gives.
+/// Placeholder for a size that a ZIP64 field gives.
 const LARGE: u32 = u32::MAX;
 
 /// A member of the archive.
@@ -25,7 +25,7 @@ struct Member {
     offset: u64,
 }
 
-/// What stands before the records, with sizes that are not known yet.
+/// Builds the bytes before the records, with zeros for sizes that are not known yet.
 pub(crate) fn head(layout: &Layout) -> Vec<u8> {
     let mut head = local_header(&Member { name: ROWS.to_owned(), crc: 0, size: 0, offset: 0 });
     head.extend(array_header(layout, 0));

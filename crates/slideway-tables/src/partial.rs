@@ -1,8 +1,8 @@
 //! A table on its way: `FILE.partial` holds what is done, `FILE.partial.state` what is needed to go on.
 //!
-//! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
-//! Checksums tell whether both files are still what was written. Only regular files are written, and only new ones
-//! or what has been checked: never what a link of such a name leads to.
+//! The writer of a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
+//! Checksums show whether both files are still what was written. Only regular files are written, and only new
+//! ones or those that have been checked: never the target of a link of such a name.
 
 use crate::{Encoder, FileIdentity, Metadata, Part, TableError, TableFormat, npz};
 use crc32fast::Hasher;
@@ -27,7 +27,7 @@ const CONVERTED: &str = ".partial.converted";
 /// Time between two states.
 const BETWEEN: Duration = Duration::from_secs(2);
 
-/// What is kept beside an unfinished table.
+/// The state of an unfinished table, kept in a file beside it.
 #[derive(Debug, Serialize, Deserialize)]
 struct Kept {
     schema: String,
@@ -69,7 +69,7 @@ pub struct PartialFile {
 pub struct Continued {
     /// Where the rows go.
     pub(crate) file: PartialFile,
-    /// What is done of it.
+    /// The state with which it goes on: the part that is done.
     pub state: SweepState,
 }
 
@@ -159,7 +159,7 @@ impl PartialFile {
         Ok(Continued { file, state: kept.state })
     }
 
-    /// What makes bytes of its rows.
+    /// Returns the encoder that makes bytes of its rows.
     pub fn encoder(&self) -> &Encoder {
         &self.encoder
     }
@@ -217,8 +217,8 @@ impl PartialFile {
         written
     }
 
-    /// Completes the table, which has come to this state, and gives it its name. `go_on` is told which part is done, and breaks to leave it
-    /// unfinished.
+    /// Completes the table, which has come to this state, and gives it its name. `go_on` receives the
+    /// fraction that is done, and breaks to leave the table unfinished.
     ///
     /// # Errors
     /// If it cannot be written, or a file of that name has appeared meanwhile.
@@ -294,7 +294,7 @@ impl PartialFile {
     }
 }
 
-/// What becomes of an unfinished table that is there.
+/// The fate of an unfinished table that is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Old {
     /// There has to be one.

@@ -14,7 +14,7 @@ pub(crate) struct Field {
     pub(crate) kind: FieldKind,
 }
 
-/// What a field tells of a row.
+/// The quantity of a row that a field holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Meaning {
     Point,
@@ -32,8 +32,7 @@ pub(crate) enum Meaning {
     Attainability,
 }
 
-/// What a field holds. No word, no branch and no number stand in it as an empty word, as 0 and as not a
-/// number.
+/// The type of a field. It holds no word as an empty word, no branch as 0, and no number as not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FieldKind {
     /// The number of a point: 8 bytes.

@@ -1,4 +1,4 @@
-//! What a shard of a sweep tells of itself.
+//! The metadata that a shard of a sweep carries.
 
 use crate::Metadata;
 use crate::command::{command, typed_options, typed_settings};
@@ -14,15 +14,15 @@ pub struct ShardedSweep {
     /// The text of the model, and the command, which every shard and the merged table tell of themselves.
     /// Nothing depends on the command.
     pub metadata: Metadata,
-    /// What is changed in the model.
+    /// The changes of the model.
     pub settings: Settings,
-    /// What is swept.
+    /// The options of the sweep: the quantities that are varied, and what is computed.
     pub options: SweepOptions,
 }
 
 impl ShardedSweep {
-    /// A sweep of the model in a file, as the command line is told of it: with values as texts. If there is no such
-    /// command, its tables name `otherwise` in its place.
+    /// Returns a sweep of the model in a file, as the command line receives it: with values as texts. If
+    /// there is no such command, its tables name `otherwise` in its place.
     pub fn typed(
         (file, model): (&str, &str),
         (settings, options): (&Settings, &SweepOptions),
@@ -54,9 +54,9 @@ pub struct Part {
     pub points: u64,
     /// ... of so many.
     pub points_of_sweep: u64,
-    /// What is changed in the model.
+    /// The changes of the model.
     pub settings: Settings,
-    /// What is swept.
+    /// The options of the sweep: the quantities that are varied, and what is computed.
     pub options: SweepOptions,
     /// The exact ends of modes that are inserted into the whole sweep.
     pub breakpoints: Breakpoints,
@@ -79,12 +79,12 @@ impl Part {
     }
 }
 
-/// What stands in the metadata of the file of a shard, as JSON, besides the text of the model.
+/// The metadata in the file of a shard, as JSON, besides the text of the model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Which part of which sweep it is.
     pub part: Part,
-    /// What its points come to.
+    /// Numbers of its points, of their rows and of kinds of outcome.
     pub tally: Tally,
 }
 

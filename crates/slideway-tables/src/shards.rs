@@ -159,8 +159,8 @@ pub struct Shards {
 }
 
 impl Shards {
-    /// The shards in a folder: all there, whole, and of one sweep. None if the callback breaks, which is told
-    /// of each file.
+    /// Finds the shards in a folder: all there, whole, and of one sweep. Returns `None` if the callback,
+    /// which is called before each file, breaks.
     ///
     /// # Errors
     /// If there are none, or some are missing; if one cannot be read, is damaged, or belongs to another
@@ -202,7 +202,7 @@ impl Shards {
         &self.sweep
     }
 
-    /// What was computed, with the command of the first shard.
+    /// Returns the sweep that was computed, with the command of the first shard.
     pub fn sharded(&self) -> &ShardedSweep {
         &self.sharded
     }

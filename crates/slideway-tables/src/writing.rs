@@ -60,14 +60,14 @@ pub enum Written {
     Whole(SweepState),
     /// It was ended early. What is done is kept, to be continued.
     Early {
-        /// What is done.
+        /// The part that is done.
         state: SweepState,
         /// Where it is kept.
         path: PathBuf,
     },
 }
 
-/// What ends the writing of a table.
+/// The means to end the writing of a table, and to hear of its progress.
 pub struct Control<'w> {
     /// Asked by any thread: whether the work goes on.
     pub goes_on: &'w (dyn Fn() -> bool + Sync),

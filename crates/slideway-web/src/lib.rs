@@ -36,13 +36,13 @@ use serde::Serialize;
 use slideway::progress::Callback;
 use told_fault::ToldFault;
 
-/// What comes back of a question.
+/// The reply to a question.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Reply<T> {
     /// The answer.
     Answer(T),
-    /// What is wrong with the model or with what is asked of it.
+    /// The faults of the model or of what is asked of it.
     Faults(Vec<ToldFault>),
     /// The callback ended the work, and there is nothing to tell of a part of it.
     Stopped(()),

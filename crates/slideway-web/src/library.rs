@@ -12,9 +12,9 @@ pub(crate) struct Entry {
     name: &'static str,
     /// "gallery" or "template".
     kind: &'static str,
-    /// What it is.
+    /// The first line of its description.
     summary: &'static str,
-    /// What it shows, or the rule that it must meet.
+    /// The behaviour that it shows, or the rule that it must meet.
     shows: String,
     /// The model file.
     text: String,

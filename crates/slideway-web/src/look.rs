@@ -1,4 +1,5 @@
-//! What the page shows of a state: what can be changed in it, its drawings, and its solutions in words.
+//! The look of a state on the page: the quantities that can be changed in it, its drawings, and its solutions
+//! in words.
 
 use crate::kept::Kept;
 use crate::quantity::{MOST, Quantity, quantities};
@@ -17,7 +18,7 @@ use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Held, Sheet, title};
 use slideway_pictures::page::{reasons, solve_parts};
 
-/// What the page shows of a state.
+/// The look of a state on the page: its quantities, drawings and answer.
 #[derive(Debug, Serialize)]
 pub(crate) struct Look {
     title: String,
@@ -30,7 +31,7 @@ pub(crate) struct Look {
     drives: Vec<String>,
     /// The mechanism, each of its solutions, and the key to the colours.
     drawings: Vec<Drawing>,
-    /// What the drawings of the next state of the same model keep of these.
+    /// The scale and the place that the drawings of the next state of the same model keep of these.
     held: Option<Kept>,
     /// How many solutions there are; absent where the question has no answer.
     answer: Option<Verdict>,

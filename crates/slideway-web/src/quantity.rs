@@ -1,6 +1,7 @@
-//! What can be changed in a model, and between which ends a slider moves it.
+//! The quantities that can be changed in a model, and between which ends a slider moves them.
 //!
-//! The ends are a matter of the page, not of mechanics: whoever wants others types them, or the value itself.
+//! The ends are a matter of the page, not of mechanics: a user who wants others types them, or the value
+//! itself.
 
 use serde::Serialize;
 use slideway::check::CoordinateSummary;
@@ -27,11 +28,11 @@ pub(crate) struct Quantity {
     /// "parameter", "position" or "rate", as in settings.
     kind: &'static str,
     name: String,
-    /// What the file says of it in the comment behind it, or what it means that it grows.
+    /// The comment behind it in the file, or what it means that it grows.
     meaning: Option<String>,
     /// The unit in which everything here is, and in which a value is typed; may be empty.
     unit: String,
-    /// That unit in SI units.
+    /// The size of that unit in SI units.
     scale: f64,
     value: f64,
     /// The ends of its slider.

@@ -1,4 +1,4 @@
-//! What can be asked.
+//! The questions that can be asked.
 
 use crate::kept::Kept;
 use serde::Deserialize;
@@ -21,7 +21,7 @@ pub(crate) enum Question {
         of: Asked,
         /// Whether margins of friction are computed, too, which may take longer than everything else.
         margins: bool,
-        /// What the last answer about this model gave its drawings to keep.
+        /// The scale and the place that the last answer about this model gave its drawings to keep.
         #[serde(default)]
         held: Option<Kept>,
     },
@@ -92,7 +92,7 @@ pub(crate) enum Question {
 pub(crate) struct Asked {
     /// The text of the model file.
     pub(crate) text: String,
-    /// What is changed, as by `--set`, `--at`, `--rate`, `--time`.
+    /// The changes of the model, as by `--set`, `--at`, `--rate`, `--time`.
     #[serde(default)]
     pub(crate) settings: Settings,
 }
@@ -118,7 +118,7 @@ impl Asked {
     }
 }
 
-/// What is varied.
+/// Parses a quantity that is varied, as by `--vary`.
 ///
 /// # Errors
 /// A text that is none.

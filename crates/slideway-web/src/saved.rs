@@ -6,7 +6,7 @@ use slideway::ids::FormulaId;
 use slideway::model::{Coordinate, Model, Setting, SettingKind};
 use std::ops::Range;
 
-/// What is written in the place of some bytes.
+/// The words that replace some bytes of a text.
 struct Edit {
     span: Range<usize>,
     words: String,

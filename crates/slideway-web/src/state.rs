@@ -66,7 +66,9 @@ fn is_finite(held: Held) -> bool {
     place.into_iter().chain(longest_force).all(f64::is_finite)
 }
 
-/// What the drawings of the first state that is asked for keep of the state in the file.
+/// Returns the scale and the place that the drawings of the first state that is asked for keep of the state
+/// in the file. Returns those of the state itself if nothing is changed, or if the file's has no scale of
+/// forces.
 pub(crate) fn first_held(
     asked: &Asked,
     file: &Model,

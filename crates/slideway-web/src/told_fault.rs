@@ -5,15 +5,15 @@ use serde::Serialize;
 use slideway::fault::{Fault, FaultKind, Faults, Source};
 use slideway::printable;
 
-/// At most so many faults are told.
+/// Maximum number of faults that are reported.
 const MOST: usize = 200;
 
-/// What is wrong, or perhaps not meant.
+/// A fault, or something that is perhaps not meant.
 #[derive(Debug, Serialize)]
 pub(crate) struct ToldFault {
-    /// What is wrong.
+    /// The fault in words.
     message: String,
-    /// What to do about it.
+    /// The advice what to do about it, if there is any.
     hint: Option<String>,
     /// Whether it does not stand in the way.
     is_warning: bool,
@@ -38,7 +38,7 @@ pub(crate) fn told(faults: &Faults, asked: &Asked) -> Vec<ToldFault> {
 }
 
 impl ToldFault {
-    /// What is wrong with the input as a whole.
+    /// Builds a fault of the input as a whole.
     pub(crate) fn general(message: &str) -> Self {
         Self { message: printable::line(message).into_owned(), hint: None, is_warning: false, place: None }
     }

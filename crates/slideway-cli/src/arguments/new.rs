@@ -38,7 +38,7 @@ const LIST: &str = "list";
 pub(crate) struct NewArguments {
     /// The template; none if it is not named.
     pub(crate) template: Option<&'static Template>,
-    /// What is given of its parameters.
+    /// The parameters given on the command line; the others keep the values of the template.
     pub(crate) settings: Settings,
     /// A name that no template has.
     pub(crate) unknown: Option<String>,

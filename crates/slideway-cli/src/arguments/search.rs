@@ -1,4 +1,4 @@
-//! What a search may cost.
+//! Limits of a search.
 
 use super::TimeArguments;
 use clap::Args;
@@ -40,7 +40,7 @@ impl SearchArguments {
         self.threaded(SearchOptions::within(self.max_nodes, Some(self.max_found)))
     }
 
-    /// The same where one solution is enough: the search ends at the first.
+    /// Returns the options of a search for which one solution is enough: it ends at the first.
     pub(crate) fn options_for_one(&self) -> SearchOptions {
         self.threaded(SearchOptions::within(self.max_nodes, Some(1)))
     }

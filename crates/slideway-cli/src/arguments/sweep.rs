@@ -117,7 +117,7 @@ pub(crate) struct SweepArguments {
 
 /// The name of the option that merges shards.
 const MERGE: &str = "merge";
-/// What the shards tell themselves.
+/// Arguments that conflict with `--merge`: the shards carry these values themselves.
 const NOT_FOR_MERGING: [&str; 8] =
     ["ModelArguments", "vary", "samples", "sampling", "seed", "no_breakpoints", "MoreColumns", "shard"];
 
@@ -140,7 +140,7 @@ struct MoreColumns {
 }
 
 impl SweepArguments {
-    /// What the library is asked for.
+    /// Returns the options of the sweep for the library.
     ///
     /// # Errors
     /// The faults of every axis that cannot be read.

@@ -11,7 +11,7 @@ use slideway::gallery::{self, GREATEST_STAGES, MODELS};
 
 /// Stands for words that have no room.
 const MORE: &str = " ...";
-/// What to do with the list.
+/// Hint below the list: the command that writes one of its models to a file.
 const START: &str = "`slideway models NAME > NAME.toml` writes one to start from.\n";
 
 /// Lists the gallery, or writes one of its models.
@@ -69,7 +69,7 @@ fn shortened(text: &str, width: usize) -> String {
     }
 }
 
-/// Names, what each of them is, and below that what else is told of it.
+/// Lists names, a summary of each, and below that more words about it.
 pub(super) fn list<'a>(entries: impl Iterator<Item = (&'a str, &'a str, String)>) -> String {
     let entries: Vec<(String, String)> = entries
         .flat_map(|(name, summary, more)| {

@@ -94,7 +94,8 @@ fn read(arguments: &ModesArguments) -> Result<RawProblem, Failure> {
     problem.map_err(|faults| Failure::Problem { name: input::name(path), faults })
 }
 
-/// What is told of a file that does not exist.
+/// Returns the failure of a missing problem file in place of that of a missing model file; others stay as
+/// they are.
 fn no_problem(failure: Failure) -> Failure {
     match failure {
         Failure::NotFound { path, .. } => Failure::NoProblem { path },

@@ -78,7 +78,7 @@ fn answer(template: &Template, file: &Path, output: &Output) -> Result<(), Failu
     Ok(())
 }
 
-/// What is in the file, and the command that is run on it.
+/// Builds the message that says what is in the file, and which command is run on it.
 fn written(template: &Template, settings: &Settings, file: &str, width: usize) -> String {
     let given = |name: &str| settings.entries().iter().any(|setting| setting.name == name);
     let others: Vec<String> = template
@@ -107,7 +107,7 @@ fn quoted(path: &Path) -> String {
     if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
 
-/// That the template makes no sense with these settings.
+/// Builds the failure of a template that makes no sense with these settings.
 fn refused(template: &Template, settings: &Settings, faults: Faults) -> Failure {
     Failure::Input(Box::new(FaultyInput {
         name: format!("the template {}", template.name),

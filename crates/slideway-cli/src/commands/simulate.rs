@@ -120,7 +120,7 @@ fn outcome(end: &End) -> Outcome {
     }
 }
 
-/// What is asked of a model.
+/// A simulation that is asked for, with the model that it is asked of.
 struct Question<'q> {
     arguments: &'q SimulateArguments,
     input: &'q Input,
@@ -184,7 +184,7 @@ impl Question<'_> {
     }
 }
 
-/// The files that are written beside what is told.
+/// The files that are written beside the answer.
 struct Written<'a> {
     arguments: &'a SimulateArguments,
     table: Option<(SeriesFormat, Output)>,

@@ -13,8 +13,8 @@ use crate::problem::{ContactState, ProblemView};
 /// Maximum number of vertices and extreme directions that describe what a singular pattern admits.
 const CORNERS: usize = 4096;
 
-/// What one pattern admits. `unknowns` has one entry per contact: `y_k`, or the share `lambda_k` for a
-/// contact in its gap.
+/// The outcome of one pattern: the solutions that it admits. `unknowns` has one entry per contact: `y_k`, or
+/// the share `lambda_k` for a contact in its gap.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Decision {
     /// `D != 0` and one solution, with all `y_k > 0` and `0 < lambda_k < 1`.
@@ -67,7 +67,7 @@ pub enum Precision {
     Rational,
 }
 
-/// What [`decide`] returns.
+/// The outcome of one pattern, as returned by [`decide`], with the arithmetic that led to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProvenDecision {
     /// The outcome.
@@ -214,8 +214,8 @@ impl<'a> Approximation<'a> {
 }
 
 impl Approximation<'_> {
-    /// The same solution within narrower bounds: residuals with twice the digits are used as long as they
-    /// halve a bound.
+    /// Narrows the bounds of a solution: residuals with twice the digits are used as long as they halve a
+    /// bound. Returns other decisions as they are.
     fn sharpened(&mut self, solution: Decision) -> Decision {
         let Decision::Solution { mut unknowns, determinant } = solution else { return solution };
         let mut is_first = true;

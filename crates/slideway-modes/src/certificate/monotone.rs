@@ -48,7 +48,7 @@ const FORM_PRODUCTS: usize = 2_000_000;
 /// Columns without jumps for which the problem is monotone, whatever its load, if a pattern is regular.
 pub(crate) struct Monotone {
     contacts: usize,
-    /// What `u` changes in `y^+`, then in `y^-`, for a basis of `S l = 0`.
+    /// The changes `u` of `y^+`, then of `y^-`: one vector for each vector of a basis of `S l = 0`.
     changes: Vec<Vec<IBig>>,
 }
 

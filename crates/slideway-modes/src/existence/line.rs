@@ -84,8 +84,9 @@ impl Limit {
 }
 
 impl Line {
-    /// The same equations and conditions with unknowns in units (powers of two, so that nothing is rounded)
-    /// in which the columns have entries of order one: a friction coefficient may be very large.
+    /// Returns the equations and conditions with unknowns in units in which the columns have entries of order
+    /// one: a friction coefficient may be very large. The units are powers of two, so that nothing is
+    /// rounded.
     pub(super) fn in_units(&self, conditions: &[Condition], range: [f64; 2]) -> (Self, Vec<Condition>) {
         let reach = range[0].abs().max(range[1].abs());
         let unit = |column: usize| {
@@ -107,7 +108,7 @@ impl Line {
         (line, conditions.collect())
     }
 
-    /// The same equations, multiplied by the parameter `1 / t` and expressed in it.
+    /// Returns the equations in the parameter `1 / t`, multiplied by it.
     pub(super) fn reversed(&self) -> Self {
         let [m0, m1] = self.matrix.clone();
         let [b0, b1] = self.right_hand_side.clone();

@@ -71,7 +71,7 @@ pub struct OutputBound {
     pub factor: f64,
 }
 
-/// What to search for.
+/// The range and the limits of a search for modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExistenceOptions {
     /// The range of the parameter. The end may be infinite if the start is positive.
@@ -340,8 +340,9 @@ impl ModeProblemLine {
         Some(if line.solution(at)?[unknown] > 0.0 { 1 } else { -1 })
     }
 
-    /// What vanishes within rounding in the solution of a pattern at a parameter, as the cause by which it
-    /// would end there; [`EndCause::Range`] if nothing does, or if its determinant vanishes.
+    /// Finds what vanishes within rounding in the solution of a pattern at a parameter, as the cause by which
+    /// it would end there. Returns [`EndCause::Range`] if nothing vanishes, or if the determinant of the
+    /// pattern does.
     pub fn cause_at(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> EndCause {
         let mode = self.mode(pattern, options);
         let Some(unknowns) = mode.line.solution(at) else { return EndCause::Range };

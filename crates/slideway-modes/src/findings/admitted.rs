@@ -1,4 +1,4 @@
-//! What a singular pattern admits, as it is recorded.
+//! The set of solutions that a singular pattern admits, as it is recorded.
 
 use dashu_ratio::RBig;
 
@@ -6,7 +6,7 @@ use crate::certificate::ExactSet;
 use crate::problem::{ContactState, SolutionSet};
 use crate::solutions::{GapShare, Support};
 
-/// What a singular pattern admits.
+/// The set of solutions that a singular pattern admits.
 #[derive(Debug, Clone)]
 pub(crate) struct Admitted {
     pub(crate) set: SolutionSet,

@@ -22,7 +22,7 @@ pub(crate) struct TooManySolutions {
     pub(crate) limit: usize,
 }
 
-/// What patterns with the same boundary solution have in common: the states of the contacts that are not free
+/// The common part of patterns with the same boundary solution: the states of the contacts that are not free
 /// to change sides, and which contacts are free.
 #[derive(PartialEq, Eq, Hash)]
 struct SharedPattern {

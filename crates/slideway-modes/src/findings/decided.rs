@@ -101,7 +101,7 @@ impl Findings<'_> {
         }
     }
 
-    /// What the pattern admits at the midpoint of the bounds, within tolerances.
+    /// Finds the solutions that the pattern admits at the midpoint of the bounds, within tolerances.
     fn centre(&mut self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> Centre {
         let judged = |candidate: Candidate| {
             if candidate.admissible { Centre::Solution(candidate) } else { Centre::Nothing }

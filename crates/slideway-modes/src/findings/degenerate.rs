@@ -1,4 +1,4 @@
-//! What singular patterns admit.
+//! Examination of singular patterns: the solutions that they admit.
 
 use nalgebra::{DMatrix, DVector};
 

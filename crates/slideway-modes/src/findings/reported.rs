@@ -1,5 +1,5 @@
-//! What is reported of the findings: states that are the same are listed once, and those that are part of others are
-//! marked.
+//! The findings as they are reported: states that are the same are listed once, and those that are part of
+//! others are marked.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 

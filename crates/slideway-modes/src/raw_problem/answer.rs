@@ -106,7 +106,7 @@ fn status(result: &SearchResult, counts: &Counts) -> Status {
     }
 }
 
-/// What prevents the list from being proven complete.
+/// Returns the reasons, in words, why the list is not proven complete; empty if it is.
 fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
     match result.completeness {
         Completeness::Proven => Vec::new(),
@@ -195,7 +195,7 @@ impl<'a> Teller<'a> {
         Self { correspondence, problem, equations: Equations::of(raw, problem) }
     }
 
-    /// A state as a line of a stream, given how many solutions were told before.
+    /// Returns a state as a line of a stream, given how many solutions were written before.
     pub(super) fn told(&self, state: &CombinedState<'_>, number: usize, most: usize) -> RawLine {
         match Sort::of(state) {
             Sort::Point => RawLine::Solution(self.point(state, number)),
@@ -272,8 +272,8 @@ impl<'a> Teller<'a> {
         }
     }
 
-    /// The maximum distance of a pattern's values from those of its exact solution; `None` if unknown. Sums, values
-    /// without a floating-point number, and those that are not told, are ignored.
+    /// Returns the maximum distance of a pattern's values from those of its exact solution; `None` if
+    /// unknown. Sums, values without a floating-point number, and those that are not reported, are ignored.
     fn radius(&self, pattern: &[ContactState], values: &Values) -> Option<f64> {
         let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
             decide(self.problem, pattern).decision
@@ -289,7 +289,8 @@ impl<'a> Teller<'a> {
         radius.is_finite().then_some(radius)
     }
 
-    /// The same for a point that is known exactly.
+    /// Returns the maximum distance of the values from those of a point that is known exactly; `None` if
+    /// unknown. It ignores the values that `radius` ignores.
     fn exact_radius(&self, exact_unknowns: &mut ExactUnknowns<'_>, values: &Values) -> Option<f64> {
         let mut distance = |at: usize| {
             let error = exact_unknowns.of(at)? - exact(values.signed[at].abs());
@@ -304,7 +305,7 @@ impl<'a> Teller<'a> {
         error > WIDE * sizes.fold(0.0, f64::max)
     }
 
-    /// The unknowns of the mode problem whose values are told as they are.
+    /// Finds the unknowns of the mode problem whose values are reported as they are.
     fn told_values(&self, values: &Values) -> impl Iterator<Item = usize> {
         let is_told = |&at: &usize| {
             let value = values.signed[at];

@@ -22,7 +22,7 @@ pub(super) struct Given {
     names: HashSet<String>,
 }
 
-/// What a file states about its type.
+/// The type of a problem as a file states it.
 #[derive(Default)]
 pub(super) enum GivenType {
     #[default]

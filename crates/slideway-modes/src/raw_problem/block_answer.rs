@@ -12,7 +12,7 @@ use crate::progress::Callback;
 use crate::search::SearchOptions;
 use crate::status::{Proof, Status};
 
-/// Regions that are told one by one.
+/// Maximum number of open regions that are listed one by one.
 const MOST_REGIONS: usize = 8;
 
 /// All solutions of a block equation, of which up to `most` are listed.
@@ -78,7 +78,7 @@ fn strategy(equation: &BlockEquation, result: &BlockResult) -> String {
     )
 }
 
-/// What prevents the list from being proven complete.
+/// Returns the reasons, in words, why the list is not proven complete; empty if it is.
 fn open(equation: &BlockEquation, result: &BlockResult, options: &SearchOptions) -> Vec<String> {
     let region = |region: &OpenRegion| {
         let (place, x) = match region.label {

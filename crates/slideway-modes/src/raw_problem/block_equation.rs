@@ -101,7 +101,7 @@ impl BlockEquation {
         self.in_order(rows, 0.0, |value, unit| times_power(value, unit - largest))
     }
 
-    /// The same for bounds on the unknowns.
+    /// Returns bounds on `x` in the order of the equation, from bounds on the rows of a point.
     pub(super) fn enclosures(&self, rows: &[Interval]) -> Vec<Interval> {
         self.in_order(rows, Interval::ZERO, interval_times_power)
     }

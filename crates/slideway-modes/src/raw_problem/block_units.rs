@@ -83,7 +83,7 @@ pub(super) fn times_power(value: f64, exponent: i32) -> f64 {
     value
 }
 
-/// The same for bounds, rounded outwards.
+/// Returns `value 2^exponent` for bounds, rounded outwards.
 pub(super) fn interval_times_power(value: Interval, exponent: i32) -> Interval {
     let is_exact = |bound: f64| times_power(times_power(bound, exponent), -exponent) == bound;
     let [lower, upper] = [value.lower(), value.upper()].map(|bound| times_power(bound, exponent));
@@ -92,7 +92,7 @@ pub(super) fn interval_times_power(value: Interval, exponent: i32) -> Interval {
     Interval::new(lower, upper).unwrap_or(Interval::REAL_LINE)
 }
 
-/// The same for a number and its maximum error.
+/// Returns `value 2^exponent` for a number and its maximum error, which grows by what rounding loses.
 fn entry_times_power((centre, radius): (f64, f64), exponent: i32) -> (f64, f64) {
     let scaled = [centre, radius].map(|value| times_power(value, exponent));
     let is_exact = scaled.map(|value| times_power(value, -exponent)) == [centre, radius];

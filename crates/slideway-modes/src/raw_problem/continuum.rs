@@ -69,7 +69,8 @@ impl Points<'_> {
         self.told_of(contacts, &signed)
     }
 
-    /// The same from the values of all unknowns.
+    /// Returns the unknowns that follow from these contacts, given the values of all unknowns of the mode
+    /// problem.
     fn told_of(&self, contacts: &[usize], signed: &[f64]) -> Unknowns {
         let values: Vec<f64> = contacts.iter().map(|&contact| signed[contact]).collect();
         let exact = ExactUnknowns::new(self.problem, self.pattern, signed);
@@ -241,7 +242,7 @@ fn corners(
     })
 }
 
-/// Without those that are told like one before.
+/// Drops those that read like one before.
 fn distinct(all: impl Iterator<Item = Unknowns>) -> Vec<Unknowns> {
     let mut kept: Vec<Unknowns> = Vec::new();
     for one in all {

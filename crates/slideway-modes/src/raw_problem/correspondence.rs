@@ -1,4 +1,4 @@
-//! How the unknowns of a problem follow from those of its mode problem, and how they are told.
+//! How the unknowns of a problem follow from those of its mode problem, and how they are reported.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,8 +8,8 @@ use super::values::Sums;
 use super::{RawKind, RawProblem, game, mixed};
 use crate::error_free::sum_remainder;
 
-/// What an unknown `N` of the mode problem is, given `y+ = max(N, 0)` and `y- = max(-N, 0)`. Unknowns of the
-/// problem have an index.
+/// The role of an unknown `N` of the mode problem, given `y+ = max(N, 0)` and `y- = max(-N, 0)`. Unknowns of
+/// the problem have an index.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Role {
     /// `x = N`, with coefficients that depend on its sign.
@@ -40,7 +40,7 @@ pub(super) struct Correspondence {
     first: usize,
 }
 
-/// What is told of some unknowns.
+/// The values of some unknowns of the problem, before they get the names of its type.
 #[derive(Default)]
 struct Told {
     /// `z` and `w` by index.
@@ -116,7 +116,7 @@ impl Correspondence {
         self.named(&self.told(contacts.iter().copied().zip(signed.iter().copied()), sums, false))
     }
 
-    /// The same for a direction, which has no constants.
+    /// Returns the unknowns of a direction, from some of the mode problem; a direction has no constants.
     pub(super) fn direction(&self, contacts: &[usize], signed: &[f64]) -> Unknowns {
         let signed = contacts.iter().copied().zip(signed.iter().copied());
         self.named(&self.told(signed, &Sums::default(), true))

@@ -1,4 +1,4 @@
-//! What can be wrong with a raw problem: every kind of fault, with its values.
+//! Faults of a raw problem: every kind, with its values.
 
 use std::fmt;
 
@@ -70,7 +70,7 @@ pub enum RawFault {
         line: usize,
         /// Column of the fault, from 1.
         column: usize,
-        /// What is wrong there.
+        /// The fault in words.
         message: String,
     },
     /// A number that JSON cannot represent.
@@ -84,7 +84,7 @@ pub enum RawFault {
     /// The text is JSON, but not an object.
     #[error("the problem is {found}, not an object with the matrices under their names")]
     NotAnObject {
-        /// What it is instead.
+        /// The kind of value that it is instead, in words.
         found: &'static str,
     },
     /// A name is given twice.
@@ -128,7 +128,7 @@ pub enum RawFault {
     /// The type is not a text.
     #[error("`type` is {found}, not a text")]
     TypeNotText {
-        /// What it is instead.
+        /// The kind of value that it is instead, in words.
         found: String,
     },
     /// Something other than an array of numbers.
@@ -136,7 +136,7 @@ pub enum RawFault {
     NotAnArray {
         /// The name.
         key: String,
-        /// What it is instead.
+        /// The kind of value that it is instead, in words.
         found: String,
     },
     /// An entry that is not a number.
@@ -148,7 +148,7 @@ pub enum RawFault {
         row: usize,
         /// Column of the entry; `None` in a vector.
         column: Option<usize>,
-        /// What it is instead.
+        /// The kind of value that it is instead, in words.
         found: &'static str,
     },
     /// Rows of different lengths.
@@ -229,7 +229,7 @@ pub enum RawFault {
     Npy {
         /// The name.
         key: String,
-        /// What is wrong with it.
+        /// The fault of the file, in words.
         reason: &'static str,
     },
     /// An array with entries other than real numbers.
@@ -243,7 +243,7 @@ pub enum RawFault {
 }
 
 impl RawFault {
-    /// What to do about it, if there is more to say than the message itself.
+    /// Returns what to do about it, if there is more to say than the message itself.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Empty | Self::NotAnObject { .. } => {

@@ -47,7 +47,7 @@ pub(super) fn mode_problem(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Result<ModePro
     ModeProblem::new(positive, negative, none.clone(), none, DVector::from_fn(size, entry))
 }
 
-/// What the unknowns of the mode problem are.
+/// Returns the roles of the unknowns of the mode problem.
 pub(super) fn roles(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Vec<Role> {
     let strategies = (0..a.nrows() + a.ncols()).map(|at| Role::Above(at, 0.0));
     strategies.chain([Role::Payoff(0, below(a)), Role::Payoff(1, below(b))]).collect()

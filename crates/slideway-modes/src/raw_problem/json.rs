@@ -154,7 +154,7 @@ fn fraction(text: &str) -> Option<f64> {
     (!denominator.is_zero()).then(|| nearest(&RBig::from_parts(numerator, denominator)))
 }
 
-/// What `null` means in the bounds of an unknown.
+/// Returns the infinite bound that `null` stands for in `l` and `u`. Returns `None` for other keys.
 fn no_bound(key: &str) -> Option<f64> {
     match key {
         "l" => Some(f64::NEG_INFINITY),

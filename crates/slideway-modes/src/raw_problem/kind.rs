@@ -46,7 +46,7 @@ impl RawKind {
         }
     }
 
-    /// What it is, in words.
+    /// Returns the name of the type in words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Lcp => "Linear complementarity problem",
@@ -60,7 +60,7 @@ impl RawKind {
         }
     }
 
-    /// What is to be solved.
+    /// Returns the equations and conditions to be solved, as text.
     pub fn equation(self) -> &'static str {
         match self {
             Self::Lcp => "w = M z + q,  w >= 0,  z >= 0,  w_k z_k = 0",

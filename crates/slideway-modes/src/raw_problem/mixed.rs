@@ -88,7 +88,7 @@ impl Bounds {
         (0..self.lower.len()).filter(is_boxed).collect()
     }
 
-    /// What the unknowns of the mode problem are.
+    /// Returns the roles of the unknowns of the mode problem.
     pub(super) fn roles(&self, m: &DMatrix<f64>, q: &DVector<f64>) -> Vec<Role> {
         let Layout { boxed, shifted, .. } = self.layout(m, q);
         let own = (0..q.len()).map(|at| self.role(at));

@@ -34,8 +34,9 @@ const VERTICES: usize = 16;
 /// Candidates are tried in exact arithmetic only for up to this many unknowns.
 const LARGEST: usize = 200;
 
-/// What is to be reported; `None` if the right-hand side jumps, for unknowns between bounds, for games, which
-/// have a solution always, or if numbers are too large.
+/// Finds whether the problem has a solution within rounding of its numbers. Returns `None` if the right-hand
+/// side jumps, for unknowns between bounds, for games, which have a solution always, or if numbers are too
+/// large.
 pub(super) fn within_rounding(
     (raw, correspondence): (&RawProblem, &Correspondence),
     problem: &ModeProblem,

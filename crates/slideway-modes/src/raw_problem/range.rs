@@ -49,7 +49,8 @@ impl<'a> ExactUnknowns<'a> {
         }
     }
 
-    /// That of a contact; `None` if it takes too much work, or if it is not unique.
+    /// Returns the exact unknown of a contact. Returns `None` if it takes too much work, or if it is not
+    /// unique.
     pub(super) fn of(&mut self, contact: usize) -> Option<RBig> {
         if self.is_zero[contact] {
             return Some(RBig::ZERO);

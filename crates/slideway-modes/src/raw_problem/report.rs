@@ -33,7 +33,7 @@ pub struct RawReport {
     pub complete: Proof,
     /// Whether the search ended before all possibilities were examined.
     pub partial: bool,
-    /// What remains open, in words; empty if `complete` is [`Proof::Proven`].
+    /// The questions that remain open, in words; empty if `complete` is [`Proof::Proven`].
     pub open: Vec<String>,
     /// Number of solutions found that are not part of a continuum, as decimal text, because it may exceed any
     /// integer type. Gap states are not included.
@@ -65,7 +65,7 @@ pub struct RawReport {
     pub groups: Vec<RawGroup>,
 }
 
-/// A line of an answer that is told state by state: [`solve_streaming`](super::solve_streaming).
+/// A line of an answer that is written state by state: [`solve_streaming`](super::solve_streaming).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -80,7 +80,7 @@ pub enum RawLine {
     Conclusion(Box<RawConclusion>),
 }
 
-/// What is known when an answer has been told state by state.
+/// The conclusion of an answer that is written state by state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawConclusion {
@@ -161,13 +161,13 @@ fn known_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S
     serializer.collect_seq(values.iter().map(|value| (!value.is_nan()).then_some(*value)))
 }
 
-/// The same for one number.
+/// Serializes one number; `null` if it is NaN, beyond the range of floating-point numbers.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     (!value.is_nan()).then_some(*value).serialize(serializer)
 }
 
-/// The same for the payoff of a player.
+/// Serializes the payoff of a player; `null` if it is NaN, beyond the range of floating-point numbers.
 #[allow(clippy::ref_option)]
 fn known_payoff<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
     value.filter(|value| !value.is_nan()).serialize(serializer)

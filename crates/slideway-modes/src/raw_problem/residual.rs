@@ -91,7 +91,8 @@ impl<'a> Equations<'a> {
         (sum.is_finite() && size.is_normal() && size < f64::MAX).then(|| sum / size)
     }
 
-    /// The same in exact arithmetic.
+    /// Returns the residual for these `N` and shares, relative to the largest sum of sizes of terms in an
+    /// equation, computed in exact arithmetic.
     pub(super) fn exact_residual(&self, signed: &[RBig], shares: &[RBig]) -> f64 {
         let size = |value: &RBig| if *value < RBig::ZERO { -value } else { value.clone() };
         let above_zero = |value: RBig| if value < RBig::ZERO { RBig::ZERO } else { value };

@@ -20,8 +20,8 @@ use crate::status::Status;
 /// What it receives stays true, whatever ends the search. Nothing is received twice, but a set may contain what was
 /// received before it: [`RawConclusion::part_of_others`] tells which. If the unknowns are searched in several groups,
 /// the states are combinations of theirs: they come after the search, only those that are not part of others, and
-/// are not held in memory. Once `progress` has broken, at most `most` more are told. Of each part of a continuum
-/// there are up to `most` vertices and directions.
+/// are not held in memory. Once `progress` has broken, at most `most` more follow. Of each part of a
+/// continuum there are up to `most` vertices and directions.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -95,8 +95,8 @@ struct Stream<'a, 'w> {
     most: usize,
     write: &'w mut dyn FnMut(&RawLine) -> ControlFlow<()>,
     lines: u64,
-    /// The lines of states that were told during the search, by what is positive in them: equal sets have the same
-    /// positive unknowns.
+    /// The lines of states that were written during the search, by what is positive in them: equal sets have
+    /// the same positive unknowns.
     places: HashMap<Support, u64>,
 }
 

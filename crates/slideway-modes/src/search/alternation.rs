@@ -88,7 +88,7 @@ pub(super) fn solve(
     whole
 }
 
-/// What one attempt found.
+/// The findings and the work of one attempt.
 struct Attempt {
     product: SolutionProduct,
     reports: Vec<GroupReport>,

@@ -287,8 +287,9 @@ impl SolvedGroup {
     }
 }
 
-/// What a singular pattern admits, unless that is empty or already a solution. A set in which only shares vary is more
-/// than the solutions at its ends; within bounds, it need not be one for other values.
+/// Returns the state that a singular pattern admits. Returns `None` if that is empty or already a solution. A
+/// set in which only shares vary is more than the solutions at its ends; within bounds, it need not be a set
+/// for other values.
 fn singular_state(mode: &SingularMode) -> Option<GroupState> {
     let within_bounds = matches!(mode.certificate, Certificate::OnBoundaryWithinBounds { .. });
     let is_one_state = !mode.shares_vary || within_bounds;

@@ -50,7 +50,7 @@ pub(super) struct Settled {
     pub(super) vector: Vec<IBig>,
     /// Columns of the pattern that contain all its solutions in the node, besides those of free contacts.
     pub(super) left: ContactSet,
-    /// What the pattern admits, if that is known.
+    /// The outcome of the pattern, if it is known.
     pub(super) decision: Option<Decision>,
 }
 

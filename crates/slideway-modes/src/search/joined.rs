@@ -14,7 +14,7 @@ impl CombinedState<'_> {
     /// The combination as one state of this number of contacts, with at most `listed` patterns.
     ///
     /// `D` is the product of those of the groups, as for the whole matrix. Sets of singular patterns are
-    /// multiplied; with more than 4096 vertices or directions, they are told by parts.
+    /// multiplied; with more than 4096 vertices or directions, they are listed by parts.
     pub fn joined(&self, contacts: usize, listed: usize) -> GroupState {
         let joint = Joint { state: self, contacts, listed };
         match self.parts.iter().map(|(_, state)| state.kind()).max() {
@@ -25,7 +25,7 @@ impl CombinedState<'_> {
         }
     }
 
-    /// What is proven about the combination.
+    /// Returns the statement that is proven about the combination.
     pub fn certificate(&self, contacts: usize) -> Certificate {
         Joint { state: self, contacts, listed: 1 }.certificate()
     }

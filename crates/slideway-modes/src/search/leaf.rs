@@ -37,7 +37,7 @@ impl<'a> Leaves<'a> {
         Self { findings, unproven: 0, decided_jointly: false, told: (0, 0), ..*self }
     }
 
-    /// Adds what was found elsewhere, and told there.
+    /// Adds what was found and reported elsewhere.
     pub(super) fn absorb(&mut self, other: Self) -> Result<(), StopReason> {
         self.unproven += other.unproven;
         self.decided_jointly |= other.decided_jointly;

@@ -154,9 +154,9 @@ pub fn search<'a>(
 /// [`search`], with `states` called for states as soon as they are proven.
 ///
 /// This is possible for an exact problem whose contacts are one group: the states of several groups are
-/// combinations, which [`SearchResult::product`] has at the end. A state that is told is one whatever happens
-/// afterwards. The same may be told again if other patterns have it, and a set that is told later may contain it.
-/// The order does not depend on the number of threads. The search ends if `states` breaks.
+/// combinations, which [`SearchResult::product`] has at the end. A state that is reported is one whatever
+/// happens afterwards. It may be reported again if other patterns have it, and a set that is reported later
+/// may contain it. The order does not depend on the number of threads. The search ends if `states` breaks.
 pub fn search_telling<'a>(
     problem: impl Into<ProblemView<'a>>,
     options: &SearchOptions,

@@ -24,11 +24,11 @@ pub(super) struct Monitor<'a> {
     told: Progress,
     stopped: Option<StopReason>,
     enough: Enough,
-    /// Only if states are to be told as they are found.
+    /// Receives states as they are found, if they are wanted.
     states: Option<&'a mut StateCallback<'a>>,
 }
 
-/// What has as many solutions as are wanted.
+/// Flags for groups that have as many solutions as are wanted.
 #[derive(Default)]
 struct Enough {
     /// The current group.
@@ -63,12 +63,12 @@ impl<'a> Monitor<'a> {
         Self { states: Some(states), ..self }
     }
 
-    /// Whether states are to be told as they are found.
+    /// Whether states are to be reported as they are found.
     pub(super) fn wants_states(&self) -> bool {
         self.states.is_some()
     }
 
-    /// From now on, states are those of groups, which are not told.
+    /// Stops reporting states: from now on they are those of groups.
     pub(super) fn tell_no_states(&mut self) {
         self.states = None;
     }

@@ -23,7 +23,7 @@ pub struct SolutionProduct {
 pub struct Factor {
     /// The contacts of the group, from 0, in increasing order.
     pub contacts: Vec<usize>,
-    /// What the group admits.
+    /// The alternatives that the group admits.
     pub alternatives: Vec<Alternative>,
 }
 
@@ -43,7 +43,7 @@ pub enum GroupState {
     Solution(ModeSolution),
     /// Some contact rests in its gap.
     Gap(GapState),
-    /// What a singular pattern admits; not empty.
+    /// The set that a singular pattern admits; not empty.
     Singular(SingularMode),
     /// For data within bounds only: no solution at the midpoint of the bounds, but perhaps for other values.
     Undecided(UndecidedPattern),
@@ -90,7 +90,7 @@ impl GroupState {
         }
     }
 
-    /// What is proven about it; `None` for an undecided pattern.
+    /// Returns the statement that is proven about the state. Returns `None` for an undecided pattern.
     pub fn certificate(&self) -> Option<&Certificate> {
         match self {
             Self::Solution(solution) => Some(&solution.certificate),

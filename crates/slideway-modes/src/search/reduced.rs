@@ -67,7 +67,7 @@ impl ReducedRelaxation {
         states.iter().zip(&self.is_free).filter(|(_, is_free)| !**is_free).map(|(set, _)| *set).collect()
     }
 
-    /// What belongs to all contacts, given that of the others in their order and that of free ones.
+    /// Returns one value for each contact: `free` for free ones, `others` in their order for the rest.
     fn with_free<T: Copy>(&self, others: Vec<T>, free: T) -> Vec<T> {
         let mut others = others.into_iter();
         let of_contact = |&is_free: &bool| if is_free { Some(free) } else { others.next() };

@@ -37,7 +37,7 @@ pub(super) struct Relaxation {
     has_jump: Vec<bool>,
     /// `b`: that of the program but for a factor.
     load: Vec<f64>,
-    /// The same program without loads, for unknowns that are known to be large.
+    /// The program without loads, for unknowns that are known to be large.
     far: Option<LinearProgram>,
     /// The power of two that multiplies each column of the program.
     column_scale: Vec<f64>,

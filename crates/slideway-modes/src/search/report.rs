@@ -5,7 +5,7 @@ use std::fmt;
 use super::states::StateSet;
 use crate::solutions::{ClosestMode, Limits, PatternCounts, SingularMode, Solutions};
 
-/// What a search may use, and to what extent.
+/// The means that a search may use, and to what extent.
 ///
 /// Undocumented fields turn off parts of the search or record what it did: tests, benchmarks and fuzz targets
 /// use them for comparison.

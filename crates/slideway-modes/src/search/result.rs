@@ -30,7 +30,8 @@ pub struct StateLists {
     pub solutions: Vec<ModeSolution>,
     /// Some contact rests in its gap.
     pub gaps: Vec<GapState>,
-    /// What singular patterns admit; not empty. A point that is a solution is listed only there.
+    /// The sets that singular patterns admit; none is empty. A point that is a solution as well is listed
+    /// only in `solutions`.
     pub singular: Vec<SingularMode>,
     /// For data within bounds only: patterns with no solution at the midpoint of the bounds, but perhaps for
     /// other values.

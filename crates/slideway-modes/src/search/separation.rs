@@ -20,7 +20,7 @@ const TIGHT: f64 = 1e-9;
 /// Bits added to those that the margin asks for, until the vector is verified.
 const MORE_BITS: [f64; 3] = [1.0, 6.0, 20.0];
 
-/// What a vector is to prove.
+/// The statement that a vector is to prove.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Separated<'a> {
     /// The equations have no solution.

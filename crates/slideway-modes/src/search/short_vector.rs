@@ -63,7 +63,8 @@ impl Relaxation {
         self.in_units(&moved, HALF_AND_MORE * largest / step, allowed)
     }
 
-    /// The same for a vector whose products with the columns of all sides are negative.
+    /// Returns a vector in integers that excludes a node, as `short` does, from one whose products with the
+    /// columns of all sides are negative.
     fn rounded(&self, farkas: &[f64], allowed: &ContactSet) -> Option<(Vec<f64>, ContactSet)> {
         let products = self.program.row_combination(farkas);
         let ratio = |variable: usize| self.column_sum(variable) / -products[variable];

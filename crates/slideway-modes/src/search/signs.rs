@@ -48,7 +48,7 @@ impl RowSigns {
         })
     }
 
-    /// The same for one row, multiplied by a sign.
+    /// Finds a contact with both sides open of which this row, multiplied by a sign, leaves one.
     fn forced_by(&self, (row, sign): (usize, i8), states: &[StateSet], allowed: &[usize]) -> Option<Forced> {
         let entries = &self.rows[row];
         let mut positive = allowed.iter().filter(|&&column| entries[column] == sign);

@@ -4,7 +4,7 @@
 //! subtrees, each of which knows what was found before the division, and nothing of the others. So neither
 //! nodes nor results depend on the number of threads. The subtrees are visited in rounds, each with twice as
 //! many nodes for every subtree as the one before, up to a maximum: limits of nodes and solutions are shared, and
-//! solutions are told, between rounds.
+//! solutions are reported, between rounds.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -27,7 +27,7 @@ const SUBTREES: usize = 64;
 const CALLS: u64 = 64;
 /// Nodes of each subtree in the first round, ...
 const FIRST_ROUND: u64 = 64;
-/// ... and in the longest: about a second of one thread, after which solutions are told.
+/// ... and in the longest: about a second of one thread, after which solutions are reported.
 const LONGEST_ROUND: u64 = 1024;
 
 struct Subtree<'t, 'l> {
@@ -37,7 +37,7 @@ struct Subtree<'t, 'l> {
     stopped: Option<StopReason>,
 }
 
-/// What a subtree tells while it is visited.
+/// The progress of a subtree, sent while it is visited.
 struct Told {
     subtree: usize,
     nodes: u64,

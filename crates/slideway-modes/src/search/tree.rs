@@ -34,7 +34,7 @@ pub(super) struct Node {
     pub(super) basis: Option<Arc<Basis>>,
 }
 
-/// What a tree search did.
+/// The record of a tree search: shares of the patterns by outcome, the work, and exclusions that are kept.
 #[derive(Debug, Default, Clone)]
 pub(super) struct TreeReport {
     pub(super) shares: PatternShares,
@@ -104,7 +104,7 @@ impl<'a> Tree<'a> {
         Self { relaxation: Arc::new(relaxation), ..tree }
     }
 
-    /// The same tree, which also writes its steps.
+    /// Makes the tree write its steps, too.
     pub(super) fn logged(self, log: ProofLog) -> Self {
         Self { log: Some(log), faces: self.faces.map(Faces::with_supports), ..self }
     }
@@ -158,7 +158,7 @@ impl<'a> Tree<'a> {
         with_basis.for_each(|node| node.basis = None);
     }
 
-    /// The same tree before its first node, with what is known so far.
+    /// Returns the tree before its first node, with what is known so far.
     pub(super) fn subtree(&self) -> Self {
         Self { report: TreeReport::default(), log: None, ..self.clone() }
     }

@@ -21,7 +21,8 @@ pub(super) struct WithoutFree {
     system: Arc<LiftedSystem>,
     /// The columns of the free contacts.
     free: ContactSet,
-    /// What is left, computed when it is first needed; nothing if there was no time for it.
+    /// The equations that are left, computed when they are first needed; `None` within if there was no time
+    /// for it.
     left: OnceLock<Option<Left>>,
 }
 

@@ -104,7 +104,7 @@ impl LinearProgram {
         Self { rows, columns: columns.len(), by_row, by_column, right_hand_side, cost }
     }
 
-    /// The same with a column multiplied by a factor.
+    /// Multiplies a column by a factor.
     pub(crate) fn with_multiple_of_column(mut self, column: usize, factor: f64) -> Self {
         for row in 0..self.rows {
             self.by_column[column * self.rows + row] *= factor;
@@ -113,7 +113,7 @@ impl LinearProgram {
         self
     }
 
-    /// The same with another right-hand side.
+    /// Replaces the right-hand side.
     pub(crate) fn with_right_hand_side(self, right_hand_side: Vec<f64>) -> Self {
         Self { right_hand_side, ..self }
     }

@@ -13,7 +13,7 @@ use nalgebra::DVector;
 use crate::interval::Interval;
 use crate::problem::{ContactState, Side, SolutionSet};
 
-/// What is proven about a solution, a gap state or a singular set.
+/// The statement that is proven about a solution, a gap state or a singular set.
 ///
 /// Intervals contain one unknown per contact, as returned by [`decide`](crate::certificate::decide) for the
 /// state's first pattern: `y_k`, or the share `lambda_k` for a contact in its gap.
@@ -142,7 +142,7 @@ pub struct ModeState<S> {
     /// within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,
-    /// What is proven about it.
+    /// The statement that is proven about it.
     pub certificate: Certificate,
 }
 
@@ -177,8 +177,8 @@ pub struct SingularMode {
     pub patterns: Vec<Vec<ContactState>>,
     /// Number of singular patterns that admit this set; of a large group, of those that were examined.
     pub pattern_count: u64,
-    /// What the pattern admits. For a pattern with gap states, this is the set of its normal forces; the
-    /// shares `lambda` may vary as well.
+    /// The solutions that the pattern admits. For a pattern with gap states, this is the set of its normal
+    /// forces; the shares `lambda` may vary as well.
     pub set: SolutionSet,
     /// If the set is a point, the shares of the contacts in their gaps; if they vary, those of one of the
     /// states.
@@ -193,7 +193,7 @@ pub struct SingularMode {
     /// otherwise within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,
-    /// What is proven about it.
+    /// The statement that is proven about it.
     pub certificate: Certificate,
 }
 

@@ -79,7 +79,7 @@ impl Slide {
         places.into_iter().map(at).collect()
     }
 
-    /// What lies between the faces of the outer part, or `beyond` further out.
+    /// Returns the outline of the space between the faces of the outer part, or `beyond` further out.
     pub(super) fn between_faces(&self, reach: [f64; 2], beyond: f64) -> Vec<Point> {
         let mut outline = self.face_line(reach, -1.0, beyond);
         outline.extend(self.face_line(reach, 1.0, beyond).into_iter().rev());
@@ -121,7 +121,8 @@ impl Slide {
 }
 
 impl Painter<'_> {
-    /// What the guide of a joint is at its contacts, along the guide, if they share a load.
+    /// Returns the geometry of a joint's guide at its contacts, along the guide; empty unless they share a
+    /// load.
     pub(super) fn stations(&self, slider: &Slider, guide: &Local) -> Vec<Station> {
         let Some(magnification) = self.magnification.filter(|_| self.states.has_deflections(slider)) else {
             return Vec::new();

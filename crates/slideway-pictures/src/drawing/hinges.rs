@@ -19,7 +19,7 @@ const BEYOND: f64 = 26.0;
 pub struct PinForce {
     /// The name of the hinge.
     pub(crate) hinge: String,
-    /// Its force on the body for which it is told (N).
+    /// Its force on the body on which the report counts it (N).
     pub(crate) force: [f64; 2],
     /// Its friction couple on that body (N m).
     pub(crate) couple: f64,
@@ -28,7 +28,7 @@ pub struct PinForce {
 }
 
 impl PinForce {
-    /// What a solution says of the hinges with friction.
+    /// Returns the forces in a solution of the hinges with friction.
     pub(super) fn of(solution: &Solution) -> Vec<Self> {
         let one = |hinge: &slideway::report::Hinge| {
             let friction = hinge.friction?;

@@ -28,17 +28,17 @@ const DISTANCES: [f64; 14] =
     [5.0, 11.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0, 100.0, 125.0, 155.0, 190.0, 235.0, 290.0];
 /// Beyond this distance a line leads to the anchor; so it does where something else that has a label is nearer.
 const LEADER: f64 = 30.0;
-/// What costs a line that leads over a shorter distance: it has to tell what the label names.
+/// Cost of a line to the anchor, which has to show what the label names.
 const TOLD: f64 = 10.0;
-/// What it costs that a wall or an edge lies between a label and what it names.
+/// Cost of a wall or an edge between a label and what it names.
 const BETWEEN: f64 = 2.0;
-/// What it costs that the line to what is named runs through another label, and for each place of another
-/// arrow or dimension on its way.
+/// Cost of another label on the line to what is named, and of each place of another arrow or dimension on its
+/// way.
 const CROSSED: f64 = 12.0;
 const MET: f64 = 3.0;
-/// What a unit costs by which a label makes the drawing wider or higher.
+/// Cost of each unit by which a label makes the drawing wider or higher.
 const OUTSIDE: f64 = 0.15;
-/// What it costs to cover a place of an arrow; of a dimension it is more, of a wall or the edge of a body less.
+/// Cost of covering a place of an arrow; of a dimension it is more, of a wall or the edge of a body less.
 const IMPORTANT: f64 = 10.0;
 const EDGE: f64 = 2.0;
 /// Free space around a label.
@@ -70,17 +70,17 @@ pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds
     }
 }
 
-/// What labels have to keep clear of.
+/// The space for labels, and all that they have to keep clear of.
 struct Room {
     /// Places along lines, each with what it costs to cover it.
     obstacles: Obstacles,
-    /// What all labels name, from one end to the other.
+    /// The things that all labels name, each from one end to the other.
     named: Vec<[Point; 2]>,
     /// Other labels.
     taken: Vec<Bounds>,
-    /// What the drawing takes so far.
+    /// The bounds of the drawing so far.
     drawn: Option<Bounds>,
-    /// What labels do not leave.
+    /// The bounds that labels do not leave.
     within: Option<Bounds>,
 }
 
@@ -116,8 +116,8 @@ impl Room {
             && self.within.is_none_or(|within| holds(&within, bounds))
     }
 
-    /// What a place costs of which the distance costs `far`, if that is less than `least`. Nothing is looked at further
-    /// once it costs too much.
+    /// Returns the cost of a place, of which the distance costs `far`, or `None` if it is not less than
+    /// `least`. Nothing is looked at further once it costs too much.
     fn cost_below(&self, least: f64, far: f64, label: &Label, bounds: &Bounds) -> Option<f64> {
         let outside = self.drawn.map_or(0.0, |drawn| (drawn.with(*bounds).size() - drawn.size()).sum());
         let covered = OUTSIDE * outside + crossed(bounds, &self.obstacles);
@@ -169,7 +169,7 @@ pub(super) fn reserve(label: &Label, obstacles: &mut Vec<Obstacle>) {
 }
 
 impl Label {
-    /// What it names, from one end to the other.
+    /// Returns the two ends of the thing that it names.
     fn named(&self) -> [Point; 2] {
         [self.anchor - self.reach, self.anchor + self.reach]
     }

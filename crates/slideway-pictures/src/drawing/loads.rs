@@ -195,7 +195,7 @@ impl Painter<'_> {
         }
     }
 
-    /// What a spring or damper puts on the bodies at its ends, where it is drawn.
+    /// Draws the forces of a spring or damper on the bodies at its ends, where it is drawn.
     fn connection_force(&mut self, index: usize, between: &[Attachment; 2]) {
         let load = &self.mechanism.loads[index];
         let Some(force) = load_force(self.mechanism, self.actual, load) else { return };
@@ -371,7 +371,7 @@ pub(super) fn load_force(
     Some(wrenches.first()?.force)
 }
 
-/// What a class looks like in a key, so long from a place on: an arrow, or a sign.
+/// Returns the sample of a class for a key, so long from a place on: an arrow, or a sign.
 pub(crate) fn sample(class: Class, from: Point, length: f64) -> Vec<Shape> {
     let to = from + Point::new(length, 0.0);
     let middle = from.lerp(&to, 0.45);

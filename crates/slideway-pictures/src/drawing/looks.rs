@@ -1,5 +1,5 @@
-//! What a body and a sliding joint look like: an outline where the model gives one, else what can be told
-//! from how the joints lie.
+//! Looks of a body and a sliding joint: an outline where the model gives one, else those that follow from how
+//! the joints lie.
 //!
 //! A model says which faces rub, not what its parts look like. These looks follow from it alone:
 //!
@@ -25,7 +25,7 @@ const ON_LINE: f64 = 1e-9;
 /// Sine of the greatest angle at which a slot is a flank.
 const STEEPEST_FLANK: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// What a sliding joint looks like.
+/// The appearance of a sliding joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Look {
     /// Two walls, or a rod in a sleeve.

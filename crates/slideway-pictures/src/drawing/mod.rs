@@ -97,7 +97,7 @@ pub struct ContactForces {
 }
 
 impl ContactStates {
-    /// What a solution says of contacts and drives.
+    /// Returns the states of the contacts and drives in a solution.
     pub fn of(solution: &Solution) -> Self {
         let state = |(contact, sign): (&slideway::report::Contact, char)| ContactState {
             side: f64::from(contact.side),
@@ -116,7 +116,7 @@ impl ContactStates {
         }
     }
 
-    /// What locks a mechanism: forces of which only the proportions are known.
+    /// Returns the states that lock a mechanism: forces of which only the proportions are known.
     pub fn locked(locking: &Locking) -> Self {
         let Locking { normal_forces, friction_forces, couples, efforts, .. } = locking;
         let contacts = contacts([normal_forces, friction_forces, couples]).collect();
@@ -144,7 +144,7 @@ fn contacts([normal, friction, couples]: [&Vec<f64>; 3]) -> impl Iterator<Item =
     })
 }
 
-/// What a scene shows beside the mechanism itself.
+/// Options of a scene: the things that it shows beside the mechanism itself.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each stands for one kind of thing, whatever the others are"
@@ -282,7 +282,7 @@ struct Painter<'a> {
     states: &'a ContactStates,
     view: &'a View,
     options: &'a SceneOptions,
-    /// What the joints look like.
+    /// The appearances of the joints.
     looks: Vec<Look>,
     /// The sliding joints, by the index of the joint.
     sliders: Vec<Option<Slide>>,

@@ -15,7 +15,7 @@ pub(super) const MOST: usize = 24;
 pub(super) const LONGEST_FORCE: f64 = 76.0;
 const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
 
-/// What is said of a picture whose guides have play that can be seen.
+/// Remark on a picture whose guides are drawn with a play that can be seen instead of their own.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
 
 /// By how much play and what else is small are magnified in a drawing, in words.
@@ -69,12 +69,12 @@ pub enum Shown {
     GapState(usize),
 }
 
-/// What is written below a panel.
+/// The words below a panel.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Caption {
     /// Its first line.
     pub(crate) heading: String,
-    /// What follows.
+    /// The lines that follow.
     pub(crate) lines: Vec<String>,
     /// A table below: a row for each pin with friction, after one of headings.
     pub(crate) table: Vec<[String; 4]>,
@@ -85,13 +85,13 @@ pub struct Caption {
 pub struct Panel {
     /// The drawing.
     pub(crate) scene: Scene,
-    /// What is written below it.
+    /// The words below it.
     pub(crate) caption: Caption,
     /// Drawing units for a newton, if its forces are to scale.
     pub(crate) force_scale: Option<f64>,
 }
 
-/// What is drawn.
+/// The subject of drawings: a mechanism in a configuration, with its solutions.
 pub(super) struct Drawn<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) configuration: &'a Configuration,
@@ -211,7 +211,8 @@ impl Drawn<'_> {
         Panel { scene, caption: Caption { heading, lines, ..Caption::default() }, force_scale }
     }
 
-    /// Drawing units for a newton where this is the greatest force, those that can be told, and the longest arrow.
+    /// Returns the drawing units for a newton where this is the greatest force, those that can be stated, and
+    /// the longest arrow.
     fn scale(&self, greatest: f64) -> (f64, Option<f64>, f64) {
         let longest = self.longest_force.unwrap_or(greatest);
         let scale = if longest > 0.0 { LONGEST_FORCE / longest } else { 1.0 };

@@ -23,7 +23,7 @@ const SEEN: f64 = 10.0;
 /// By how much the block of such a guide may miss its place, as rotations that are drawn are not small.
 const MISSED: f64 = 1.0;
 
-/// What decides where the blocks lie in their guides.
+/// The data that decide where the blocks lie in their guides.
 pub(super) struct Play<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) configuration: &'a Configuration,

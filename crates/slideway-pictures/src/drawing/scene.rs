@@ -1,12 +1,12 @@
-//! What a drawing consists of: shapes in drawing units (x to the right, y down), each with a class that says
-//! what it shows.
+//! The shapes of a drawing in drawing units (x to the right, y down), each with a class that says what it
+//! shows.
 
 use nalgebra::Vector2;
 
 /// A place or direction in drawing units.
 pub type Point = Vector2<f64>;
 
-/// What a shape shows; [`super::svg`] gives each class its colours.
+/// The meaning of a shape; [`super::svg`] gives each class its colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Class {
     /// A wall of a guide that belongs to ground.
@@ -15,9 +15,9 @@ pub enum Class {
     HiddenWall,
     /// Hatching of ground.
     Hatch,
-    /// What belongs to ground and has an outline.
+    /// A part of ground with an outline.
     Fixed,
-    /// What belongs to ground, without an outline.
+    /// A part of ground without an outline.
     Paper,
     /// The outline of a body, drawn before its inside.
     BodyEdge,
@@ -53,7 +53,7 @@ pub enum Class {
     ActionLine,
     /// The friction cone of a contact.
     Cone,
-    /// What two friction cones have in common.
+    /// The area that two friction cones have in common.
     Overlap,
     /// The whole force of a contact, normal force and friction together.
     ContactForce,
@@ -102,9 +102,9 @@ pub enum Shape {
 /// One line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
-    /// What it says.
+    /// The words of the line.
     pub text: String,
-    /// The left, middle or right of its base line.
+    /// The left end or the middle of its base line.
     pub at: Point,
     /// Where `at` lies in it.
     pub(crate) anchor: Anchor,
@@ -124,7 +124,7 @@ pub enum Anchor {
 /// A shape and what it shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Element {
-    /// What it shows.
+    /// The meaning of the shape.
     pub class: Class,
     /// The shape.
     pub shape: Shape,
@@ -167,7 +167,7 @@ impl Bounds {
         Self { least: self.least.inf(&other.least), greatest: self.greatest.sup(&other.greatest) }
     }
 
-    /// The same with a margin on all sides.
+    /// Returns the bounds with a margin on all sides.
     #[must_use]
     pub fn widened(self, margin: f64) -> Self {
         let margin = Point::new(margin, margin);
@@ -181,13 +181,13 @@ impl Bounds {
         Self { least: self.least - margin, greatest: self.greatest + margin }
     }
 
-    /// The same size elsewhere.
+    /// Returns bounds of the same size elsewhere.
     #[must_use]
     pub(super) fn shifted(self, by: Point) -> Self {
         Self { least: self.least + by, greatest: self.greatest + by }
     }
 
-    /// The same width, with the heights of other bounds.
+    /// Returns bounds of the same width, with the heights of other bounds.
     #[must_use]
     pub(super) fn with_heights_of(self, other: &Self) -> Self {
         Self {

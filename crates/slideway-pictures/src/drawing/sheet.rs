@@ -37,11 +37,12 @@ pub struct Sheet {
     pub scene: Scene,
     /// Its edges.
     pub bounds: Bounds,
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// What it shows, in words.
+    /// A description in words of what is on it.
     pub description: String,
-    /// What another drawing needs to be comparable with this one; none of a key and of several drawings.
+    /// The scale and the place that make another drawing comparable with this one; `None` for a key and for
+    /// several drawings.
     pub held: Option<Held>,
     /// How many of the elements belong to the heading, and where that ends.
     heading: (usize, f64),
@@ -140,8 +141,9 @@ pub fn sheet(
     Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
 }
 
-/// The same drawings each by itself, with its caption, and at the end the key to their colours, for a page that has
-/// the title and the state itself. Where something is held, solutions are drawn to its scale and in its place.
+/// Draws each panel of a sheet by itself, with its caption, and at the end the key to the colours, for a page
+/// that has the title and the state itself. Where something is held, solutions are drawn to its scale and in
+/// its place.
 ///
 /// ```
 /// use slideway::model::{Model, Settings};
@@ -201,7 +203,7 @@ fn state_line(state: &[CoordinateState], units: &Units) -> String {
     coordinates.collect::<Vec<_>>().join("; ")
 }
 
-/// What there is, and how much of it is drawn.
+/// Says how many solutions there are, and how many of them are drawn.
 pub(crate) fn answer(report: &SolveReport) -> String {
     let drawn = report.solutions.len() + report.preload_gap_states.len();
     let partial = if report.partial { " The search ended early: there may be more." } else { "" };
@@ -361,7 +363,7 @@ fn columns(count: usize, width: f64) -> usize {
     count.div_ceil(rows).max(1)
 }
 
-/// What the colours mean; the y below it.
+/// Draws the key to the colours, and returns the y below it.
 fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     let words = [
         (Class::Reaction, format!("normal reaction on {forces_on}")),

@@ -34,7 +34,7 @@ pub(super) struct Slide {
     pub(super) open: [bool; 2],
     /// Which ends of the block are torn off, as the model does not say where they are.
     pub(super) torn: [bool; 2],
-    /// What stands at the least and at the greatest displacement.
+    /// The stops at the least and at the greatest displacement.
     pub(super) stops: [Option<EndStop>; 2],
     /// Drawn distance of the rubbing faces.
     pub(super) height: f64,
@@ -55,7 +55,7 @@ pub(super) struct EndStop {
     pub(super) half: f64,
 }
 
-/// What a guide is at one of its contacts, in drawing units.
+/// The geometry of a guide at one of its contacts, in drawing units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Station {
     /// Where, from the middle of the guide along its tangent.

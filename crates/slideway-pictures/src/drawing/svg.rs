@@ -18,14 +18,14 @@ pub enum Colours {
     Page,
 }
 
-/// What a picture is beside its shapes.
+/// The attributes of a picture beside its shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame<'a> {
     /// The part of the scene that is shown.
     pub bounds: Bounds,
     /// Its title, for those who do not see it.
     pub title: &'a str,
-    /// What it shows, in words.
+    /// A description in words of what it shows.
     pub description: &'a str,
     /// Width in pixels; by default one for each drawing unit.
     pub width: Option<f64>,
@@ -199,7 +199,7 @@ pub struct Colour {
     pub(crate) load: String,
     /// Velocities.
     pub(crate) velocity: String,
-    /// What jams.
+    /// Parts that jam.
     pub(crate) warning: String,
 }
 

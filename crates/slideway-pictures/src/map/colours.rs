@@ -79,8 +79,8 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
     }
 }
 
-/// What all solutions say, if they agree: green where it speeds up or starts, yellow where it keeps its speed,
-/// orange where it slows down.
+/// Returns the colour of the motion in which all solutions agree: green where it speeds up or starts, yellow
+/// where it keeps its speed, orange where it slows down. Returns the colour for several if they do not agree.
 fn of_motion(solutions: &[Vec<SpeedChange>]) -> &'static str {
     let mut changes = solutions.iter().flatten();
     let first = changes.next();

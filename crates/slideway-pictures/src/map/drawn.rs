@@ -1,4 +1,4 @@
-//! What a map shows, for those who draw it by other means than SVG.
+//! The contents of a map, for those who draw it by other means than SVG.
 
 use super::colours::paint;
 use super::{draws_model, shown, told, untold_modes};
@@ -23,7 +23,7 @@ pub struct DrawnMap {
     pub(crate) y: Axis,
     /// The classes, in the order of the report.
     pub(crate) classes: Vec<DrawnClass>,
-    /// What signs of modes mean that no class tells, for the end of the legend.
+    /// The meanings of signs of modes that no class states, for the end of the legend.
     pub(crate) modes: Vec<String>,
     /// The values of the model, in the units of the axes; absent if they are not on the map.
     pub(crate) model: Option<[f64; 2]>,
@@ -36,7 +36,7 @@ pub struct DrawnClass {
     pub(crate) fill: &'static str,
     /// How it is hatched, if it is.
     pub(crate) hatching: Option<Hatching>,
-    /// What it means and its share of the map, for the legend.
+    /// Its meaning and its share of the map, for the legend.
     pub(crate) text: String,
 }
 

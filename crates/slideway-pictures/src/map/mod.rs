@@ -74,7 +74,7 @@ pub fn to_svg(report: &MapReport, settings: &Settings, theme: &Theme) -> Result<
     svg.document([whole, bottom + MARGIN], &title, theme.background)
 }
 
-/// What the colours tell, over what.
+/// Says what the colours show, and over which two quantities.
 fn shown(report: &MapReport) -> String {
     format!("{} over {} and {}", report.colour_by.in_words(), report.x.name, report.y.name)
 }
@@ -197,7 +197,7 @@ fn entry(class: &MapClass) -> String {
     }
 }
 
-/// What the signs of the patterns mean that no class has told, in words.
+/// Returns in words the meanings of the patterns' signs that no class has stated.
 fn untold_modes(report: &MapReport) -> Vec<String> {
     let single = report.classes.iter().filter(|class| class.modes.len() == 1);
     let mut known: Vec<String> = single.map(|class| class.words.clone()).collect();

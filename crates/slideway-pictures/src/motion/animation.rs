@@ -46,7 +46,7 @@ pub struct Animation {
     /// The shapes that occur, each once, as SVG.
     pub(super) shapes: Vec<String>,
     pub(super) frames: Vec<FrameOf>,
-    /// What is told, and from when on (s).
+    /// The words for each event, and the time (s) from which they are shown.
     pub(super) events: Vec<(f64, String)>,
     /// Start and end of the motion (s).
     pub(super) times: [f64; 2],
@@ -57,7 +57,7 @@ pub struct Animation {
     pub(super) force_scale: Option<f64>,
     /// The unit of forces.
     pub(super) force_unit: Unit,
-    /// What the modes that occur are, in words, each once.
+    /// The modes that occur, in words, each once.
     pub(super) words: Vec<String>,
     /// Whether the play of guides is drawn greater than it is.
     pub(super) is_exaggerated: bool,
@@ -86,7 +86,8 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
     animation_with(history, options, theme, &mut |_| ControlFlow::Continue(())).expect("nothing ends it")
 }
 
-/// A motion as a moving picture; nothing if the callback, which is told how many frames are drawn, ended the work.
+/// Draws a motion as a moving picture. Returns `None` if the callback, which receives the number of frames
+/// that are drawn, ended the work.
 pub fn animation_with(
     history: &History,
     options: &AnimationOptions,
@@ -134,7 +135,7 @@ struct Painting {
     shapes: Vec<String>,
     /// The frames made of them.
     frames: Vec<FrameOf>,
-    /// What they need of the drawing.
+    /// The part of the drawing that they need.
     bounds: Bounds,
     /// Words of the modes.
     words: Vec<String>,

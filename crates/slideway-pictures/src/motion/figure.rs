@@ -20,7 +20,7 @@ const PIECES: usize = 250;
 const LEAST: usize = 24;
 /// The end of a phase is read so much before its end, as a part of it: forces may jump there.
 const BEFORE_END: f64 = 1e-9;
-/// What is smaller than this share of a picture is a point.
+/// Share of a picture below which an extent counts as a point.
 const POINT: f64 = 1e-6;
 /// Forces that last only for this share of the time are left out, if they grow to so many times the others.
 const RARE: f64 = 0.05;
@@ -164,8 +164,8 @@ fn jams(history: &History) -> Vec<MarkedValue> {
     .collect()
 }
 
-/// What an impulse changes in the portrait of a coordinate: from the end of one piece to the beginning of the next,
-/// where that can be seen.
+/// Returns the changes that impulses make in the portrait of a coordinate, as curves from the end of one
+/// piece to the beginning of the next, where they can be seen.
 fn jumps(history: &History, curves: &[Curve], branch: usize) -> Vec<Curve> {
     let is_impulse = |cause: &Cause| matches!(cause, Cause::Jams { .. } | Cause::Hits { .. });
     let [_, least] = point_size(curves);
@@ -198,7 +198,7 @@ fn point_size(curves: &[Curve]) -> [f64; 2] {
     })
 }
 
-/// What the signs of modes are those of.
+/// Says which quantities have the signs that name the modes.
 fn signs_of_modes(mechanism: &Mechanism) -> String {
     let contacts: Vec<&str> = mechanism.contacts.iter().map(|contact| &*contact.name).collect();
     let hinges = mechanism.friction_circles.iter();

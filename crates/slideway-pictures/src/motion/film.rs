@@ -14,11 +14,11 @@ pub struct Film<'a> {
     pub(crate) view_box: String,
     /// The shapes that occur, each once.
     pub shapes: &'a [String],
-    /// What is shown of each.
+    /// The frames, each with the shapes that it shows.
     pub frames: Vec<FilmFrame<'a>>,
-    /// What the modes that occur are, in words, each once.
+    /// The modes that occur, in words, each once.
     pub(crate) words: &'a [String],
-    /// What happens: its time (s), in words.
+    /// The events: time (s) and words of each.
     pub(crate) events: &'a [(f64, String)],
     /// Seconds on the clock between two frames.
     pub(crate) frame_time: f64,

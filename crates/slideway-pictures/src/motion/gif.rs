@@ -45,9 +45,9 @@ pub enum GifFault {
 }
 
 impl Animation {
-    /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each
-    /// unit of the drawing and at most 1000 on each side. The callback is told how many frames are done, and
-    /// ends the work when it breaks. The bytes do not depend on the number of threads.
+    /// Writes a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for
+    /// each unit of the drawing and at most 1000 on each side. The callback receives the number of frames
+    /// that are done, and ends the work when it breaks. The bytes do not depend on the number of threads.
     ///
     /// Delays are hundredths of a second; they are shared out so that all frames together take the time that
     /// the SVG takes, to half a hundredth.

@@ -18,7 +18,7 @@ const INDENT: f64 = 12.0;
 /// How far the background of a frame that stands still goes beyond its edges (drawing units).
 #[cfg(feature = "png")]
 const BLEED: f64 = 2.0;
-/// At most so many events are told in an SVG document.
+/// Maximum number of events whose words are in an SVG document.
 const MOST_TOLD: usize = 200;
 /// Size of the words below the drawing.
 const WORDS: f64 = 13.0;
@@ -94,7 +94,7 @@ fn svg(animation: &Animation) -> String {
     out
 }
 
-/// One frame as a document that stands still, with what is told at its time; its sides are whole numbers.
+/// Draws one frame as a document that stands still, with the words of its time; its sides are whole numbers.
 #[cfg(feature = "png")]
 pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
     let [width, height] = still_size(animation);
@@ -196,7 +196,7 @@ fn seconds(animation: &Animation, time: f64) -> String {
     format!("{time:.decimals$} s")
 }
 
-/// What the colours of arrows mean, of those that occur.
+/// Returns the classes of arrows that occur, with the meanings of their colours.
 pub(super) fn colours(animation: &Animation) -> Vec<(Class, &'static str)> {
     let all = [
         (Class::Reaction, "normal reaction"),
@@ -236,7 +236,7 @@ fn title_and_key(animation: &Animation, foot: &Foot, out: &mut String) {
     out.push_str(&arrows);
 }
 
-/// What a class looks like, in a key.
+/// Returns the sample of a class for a key, as SVG.
 pub(super) fn samples(class: Class, place: Point) -> String {
     sample(class, place, SAMPLE).into_iter().map(|shape| markup(&Element { class, shape })).collect()
 }
@@ -347,7 +347,7 @@ fn events(animation: &Animation, foot: &Foot, out: &mut String) {
     }
 }
 
-/// What makes a group visible from a time of the clock on, for some time (s).
+/// Returns the SVG that makes a group visible from a time of the clock on, for some time (s).
 fn shown(begin: f64, duration: f64) -> String {
     let [begin, duration] = [begin, duration].map(thousandths);
     format!(

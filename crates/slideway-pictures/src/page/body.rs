@@ -66,7 +66,7 @@ pub(super) fn answer(report: &SolveReport) -> String {
     answer_at(&[], report)
 }
 
-/// The same for the middle of what is known within bounds.
+/// Says which state was solved, and how many solutions it has, in the middle of what is known within bounds.
 fn answer_at(parameters: &[String], report: &SolveReport) -> String {
     let model = &report.model;
     let drives = match model.drives {

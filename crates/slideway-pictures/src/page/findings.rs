@@ -1,4 +1,4 @@
-//! What a page tells of a model: the answer to every question that can be asked without further arguments.
+//! The answers about a model on a page: to every question that can be asked without further arguments.
 
 use super::{Figure, Page, to_html};
 use crate::coordinate::NotFinite;
@@ -16,7 +16,7 @@ use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
 use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 
-/// What a page tells of a model.
+/// The answers about a model that a page shows.
 #[derive(Debug, Clone)]
 pub struct Findings {
     title: String,
@@ -37,7 +37,7 @@ pub struct Origin<'a> {
     pub name: &'a str,
     /// Text of the model file.
     pub text: &'a str,
-    /// What was changed in it.
+    /// The changes of that text.
     pub settings: &'a Settings,
 }
 
@@ -99,7 +99,7 @@ impl Findings {
     }
 }
 
-/// What keeps a question from being answered, in words, and what to do about it: a line for each fault.
+/// Returns in words why a question is not answered, and what to do about it: a line for each fault.
 pub fn reasons(faults: &Faults) -> Vec<String> {
     faults.sorted().iter().map(|fault| fault.kind.with_hint()).collect()
 }

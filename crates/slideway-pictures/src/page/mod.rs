@@ -26,7 +26,7 @@ use slideway::standstill::HoldReport;
 
 const HEAD: &str = include_str!("head.html");
 
-/// What a page tells.
+/// The contents of a page.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
     /// The command that made it.
@@ -35,7 +35,7 @@ pub struct Page<'a> {
     pub(crate) name: &'a str,
     /// Text of the model file.
     pub(crate) text: &'a str,
-    /// What was changed in it, one line each.
+    /// The changes of that text, one line each.
     pub(crate) settings: &'a [String],
     /// The title of the mechanism.
     pub(crate) title: &'a str,
@@ -59,7 +59,7 @@ pub struct Page<'a> {
 /// A figure of a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
-    /// What it shows.
+    /// The words below it, which say what it shows.
     pub(crate) caption: String,
     /// The picture on a light background, as SVG.
     pub(crate) light: String,
@@ -76,8 +76,8 @@ pub fn to_html(page: &Page<'_>) -> Result<String, NotFinite> {
     finished(format!("{}<body>\n{}</body>\n</html>", head(page.title), body::body(page)))
 }
 
-/// What a page says of an answer: the state that was solved with the number of solutions and the margins, then a
-/// section for each solution and each preload-gap state, with its forces.
+/// Returns the sections of a page about an answer: the state that was solved with the number of solutions and
+/// the margins, then a section for each solution and each preload-gap state, with its forces.
 pub fn solve_parts(report: &SolveReport) -> Vec<String> {
     let margins = report.margins_in_words();
     let margins = all(margins.lines().map(str::trim).filter(|line| !line.is_empty()), |line| {
@@ -88,7 +88,7 @@ pub fn solve_parts(report: &SolveReport) -> Vec<String> {
     std::iter::once(body::answer(report) + &margins).chain(states).collect()
 }
 
-/// What a page says of limits: the conclusion, and a table of the modes.
+/// Returns the section of a page about limits: the conclusion, and a table of the modes.
 pub fn limits_part(report: &LimitsReport) -> String {
     body::limits_of(report)
 }

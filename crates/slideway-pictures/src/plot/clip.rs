@@ -1,6 +1,6 @@
 //! Curves within a frame: cut at its edges, and without points that nobody would see.
 
-/// What goes less far beyond the frame is not seen to leave it (px).
+/// Distance beyond the frame up to which a curve is not seen to leave it (px).
 const SEEN: f64 = 0.5;
 
 /// A rectangle: left, top, right, bottom.

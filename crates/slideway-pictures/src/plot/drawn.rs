@@ -1,5 +1,5 @@
-//! What the panels of a figure show in frames of a given size, in the units of their axes: for those who draw a
-//! figure by other means than SVG.
+//! The contents of the panels of a figure in frames of a given size, in the units of their axes: for those
+//! who draw a figure by other means than SVG.
 
 use super::figure::Figure;
 use super::flags::Flag;
@@ -9,7 +9,7 @@ use super::panel::{PanelLayout, space_on_the_left};
 use super::{MARGIN, SMALL, markers};
 use serde::Serialize;
 
-/// What a panel shows; what is not told here is in the panel itself.
+/// The contents of a panel as they are drawn; all else is in the panel itself.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnPanel {
     /// From where to where the horizontal axis goes.
@@ -81,14 +81,14 @@ pub struct DrawnExit {
 /// An entry of a legend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LegendEntry {
-    /// What stands beside the text.
+    /// The sample beside the text.
     pub(crate) sample: LegendSample,
     /// The text.
     pub(crate) text: String,
 }
 
-/// What the panels of a figure show in frames of this width and height, in units of which the small text of
-/// the picture has 13.
+/// Returns the contents of the panels of a figure in frames of this width and height, in units of which the
+/// small text of the picture has 13.
 ///
 /// ```
 /// use slideway_pictures::plot::{Branch, Curve, Figure, Panel, Stroke, drawn};

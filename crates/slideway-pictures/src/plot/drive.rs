@@ -29,7 +29,7 @@ pub fn drive_figure(report: &DriveReport) -> Option<Figure> {
     })
 }
 
-/// What the markers of curves mean: the drives in each direction of motion.
+/// Returns the meanings of the markers of curves: the drives in each direction of motion.
 fn quantities(report: &DriveReport, course: &Course) -> Vec<String> {
     let is_single = report.drives.len() == 1;
     let of_direction = |direction: &CourseDirection| {
@@ -83,7 +83,7 @@ impl Stretch<'_> {
         parts
     }
 
-    /// What a mechanism with slightly elastic guides does along it.
+    /// Returns the behaviour along it of a mechanism with slightly elastic guides.
     fn verdict(&self) -> Verdict {
         self.rows.last().and_then(|row| row.attainability).unwrap_or(Verdict::NotComputed)
     }

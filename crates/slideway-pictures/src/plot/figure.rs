@@ -1,4 +1,4 @@
-//! What a figure shows, as plain data.
+//! The contents of a figure, as plain data.
 
 use crate::changes::changes;
 use serde::Serialize;
@@ -13,7 +13,7 @@ pub struct Figure {
     pub subtitle: String,
     /// The panels, from top to bottom.
     pub panels: Vec<Panel>,
-    /// What colours and strokes of curves mean, in the order of the legend.
+    /// The meanings of the colours and strokes of curves, in the order of the legend.
     pub branches: Vec<Branch>,
     /// Names of what several curves of one branch show; told apart by markers if there are several.
     pub quantities: Vec<String>,
@@ -22,7 +22,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// The same figure, which also tells what was changed in the model: a line below the headline.
+    /// Adds to the figure what was changed in the model: in the line below the headline.
     #[must_use]
     pub fn changed_by(mut self, settings: &Settings) -> Self {
         let changes = changes(settings);
@@ -72,7 +72,7 @@ pub struct Panel {
 /// An axis.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Axis {
-    /// What it measures.
+    /// The quantity that it measures.
     pub name: String,
     /// The unit; empty for pure numbers.
     pub unit: String,
@@ -97,13 +97,13 @@ pub struct Branch {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stroke {
-    /// What a mechanism can settle on: a solid line.
+    /// A branch on which a mechanism can settle: a solid line.
     Solid,
     /// A threshold, which is not attainable: dashes.
     Dashed,
     /// Between the faces of a contact with preload: dots.
     Dotted,
-    /// What attainability says nothing definite about: dashes and dots.
+    /// A branch of which attainability says nothing definite: dashes and dots.
     DashDotted,
 }
 
@@ -116,7 +116,7 @@ pub struct Curve {
     pub quantity: usize,
     /// Points in the units of the axes, joined by lines; points that are not finite are left out.
     pub points: Vec<[f64; 2]>,
-    /// What its beginning and its end are.
+    /// The kinds of its beginning and its end.
     pub ends: [End; 2],
 }
 
@@ -138,11 +138,11 @@ pub enum End {
 pub struct MarkedPoint {
     /// Where, in the units of the axes.
     pub at: [f64; 2],
-    /// What is there.
+    /// The meaning of the point.
     pub kind: PointKind,
 }
 
-/// What is at a marked point.
+/// The meaning of a marked point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointKind {
@@ -154,7 +154,7 @@ pub enum PointKind {
     Jam,
     /// It ends in motion: a triangle.
     End,
-    /// What the model itself has: a diagonal cross.
+    /// The values of the model itself: a diagonal cross.
     Model,
 }
 
@@ -191,7 +191,7 @@ pub struct Zone {
     pub to: f64,
     /// How it is hatched.
     pub(crate) hatching: Hatching,
-    /// What it means, for the legend.
+    /// Its meaning, for the legend.
     pub meaning: String,
 }
 
@@ -216,7 +216,7 @@ pub struct Bar {
     pub(crate) ends: [f64; 2],
     /// Index into the series of the theme, modulo their number.
     pub(crate) colour: usize,
-    /// What it means, for the legend.
+    /// Its meaning, for the legend.
     pub(crate) meaning: String,
 }
 
@@ -229,6 +229,6 @@ pub struct Band {
     pub to: f64,
     /// Index into the series of the theme, modulo their number.
     pub(crate) colour: usize,
-    /// What it means, for the legend.
+    /// Its meaning, for the legend.
     pub(crate) meaning: String,
 }

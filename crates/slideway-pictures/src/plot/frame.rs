@@ -43,7 +43,8 @@ impl FrameAxis {
         (ticks, texts)
     }
 
-    /// What the numbers and the name of a vertical axis of this length need beside the frame (px).
+    /// Returns the width that the numbers and the name of a vertical axis of this length need beside the
+    /// frame (px).
     pub(crate) fn space_on_the_left(&self, length: f64) -> f64 {
         let (_, texts) = self.ticks(length, BETWEEN_Y);
         texts.iter().map(|text| width(text, SMALL)).fold(0.0, f64::max) + TICK + 8.0 + 1.5 * TEXT

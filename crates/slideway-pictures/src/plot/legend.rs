@@ -15,7 +15,8 @@ const COLUMNS: f64 = 3.0;
 /// Height of a line (px).
 const LINE: f64 = 19.0;
 
-/// What an entry shows beside its text. Colours are indices into the series of the theme, modulo their number.
+/// The sample of an entry, beside its text. Colours are indices into the series of the theme, modulo their
+/// number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", content = "value", rename_all = "snake_case")]
 pub enum LegendSample {

@@ -144,7 +144,7 @@ impl Builder<'_> {
     }
 }
 
-/// What is plotted, in words.
+/// Returns the plotted quantity in words.
 pub(super) fn name(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::NormalForce => "normal force",
@@ -164,7 +164,7 @@ pub(super) fn column_prefix(quantity: Quantity) -> &'static str {
     }
 }
 
-/// What is varied, in words.
+/// Returns the varied quantity in words.
 pub(super) fn in_words(varied: &str) -> &str {
     if varied == limits::FRICTION { "the factor of all friction" } else { varied }
 }
@@ -215,8 +215,8 @@ fn mode_name(mode: &ModeLimits, verdicts: impl Iterator<Item = Verdict>) -> Stri
     format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
 }
 
-/// What a mechanism with slightly elastic guides does in a mode: " (threshold, not attainable)", nothing where it
-/// settles on it.
+/// Returns the behaviour in a mode of a mechanism with slightly elastic guides: " (threshold, not
+/// attainable)", empty where it settles on it.
 pub(super) fn in_parentheses(verdicts: impl Iterator<Item = Verdict>) -> String {
     let mut meanings: Vec<&str> = Vec::new();
     for verdict in verdicts {
@@ -341,7 +341,7 @@ fn zones(
     locked.chain(without).chain(open).filter(wide).collect()
 }
 
-/// What of an interval was only sampled, or is not decided.
+/// Returns the parts of an interval that were only sampled, or are not decided.
 fn unproven(count: &CountLimits) -> Vec<[f64; 2]> {
     if matches!(count.known, Known::Proven | Known::ClosedForm) {
         return Vec::new();

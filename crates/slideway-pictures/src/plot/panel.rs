@@ -37,7 +37,7 @@ pub(super) struct PanelLayout<'f> {
     pub(super) x: Scale,
     pub(super) y: Scale,
     pub(super) flags: Vec<Flag<'f>>,
-    /// What stands for the curves.
+    /// The lines that stand for the curves.
     pub(super) lines: Vec<Line>,
     top: f64,
 }
@@ -71,7 +71,7 @@ fn axes(figure: &Figure, panel: &Panel) -> [FrameAxis; 2] {
     [with(&panel.x, x_range(panel)), with(&panel.y, y_range(figure, panel))]
 }
 
-/// What the vertical axis needs beside a frame of this height (px).
+/// Returns the width that the vertical axis needs beside a frame of this height (px).
 pub(super) fn space_on_the_left(figure: &Figure, panel: &Panel, height: f64) -> f64 {
     axes(figure, panel)[1].space_on_the_left(height)
 }

@@ -36,7 +36,7 @@ struct Series {
     unit: &'static str,
 }
 
-/// What a histogram needs of some rows.
+/// The counts of some rows for the histograms.
 #[derive(Debug, Clone)]
 pub struct SamplesPart {
     counts: Vec<[Counts; 2]>,
@@ -62,7 +62,7 @@ impl SamplesPlot {
         })
     }
 
-    /// What the histograms need of rows; to be used in parallel.
+    /// Counts the values of rows for the histograms; to be used in parallel.
     pub fn rows(&self, rows: &Rows) -> SamplesPart {
         let mut counts: Vec<[Counts; 2]> = vec![Default::default(); self.series.len()];
         for (row, head) in rows.heads.iter().enumerate() {
@@ -174,7 +174,7 @@ impl Counts {
         }
     }
 
-    /// The same in bins of another width that is not less.
+    /// Returns the counts in bins of another width that is not less.
     fn at(&self, exponent: i32) -> BTreeMap<i128, u64> {
         let mut bins = BTreeMap::new();
         for (bin, count) in &self.bins {

@@ -5,7 +5,7 @@ use super::figure::{Branch, Curve, End, Panel, Stroke};
 /// Share of a curve's extent along x that is not fitted before an end at which it grows without bound, and
 /// the same at each end if both grow: of what a mechanism settles on, which is read close to where it locks.
 const LEFT_OUT: [f64; 2] = [0.15, 0.12];
-/// The same of all other curves, which would dwarf those.
+/// Shares like those of [`LEFT_OUT`] for all other curves, which would dwarf those.
 const LEFT_OUT_OF_THRESHOLDS: [f64; 2] = [0.4, 0.3];
 /// The edge of an axis beyond which curves go on is a round number: that of so many ticks.
 const TICKS: usize = 6;
@@ -69,7 +69,7 @@ pub(super) fn logarithmic_ticks([from, to]: [f64; 2], wanted: usize) -> Option<V
     (ticks.len() >= 3).then_some(ticks)
 }
 
-/// The same in degrees: parts of a turn where the range is wide.
+/// Returns the distance between ticks in degrees, as [`tick_step`]; parts of a turn where the range is wide.
 pub(super) fn angle_step(range: [f64; 2], wanted: usize) -> f64 {
     let rough = (range[1] - range[0]).abs() / wanted.max(1) as f64;
     let parts = [10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0];

@@ -79,14 +79,14 @@ pub fn size_figure(report: &SizeReport) -> Figure {
     }
 }
 
-/// What the figure calls what is sized.
+/// The words of a figure for the margin or limit that is sized.
 struct Told {
     what: &'static str,
     branch: &'static str,
     axis: &'static str,
     wanted: &'static str,
     met: &'static str,
-    /// What the name in the report is of.
+    /// The kind of thing whose name is in the report, such as a load.
     of: &'static str,
 }
 

@@ -69,7 +69,7 @@ pub struct Extractor {
     columns: Vec<usize>,
 }
 
-/// What a plot needs of neighbouring rows.
+/// The extract of neighbouring rows that a plot needs.
 #[derive(Debug, Clone, Default)]
 pub struct Extract {
     kept: Vec<Kept>,
@@ -234,7 +234,7 @@ impl SweepPlot {
         })
     }
 
-    /// What takes of rows what this plot needs.
+    /// Returns the extractor that takes of rows what this plot needs.
     pub fn extractor(&self) -> Extractor {
         Extractor { every: self.every, columns: self.series.iter().map(|series| series.column).collect() }
     }
@@ -269,7 +269,7 @@ impl SweepPlot {
         }
     }
 
-    /// Notes how many branches the sweep has: those that are not drawn are told of.
+    /// Notes how many branches the sweep has, so that the figure mentions those that are not drawn.
     pub fn set_branches(&mut self, count: u32) {
         self.left_out = count.saturating_sub(MOST_BRANCHES);
     }
@@ -359,7 +359,7 @@ impl SweepPlot {
         curves
     }
 
-    /// What the end of a branch at a point is.
+    /// Returns the kind of the end of a branch at a point.
     fn end(&self, point: u64, is_last: bool) -> End {
         let beyond = if is_last { point.checked_add(1) } else { point.checked_sub(1) };
         let mark = |point: Option<u64>| self.marks.iter().find(|mark| Some(mark.point) == point);

@@ -21,7 +21,7 @@ pub(crate) const GROUND: &str = "ground";
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct State {
     pub(super) drawing: Drawing,
-    /// What everything is, and its name.
+    /// The kind and the name of everything.
     pub(super) names: Vec<(Cow<'static, str>, String)>,
     pub(super) bodies: Vec<(String, BodyId)>,
     pub(super) sliders: Vec<(String, JointId)>,
@@ -37,12 +37,12 @@ pub(super) enum Refused {
 }
 
 impl State {
-    /// What is pickled of it.
+    /// Returns the state as the text that is pickled.
     pub(super) fn kept(&self) -> PyResult<String> {
         serde_json::to_string(self).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// What was pickled.
+    /// Restores a state from the text that was pickled.
     pub(super) fn restored(kept: &str) -> PyResult<Self> {
         let other =
             |error| format!("this is no mechanism that this version of slideway has pickled: {error}");
@@ -127,7 +127,7 @@ impl Mechanism {
     }
 }
 
-/// What has this name.
+/// Finds the id for this name; refuses one that is not known.
 pub(super) fn found<I: Copy>(
     all: &[(String, I)],
     (what, argument): (&'static str, &str),

@@ -1,4 +1,4 @@
-//! What methods take, converted before it is said of a drawing.
+//! Arguments of methods, converted before they go into a drawing.
 
 use crate::arguments::{pair, quantity, sequence, two};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -36,7 +36,7 @@ pub(super) fn optional_pair(name: &str, given: Given<'_, '_>) -> PyResult<Option
     given.map(|given| pair(name, given)).transpose()
 }
 
-/// What a body can have.
+/// The properties that a body can have.
 pub(super) struct BodyValues {
     mass: Option<Quantity>,
     inertia: Option<Quantity>,
@@ -117,7 +117,7 @@ impl BySide {
     }
 }
 
-/// What is said of all contacts of a joint, or of one contact of a block.
+/// The properties of all contacts of a joint, or of one contact of a block.
 #[derive(Default)]
 pub(super) struct ContactValues {
     mu: Option<BySide>,
@@ -148,7 +148,7 @@ impl ContactValues {
     }
 }
 
-/// What can be said of one contact of a block; of a further support, where it is, too.
+/// The names of the properties of one contact of a block; a further support has its place, too.
 const OF_A_SUPPORT: [&str; 10] = [
     "mu",
     "mu_static",
@@ -171,7 +171,7 @@ pub(super) struct BlockEnd {
 }
 
 impl BlockEnd {
-    /// What differs at an end.
+    /// Reads the properties that differ at an end.
     pub(super) fn new(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let given = given.cast::<PyMapping>().map_err(|_| {
             PyTypeError::new_err(format!("{name} must be a mapping, such as {name}={{\"mu\": 0.2}}"))
@@ -272,7 +272,7 @@ impl Support {
     }
 }
 
-/// What every sliding joint has.
+/// The properties that every sliding joint has.
 pub(super) struct SliderValues {
     at: [Quantity; 2],
     along: Option<Quantity>,
@@ -321,7 +321,7 @@ impl SliderValues {
     }
 }
 
-/// What every coordinate has.
+/// The properties that every coordinate has.
 pub(super) struct CoordinateValues {
     drawn_at: Option<Quantity>,
     value: Option<Quantity>,

@@ -492,7 +492,7 @@ impl Model {
     }
 }
 
-/// What notebooks show.
+/// Imports the module that makes what notebooks show.
 fn display(py: Python<'_>) -> PyResult<Bound<'_, PyModule>> {
     py.import("slideway._display")
 }

@@ -1,4 +1,4 @@
-//! What is asked of a question beside the model.
+//! Options of questions beside the model.
 
 use crate::arguments::{optional_count, varied};
 use pyo3::exceptions::{PyTypeError, PyValueError};

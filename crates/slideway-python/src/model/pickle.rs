@@ -15,7 +15,7 @@ const KINDS: [(SettingKind, &str); 3] =
 type Kept<'py, 'm> = (&'m str, Bound<'py, PyTuple>, Option<&'static str>, &'m str);
 
 impl Model {
-    /// What is pickled of it.
+    /// Returns the parts of the model that are pickled.
     pub(super) fn kept<'py>(&self, py: Python<'py>) -> PyResult<Kept<'py, '_>> {
         let settings: Vec<_> = self.asked.settings.entries().iter().map(kept).collect();
         Ok((&self.asked.text, PyTuple::new(py, settings)?, self.units.map(Choice::word), &self.file))

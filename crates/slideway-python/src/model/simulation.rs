@@ -1,4 +1,4 @@
-//! What `Model.simulate` is asked.
+//! The question of `Model.simulate`.
 
 use super::Model;
 use crate::arguments::{count, optional_count};

@@ -1,4 +1,4 @@
-//! What `Model.size` is asked to keep to.
+//! The limits that `Model.size` is asked to keep.
 
 use crate::arguments::value;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -19,7 +19,7 @@ pub(super) struct Demand {
 }
 
 impl Demand {
-    /// That of [`NAMES`] which is given.
+    /// Reads the one limit of [`NAMES`] that is given.
     pub(super) fn new(given: [Option<&Bound<'_, PyAny>>; 5]) -> PyResult<Self> {
         let given = NAMES.into_iter().zip(given).filter_map(|(name, value)| Some((name, value?)));
         let [(name, wanted)] = *given.collect::<Vec<_>>() else {

@@ -1,4 +1,4 @@
-//! What a model holds, and how it is asked.
+//! The contents of a model, and how it is asked.
 
 use super::{Model, pickle};
 use crate::answer::{Answer, Asked};
@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 /// The file that command lines name for a text without one.
 const UNNAMED: &str = "model.toml";
-/// What pages call a model without a title.
+/// Name of a model without a title on pages.
 pub(super) const UNTITLED: &str = "model";
 
 impl Model {
@@ -196,7 +196,7 @@ impl Model {
         Ok(texts.collect())
     }
 
-    /// What was changed in the text.
+    /// Returns the changes of the text, such as `mu=0.5` and `at alpha=75 deg`.
     pub(super) fn setting_texts(&self) -> Vec<String> {
         let told = |setting: &Setting| match setting.kind {
             SettingKind::Position => format!("at {}", setting.text()),

@@ -38,13 +38,13 @@ pub(crate) const MANIFEST: &str = "slideway.shard";
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// What it holds.
+    /// The type of its values.
     pub kind: ColumnKind,
     /// Empty for what has none.
     pub unit: &'static str,
 }
 
-/// What a column holds.
+/// The type of the values of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColumnKind {
     /// Integers of 64 bits, none of them absent.
@@ -208,7 +208,7 @@ fn write_as<T: DataType>(
     column.close()
 }
 
-/// What the system said, if it was the system.
+/// Returns the error of the system, if it was one; otherwise wraps the error.
 fn failure(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(error) => match error.downcast::<io::Error>() {

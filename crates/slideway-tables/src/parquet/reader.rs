@@ -22,7 +22,7 @@ pub(crate) struct ShardReader<'s> {
     pending: Rows,
 }
 
-/// That a file does not hold what it should.
+/// Builds the error of a file that does not hold what it should.
 fn unexpected() -> ParquetError {
     ParquetError::General("unexpected columns or values".to_owned())
 }

@@ -11,8 +11,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
-/// Makes a Parquet file of so many bytes of records, sealed if it is a shard, which comes to `tally`. `go_on` is told which part is done, and breaks to end it
-/// early.
+/// Makes a Parquet file of so many bytes of records, sealed if it is a shard, which comes to `tally`. `go_on`
+/// receives the fraction that is done, and breaks to end the work early.
 ///
 /// # Errors
 /// If a file cannot be read or written.
@@ -86,7 +86,7 @@ struct Group {
 }
 
 impl Group {
-    /// What stands in a field that begins at this byte of each record.
+    /// Returns the values of the field that begins at this byte of each record.
     fn values(&self, kind: FieldKind, start: usize) -> Values {
         match kind {
             FieldKind::Point => Values::Unsigned64(self.fields(start).map(u64::from_le_bytes).collect()),

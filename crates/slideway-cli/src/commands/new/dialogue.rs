@@ -1,4 +1,5 @@
-//! What `slideway new` asks on a terminal: which template, its dimensions, the name of the file. A slip costs one line.
+//! Questions of `slideway new` on a terminal: which template, its dimensions, the name of the file. A slip
+//! costs one line.
 
 use crate::columns;
 use crate::failure::Failure;
@@ -31,7 +32,7 @@ pub(super) fn template(color: ColorChoice) -> Result<&'static Template, Failure>
     }
 }
 
-/// That no template has this number or name.
+/// Builds the message that no template has this number or name.
 fn no_template(name: &str) -> String {
     match nearest(name, TEMPLATES.iter().map(|template| template.name)) {
         Some(nearest) => format!("There is no template `{name}`: did you mean `{nearest}`?"),
@@ -41,7 +42,7 @@ fn no_template(name: &str) -> String {
     }
 }
 
-/// What writes a file, which may overwrite another one or not.
+/// A function that opens a file for writing; `true` lets it overwrite an existing one.
 type ToFile<'f> = &'f dyn Fn(&Path, bool) -> Result<Output, Failure>;
 
 /// Asks for the dimensions of a template and, unless it is named, for the file; gives them and what writes the file.
@@ -77,7 +78,7 @@ fn dimensions(template: &Template, color: ColorChoice) -> Result<Settings, Failu
     Ok(settings)
 }
 
-/// What was answered to the question for a parameter.
+/// The answer to the question for a parameter.
 enum Answer {
     /// A value, which is among these settings now.
     Value(Settings),
@@ -173,7 +174,7 @@ fn say(text: &str, color: ColorChoice) {
     complain(&printable::line(text), color);
 }
 
-/// What is typed at a prompt; none at the end of the input.
+/// Reads what is typed at a prompt. Returns `None` at the end of the input.
 fn reply(prompt: &str) -> Result<Option<String>, Failure> {
     let mut line = String::new();
     let mut stream = io::stderr();

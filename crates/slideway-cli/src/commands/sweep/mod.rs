@@ -201,7 +201,7 @@ fn tell(sweep: &Sweep, state: &SweepState, output: &Output) -> Result<Outcome, F
     Ok(Outcome::Done)
 }
 
-/// That the sweep was ended before it was done.
+/// Builds the failure of a sweep that was ended before it was done.
 fn unswept(mut watch: Watch, state: &SweepState, sweep: &Sweep, path: Option<PathBuf>) -> Failure {
     // The alarm may have ended it.
     let _ = watch.look(&Progress::of("points", state.done, sweep.points()));

@@ -24,7 +24,7 @@ pub(super) struct Plotting {
     file: Output,
 }
 
-/// What is plotted.
+/// The plot of a sweep, to which its rows are added.
 pub(super) enum Plotted {
     /// Curves over one quantity.
     Line(SweepPlot),
@@ -39,7 +39,7 @@ pub(super) enum Taker {
     Samples(SamplesPlot),
 }
 
-/// What was taken of some rows.
+/// The extract of some rows that a plot needs.
 pub(super) enum Taken {
     Line(Extract),
     Samples(SamplesPart),

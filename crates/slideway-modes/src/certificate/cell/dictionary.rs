@@ -41,7 +41,7 @@ impl Witness {
     }
 }
 
-/// What is known about an unknown: whether it is positive somewhere.
+/// The knowledge about an unknown: whether it is positive somewhere in the cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Known {
     Nothing,
@@ -374,8 +374,8 @@ impl Dictionary {
         &self.rows[row][self.nonbasic.len()]
     }
 
-    /// What the basic unknown of a row loses, times the [denominator](Self::denominator), per unit of a
-    /// nonbasic one.
+    /// Returns the coefficient of a nonbasic unknown in a row: the loss of the basic unknown per unit of it,
+    /// times the [denominator](Self::denominator).
     pub(super) fn entry(&self, row: usize, column: usize) -> &IBig {
         &self.rows[row][column]
     }
