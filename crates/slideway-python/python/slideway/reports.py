@@ -494,13 +494,13 @@ Persistence = Literal["all_values", "some_values", "undecided"]
 - `"undecided"`: Whether it has one for any value could not be decided."""
 
 PointKind = Literal["start", "stop", "jam", "end", "model"]
-"""What is at a marked point.
+"""The meaning of a marked point.
 
 - `"start"`: A motion begins: a circle.
 - `"stop"`: It comes to rest: a square.
 - `"jam"`: It jams: a cross.
 - `"end"`: It ends in motion: a triangle.
-- `"model"`: What the model itself has: a diagonal cross."""
+- `"model"`: The values of the model itself: a diagonal cross."""
 
 PointStatus = Literal[
     "none",
@@ -604,10 +604,10 @@ faces; `partial` and `undecided_modes` show what else may be open.
 Stroke = Literal["solid", "dashed", "dotted", "dash_dotted"]
 """How a curve is drawn.
 
-- `"solid"`: What a mechanism can settle on: a solid line.
+- `"solid"`: A branch on which a mechanism can settle: a solid line.
 - `"dashed"`: A threshold, which is not attainable: dashes.
 - `"dotted"`: Between the faces of a contact with preload: dots.
-- `"dash_dotted"`: What attainability says nothing definite about: dashes and dots."""
+- `"dash_dotted"`: A branch of which attainability says nothing definite: dashes and dots."""
 
 Verdict = Literal["attainable", "unattainable", "flutter", "undecided", "not_computed"]
 """The fate of a solution when the guides are slightly elastic (theory, section 7).
@@ -674,7 +674,7 @@ class Axis(Record):
     """An axis."""
 
     name: str
-    """What it measures."""
+    """The quantity that it measures."""
     unit: str
     """The unit; empty for pure numbers."""
     range: tuple[float, float] | None
@@ -695,7 +695,7 @@ class Band(Record):
     colour: int
     """Index into the series of the theme, modulo their number."""
     meaning: str
-    """What it means, for the legend."""
+    """Its meaning, for the legend."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -709,7 +709,7 @@ class Bar(Record):
     colour: int
     """Index into the series of the theme, modulo their number."""
     meaning: str
-    """What it means, for the legend."""
+    """Its meaning, for the legend."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1225,7 +1225,7 @@ class Curve(Record):
     points: NDArray[np.float64]
     """Points in the units of the axes, joined by lines; points that are not finite are left out."""
     ends: tuple[End, End]
-    """What its beginning and its end are."""
+    """The kinds of its beginning and its end."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1263,7 +1263,7 @@ class DrawnClass(Record):
     hatching: Hatching | None
     """How it is hatched, if it is."""
     text: str
-    """What it means and its share of the map, for the legend."""
+    """Its meaning and its share of the map, for the legend."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1327,14 +1327,14 @@ class DrawnMap(Record):
     classes: tuple[DrawnClass, ...]
     """The classes, in the order of the report."""
     modes: tuple[str, ...]
-    """What signs of modes mean that no class tells, for the end of the legend."""
+    """The meanings of signs of modes that no class states, for the end of the legend."""
     model: tuple[float, float] | None
     """The values of the model, in the units of the axes; absent if they are not on the map."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DrawnPanel(Record):
-    """What a panel shows; what is not told here is in the panel itself."""
+    """The contents of a panel as they are drawn; all else is in the panel itself."""
 
     x: tuple[float, float]
     """From where to where the horizontal axis goes."""
@@ -1619,7 +1619,7 @@ class Figure(Record):
     panels: tuple[Panel, ...]
     """The panels, from top to bottom."""
     branches: tuple[Branch, ...]
-    """What colours and strokes of curves mean, in the order of the legend."""
+    """The meanings of the colours and strokes of curves, in the order of the legend."""
     quantities: tuple[str, ...]
     """Names of what several curves of one branch show; told apart by markers if there are several."""
     one_legend: bool
@@ -1849,7 +1849,7 @@ class LegendEntry(Record):
     """An entry of a legend."""
 
     sample: Mapping[str, Any]
-    """What stands beside the text."""
+    """The sample beside the text."""
     text: str
     """The text."""
 
@@ -2052,7 +2052,7 @@ class MarkedPoint(Record):
     at: tuple[float, float]
     """Where, in the units of the axes."""
     kind: PointKind
-    """What is there."""
+    """The meaning of the point."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2375,7 +2375,7 @@ class RawReport(_mixins.RawReport, Report):
     partial: bool
     """Whether the search ended before all possibilities were examined."""
     open: tuple[str, ...]
-    """What remains open, in words; empty if `complete` is `Proof::Proven`."""
+    """The questions that remain open, in words; empty if `complete` is `Proof::Proven`."""
     count: str
     """Number of solutions found that are not part of a continuum, as decimal text, because it may exceed any
     integer type. Gap states are not included."""
@@ -2896,7 +2896,7 @@ class Theme(Record):
     friction: str
     """Friction."""
     warning: str
-    """What warns: locking, jams."""
+    """Warnings: locking, jams."""
     series: tuple[str, ...]
     """Branches, modes and areas, in the order in which they are given out."""
 
@@ -3115,7 +3115,7 @@ class Zone(Record):
     hatching: Hatching
     """How it is hatched."""
     meaning: str
-    """What it means, for the legend."""
+    """Its meaning, for the legend."""
 
 
 HINTS: Final[Mapping[str, Mapping[str, str]]] = {
