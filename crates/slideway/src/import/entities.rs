@@ -17,7 +17,7 @@ pub(super) struct Drawing {
     named: BTreeMap<String, usize>,
 }
 
-/// What a layer holds, in units of the drawing.
+/// Contents of a layer, in units of the drawing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Layer {
     pub(super) name: String,
@@ -155,7 +155,7 @@ fn light_vertices(record: &Record<'_>) -> Result<Vec<(Vector2<f64>, f64)>, Impor
     Ok(vertices)
 }
 
-/// The same of a polyline whose vertices are entities.
+/// Reads the vertices, with their bulges, of a polyline whose vertices are entities.
 fn heavy_vertices(records: &[&Record<'_>]) -> Result<Vec<(Vector2<f64>, f64)>, ImportFault> {
     let mut vertices = Vec::new();
     for record in records {

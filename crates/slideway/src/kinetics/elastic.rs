@@ -1,4 +1,4 @@
-//! What the contacts feel when the guides are slightly elastic (theory, section 7).
+//! Slightly elastic guides as the contacts feel them: their inertia and massless motions (theory, section 7).
 
 use super::{KineticEquations, Reaction};
 use crate::configuration::null_space;
