@@ -1,4 +1,4 @@
-//! Slightly elastic guides as the contacts feel them: their inertia and massless motions (theory, section 7).
+//! Inertia and massless motions that the contacts of slightly elastic guides feel (theory, section 7).
 
 use super::{KineticEquations, Reaction};
 use crate::configuration::null_space;

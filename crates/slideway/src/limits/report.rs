@@ -160,7 +160,7 @@ pub struct SpeedLimits {
     pub friction_exceeds_loads: bool,
 }
 
-/// Limits of a normal force towards both ends of an interval.
+/// Limits of a normal force towards both ends of an interval, or its growth without bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EndReaction {
@@ -176,7 +176,7 @@ pub struct EndReaction {
     pub to_grows: i8,
 }
 
-/// Limits of the force of a hinge with friction towards both ends of an interval.
+/// Limits of the force of a hinge with friction towards both ends of an interval, or its growth without bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EndHingeForce {

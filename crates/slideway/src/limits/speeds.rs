@@ -1,9 +1,9 @@
 //! Changes of the speeds of the coordinates along each mode.
 //!
-//! Between two places at which an acceleration changes its sign there is one answer, which the certified solution
-//! in the middle gives. Where modes were found from zeros of determinants these places are zeros of the
-//! accelerations, found likewise; elsewhere they are bisected between values that were tried. With friction in hinges
-//! the solution is the one whose forces are those of the branch.
+//! Between two places at which an acceleration changes its sign there is one answer, which the certified
+//! solution in the middle gives. Where modes were found from zeros of determinants these places are zeros of
+//! the accelerations, found likewise; elsewhere they are bisected between values that were tried. With
+//! friction in hinges the solution is the one whose forces are those of the branch.
 
 use super::closed_form::value_at;
 use super::found::{Method, ModesFound};

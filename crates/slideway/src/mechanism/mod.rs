@@ -161,7 +161,7 @@ pub struct Slider<T = f64> {
 /// A contact with friction.
 #[derive(Debug, Clone)]
 pub struct Contact<T = f64> {
-    /// "joint", "joint.front" or "joint.rear".
+    /// Name: "joint"; for a block "joint.front", "joint.rear", or "joint." and the name of a support.
     pub name: Arc<str>,
     /// The sliding joint it belongs to.
     pub joint: JointId,

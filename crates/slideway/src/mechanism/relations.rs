@@ -18,7 +18,7 @@ pub(crate) struct Relation {
     pub(crate) pad: Option<Pad>,
     /// Its number within the formula.
     pub(crate) number: usize,
-    /// Its dependences, and whether its value jumps.
+    /// Its dependence on time and rates, and whether its value jumps.
     pub(crate) kind: RelationKind,
 }
 

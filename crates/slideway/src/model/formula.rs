@@ -185,8 +185,8 @@ impl Formula {
     }
 }
 
-/// Returns where the text of a quantity begins in the file: behind one quotation mark. Returns `None` if that
-/// is not known, because an escape sequence or line end shifts it.
+/// Returns where the text of a quantity begins in the file: behind one quotation mark. Returns `None` if it
+/// is no text, or an escape sequence or line end shifts it.
 pub(super) fn expression_start(quantity: &Quantity, source: &str) -> Option<usize> {
     let Value::Text(text) = &quantity.written else { return None };
     let start = quantity.span.start + 1;

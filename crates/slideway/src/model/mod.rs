@@ -277,7 +277,7 @@ pub enum Along {
 /// A contact with friction.
 #[derive(Debug, Clone)]
 pub struct Contact {
-    /// "joint" or, for the ends of a block slider, "joint.front" and "joint.rear".
+    /// Name: "joint"; for a block "joint.front", "joint.rear", or "joint." and the name of a support.
     pub name: Arc<str>,
     /// Its place from the middle of the block; nothing means an end of a block, or its middle for other sliders.
     pub offset: Option<FormulaId>,

@@ -388,7 +388,7 @@ fn shape(part: &ContinuumPart) -> String {
     }
 }
 
-/// Returns a value as text: that of `beyond_range` if the unknown of this name and index is there.
+/// Returns a value as text, or that of `beyond_range` if the unknown of this name and index is there.
 fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
     let is_it = |one: &&BeyondRange| one.name.as_str() == name && one.index == index;
     match beyond_range.iter().find(is_it) {
