@@ -50,8 +50,8 @@
 //!
 //! Long computations report their [`progress`] through a callback and can be cancelled.
 //!
-//! If you have matrices instead of a mechanism (an absolute value equation, a linear complementarity problem),
-//! use [`modes`], or [`raw_problem`] for a file of them.
+//! If you have matrices instead of a mechanism (an absolute value equation, a linear complementarity
+//! problem), use [`modes`], or [`raw_problem`] for a file of them.
 
 #![forbid(unsafe_code)]
 

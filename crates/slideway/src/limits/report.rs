@@ -176,7 +176,8 @@ pub struct EndReaction {
     pub to_grows: i8,
 }
 
-/// Limits of the force of a hinge with friction towards both ends of an interval, or its growth without bound.
+/// Limits of the force of a hinge with friction towards both ends of an interval, or its growth without
+/// bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EndHingeForce {

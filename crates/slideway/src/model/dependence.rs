@@ -129,8 +129,8 @@ impl Places<'_> {
         self.greatest(ids.collect::<Vec<_>>())
     }
 
-    /// Returns the degree of the play, misalignment and compliance of redundant contacts; the compliance is the
-    /// inverse of the stiffness.
+    /// Returns the degree of the play, misalignment and compliance of redundant contacts; the compliance is
+    /// the inverse of the stiffness.
     fn fits(&mut self) -> Degree {
         let contacts = || self.model.contacts();
         let fits = contacts().flat_map(|contact| contact.play.into_iter().chain(contact.misalignment));
