@@ -1,4 +1,4 @@
-//! What is chosen by a word: the command line and Python take the same words.
+//! Options that are chosen by a word: the command line and Python take the same words.
 
 /// One of a few, chosen by its word.
 ///

@@ -1,4 +1,4 @@
-//! What can be wrong with the input: every kind of fault with its values, its place and a hint.
+//! Faults of the input: every kind with its values, its place and a hint.
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
@@ -52,7 +52,7 @@ impl Place {
 /// One fault of the input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// What is wrong.
+    /// Kind of fault; its text is the message.
     pub kind: FaultKind,
     /// Where; nothing where the fault concerns the input as a whole.
     pub place: Option<Place>,
@@ -131,8 +131,8 @@ impl Faults {
         self
     }
 
-    /// The same, where what lies in a setting or has no place lies in an argument: `span` gives the place
-    /// there for the one in the setting.
+    /// Moves the faults that lie in a setting or have no place to an argument: `span` gives the place there
+    /// for the one in the setting.
     #[must_use]
     pub(crate) fn in_argument(self, text: &str, span: impl Fn(Option<Range<usize>>) -> Range<usize>) -> Self {
         let moved = |fault: Fault| match fault.place {
@@ -208,7 +208,7 @@ impl fmt::Display for Faults {
 
 impl std::error::Error for Faults {}
 
-/// What is wrong, with the values that matter.
+/// Kind of fault, with the values that matter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the message above each variant says what it and its values mean")]
@@ -525,13 +525,13 @@ impl FaultKind {
         )
     }
 
-    /// What to do about it, in the words of the command line, where there is something better to say than the
+    /// Returns a hint in the words of the command line, or `None` if there is nothing better to say than the
     /// message itself.
     pub fn hint(&self) -> Option<String> {
         self.hint_for(&CommandLine)
     }
 
-    /// What to do about it, in the words of an interface.
+    /// Returns a hint in the words of an interface, or `None` likewise.
     pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
         self.hint_of_values(face)
             .or_else(|| self.hint_of_face(face))
@@ -666,7 +666,7 @@ impl FaultKind {
         })
     }
 
-    /// What is wrong, and in parentheses what to do about it.
+    /// Returns the message and, in parentheses, the hint of the command line.
     pub fn with_hint(&self) -> String {
         let hint = self.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
         format!("{self}{hint}")

@@ -32,7 +32,7 @@ index! {
     FormulaId,
 }
 
-/// What a joint, point or load is attached to: ground or a body.
+/// Frame to which a joint, point or load is attached: ground or a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Frame {
     /// The fixed frame.

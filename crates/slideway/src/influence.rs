@@ -118,7 +118,7 @@ impl Influence {
         &self.frictionless + self.of_forces(friction, normal_forces)
     }
 
-    /// The same without any load: what these forces of the contacts alone do.
+    /// Returns the contribution of these forces of the contacts alone to all unknowns, without any load.
     pub fn of_forces(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {
         let mut unknowns = self.of_friction(friction);
         for (contact, self_stress) in self.layout.cut().iter().zip(&self.self_stresses) {
@@ -138,15 +138,15 @@ impl Influence {
         self.normal.iter().copied().chain(hinges.iter().flat_map(component)).collect()
     }
 
-    /// What the friction couples of hinges add to all unknowns.
+    /// Returns the contribution of the friction couples of hinges to all unknowns.
     pub fn of_couples(&self, hinges: &[HingeState]) -> DVector<f64> {
         let mut unknowns = DVector::zeros(self.frictionless.len());
         hinges.iter().for_each(|hinge| unknowns.axpy(hinge.couple, &self.couples[hinge.circle], 1.0));
         unknowns
     }
 
-    /// What given friction forces add to all unknowns; for friction impulses the jumps of the velocities and
-    /// the impulses of the reactions.
+    /// Returns the contribution of given friction forces to all unknowns; for friction impulses the jumps of
+    /// the velocities and the impulses of the reactions.
     pub fn of_friction(&self, friction: &[ContactFriction]) -> DVector<f64> {
         let mut unknowns = DVector::zeros(self.frictionless.len());
         for (column, friction) in self.columns.iter().zip(friction) {

@@ -46,12 +46,12 @@
 //! [`sweep::Sweep`] and [`map::map`] have the solutions over many points.
 //!
 //! Every question has options with a constructor and setters, and its answer is a [`Report`]: plain data,
-//! told as text, in the [`units`] of the model, and as JSON, in SI units.
+//! shown as text, in the [`units`] of the model, and as JSON, in SI units.
 //!
-//! What takes long tells its [`progress`], and can be told to end.
+//! Long computations report their [`progress`] through a callback and can be cancelled.
 //!
-//! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
-//! enters at [`modes`], or with a file of them at [`raw_problem`].
+//! If you have matrices instead of a mechanism (an absolute value equation, a linear complementarity
+//! problem), use [`modes`], or [`raw_problem`] for a file of them.
 
 #![forbid(unsafe_code)]
 

@@ -82,7 +82,7 @@ pub fn load_sharing(
     }))
 }
 
-/// What is taken for the elasticity of the contacts in excess.
+/// Returns the elasticity that is assumed for the contacts in excess.
 ///
 /// # Errors
 /// As [`shared_load`].

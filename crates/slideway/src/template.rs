@@ -30,7 +30,7 @@ struct Need {
     sides: [&'static str; 2],
     /// Whether they must not be equal.
     strict: bool,
-    /// What it means.
+    /// Meaning of the relation.
     meaning: &'static str,
 }
 
@@ -60,7 +60,7 @@ pub struct TemplateParameter {
     pub name: &'static str,
     /// Its value in the template, with its unit.
     pub value: &'static str,
-    /// What it is.
+    /// Meaning of the parameter, from the comment behind it.
     pub meaning: &'static str,
 }
 
@@ -90,7 +90,7 @@ pub const TEMPLATES: &[Template] = templates![
 /// How the parameters begin as which needs are evaluated.
 const EXCESS: &str = "excess_of_need_";
 
-/// What stands for the model's file in the commands of a template.
+/// Placeholder of the model's file in the commands of a template.
 pub const FILE: &str = "FILE";
 
 /// The template with this name.
@@ -114,7 +114,7 @@ impl Template {
         self.section("Rule: ", "Return: ")
     }
 
-    /// What its motion the other way must meet.
+    /// Returns the rule that its motion the other way must meet.
     pub fn way_back(&self) -> String {
         self.section("Return: ", "Source: ")
     }
@@ -126,7 +126,7 @@ impl Template {
         lines.join(" ").trim_start_matches(first).to_owned()
     }
 
-    /// What its dimensions need so that it is what it is called and its rule holds.
+    /// Returns the relations between its dimensions that make it what it is called and let its rule hold.
     fn needs(&self) -> impl Iterator<Item = Need> {
         self.comment().filter_map(|line| line.strip_prefix("Needs: ")).filter_map(Need::of)
     }

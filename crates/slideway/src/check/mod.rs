@@ -63,7 +63,7 @@ pub struct CheckReport {
     pub warnings: Vec<WarningReport>,
     /// Degrees of freedom and determinacy.
     pub mobility: MobilitySummary,
-    /// How redundant guides share their load; absent if no constraint is redundant, or it cannot be told.
+    /// How redundant guides share their load; absent if no constraint is redundant, or it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sharing: Option<LoadSharing>,
     /// Inertia of the motions that the joints leave.

@@ -73,7 +73,7 @@ pub(super) struct Anchor {
     defect: DMatrix<f64>,
     /// |C D2F[t, .]|
     turning: DMatrix<f64>,
-    /// What does not depend on the way: |C F| and the rounding of the positions.
+    /// Part of the bound `b` that does not depend on the way: |C F| and the rounding of the positions.
     offset: DVector<f64>,
     /// |C (J t + dF/ds)|
     slip: DVector<f64>,
@@ -158,7 +158,7 @@ impl Anchor {
         &self.offset + &self.slip * way + &self.bend * (way * way) + &self.inverse * rows
     }
 
-    /// What the equations bend within a tube.
+    /// Bounds how much each equation bends within a tube.
     fn bending(&self, way: f64, tube: &DVector<f64>) -> DVector<f64> {
         let mut rows = DVector::from_element(tube.len(), self.rounding * tube.sum());
         self.curvature.add_second(tube, tube, &mut rows);

@@ -45,7 +45,7 @@ const WIDEST: f64 = 0.02;
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Follower {
-    /// What the joint equations depend on; empty at first.
+    /// Numbers on which the joint equations depend; empty at first.
     linkage: Vec<f64>,
     /// The closed drawing.
     drawing: Vec<Pose>,

@@ -1,6 +1,6 @@
 //! Follows the branch of the drawing from place to place, by steps that are shown to stay on it.
 //!
-//! What a state is near says nothing about its branch, and Newton's method goes wherever it goes. So a step
+//! Nearness to a state says nothing about its branch, and Newton's method goes wherever it goes. So a step
 //! counts only if [`Anchor`] proves that the way has one continuous solution, and that the state at its end
 //! is that one; else it is halved. Before a fold or a dead centre steps shrink in proportion to the distance
 //! from it, so that it is approached to within rounding in some hundred steps, and never passed.

@@ -27,7 +27,7 @@ pub struct Mobility {
     pub(crate) constraints: usize,
     /// How many of them are independent: the rank of their Jacobian.
     pub(crate) independent: usize,
-    /// What is in excess, if anything.
+    /// Joint equations in excess; `None` if there are none.
     pub(crate) redundancy: Option<Redundancy>,
 }
 
@@ -36,7 +36,7 @@ pub struct Mobility {
 pub struct Redundancy {
     /// The joints among which the excess lies.
     pub(crate) joints: Vec<JointId>,
-    /// What would make the structure determinate, if one of the joints offers it.
+    /// Proposed change that would make the structure determinate, in words, if one of the joints offers it.
     pub(crate) suggestion: Option<String>,
     /// Whether the excess vanishes in a neighbouring position: the position is singular, not the structure.
     pub(crate) only_here: bool,
@@ -237,9 +237,9 @@ fn suggestion(
     Some(format!("for instance {}", words.join(", and ")))
 }
 
-/// What would let the joints share their load: block sliders where guided ones lock the rotation rigidly. Of sliders
-/// alone that leaves no self-stress without a contact: the rows of a block slider's contacts are combinations of those
-/// of the guided one.
+/// Suggests block sliders in place of guided ones, which lock the rotation rigidly, so that the joints share
+/// their load. If all joints are sliders, no self-stress is left without a contact: the rows of a block
+/// slider's contacts are combinations of those of the guided one.
 fn block_sliders_instead(mechanism: &Mechanism, joints: &[JointId]) -> Option<String> {
     let sliders = joints.iter().map(|joint| mechanism.slider(*joint)).collect::<Option<Vec<_>>>()?;
     let guided: Vec<String> = joints

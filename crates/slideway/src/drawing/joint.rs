@@ -212,7 +212,7 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
     }
 }
 
-/// What a sliding joint has at all of its contacts, and one end of a block for itself.
+/// Defines the setters of contact properties: of a sliding joint for all of its contacts, of a block for one.
 macro_rules! contact_properties {
     ($self:ident: $receiver:ty) => {
         /// Coefficient of kinetic friction. Required for every contact.
@@ -220,7 +220,7 @@ macro_rules! contact_properties {
             $self.set("mu", mu.into())
         }
 
-        /// The same for positive and for negative normal force.
+        /// Sets the coefficients of kinetic friction for positive and for negative normal force.
         pub fn mu_by_side(
             $self: $receiver,
             plus: impl Into<Quantity>,
@@ -239,7 +239,7 @@ macro_rules! contact_properties {
             $self.set("preload", force.into())
         }
 
-        /// The same for positive and for negative normal force.
+        /// Sets the friction at zero normal force (N) at the faces of positive and of negative normal force.
         pub fn preload_by_side(
             $self: $receiver,
             plus: impl Into<Quantity>,
@@ -281,7 +281,7 @@ impl ContactBuilder<'_> {
     contact_properties!(self: &mut Self);
 }
 
-/// What a block and a guided slider have and a pin has not.
+/// Defines the setters that a block and a guided slider have and a pin has not.
 macro_rules! lengths {
     ($($slider:ty),*) => {$(
         impl SliderBuilder<'_, $slider> {
@@ -311,13 +311,13 @@ macro_rules! lengths {
 lengths!(BlockSlider, SingleSlider<true>);
 
 impl SliderBuilder<'_, BlockSlider> {
-    /// What differs at the front contact.
+    /// Sets the properties in which the front contact differs.
     pub fn front(mut self, of: impl FnOnce(&mut ContactBuilder<'_>)) -> Self {
         of(&mut ContactBuilder(self.table().inner("front")));
         self
     }
 
-    /// What differs at the rear contact.
+    /// Sets the properties in which the rear contact differs.
     pub fn rear(mut self, of: impl FnOnce(&mut ContactBuilder<'_>)) -> Self {
         of(&mut ContactBuilder(self.table().inner("rear")));
         self

@@ -107,7 +107,7 @@ impl<'d> DriveBuilder<'d> {
         Self { drawing, id, effort }
     }
 
-    /// What the table of the force or torque says.
+    /// Sets a key in the table of the force or torque.
     pub(super) fn set(self, key: &str, value: Quantity) -> Self {
         self.drawing.drives.table(self.id.index()).inner(self.effort).set(key, value);
         self

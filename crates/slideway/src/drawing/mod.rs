@@ -386,8 +386,8 @@ impl BodyBuilder<'_> {
         self
     }
 
-    /// What it looks like: the corners of a polygon in the drawing (m), at least three. No answer depends on
-    /// it.
+    /// Sets the looks of the body: the corners of a polygon in the drawing (m), at least three. No answer
+    /// depends on it.
     pub fn outline<P: Into<Quantity>>(self, corners: impl IntoIterator<Item = [P; 2]>) -> Self {
         let corners = quantity::list(corners.into_iter().map(quantity::pair));
         self.set("outline", corners)

@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-12;
 /// Steps between which efforts that pass through infinity, and changes of the number of solutions, are sought.
 pub(super) const STEPS: usize = 500;
 
-/// What can be missed.
+/// Account of what the search can miss.
 pub(super) struct Guarantee {
     /// Whether changes were sought between sampled values.
     pub(super) sampled: bool,
@@ -130,7 +130,7 @@ fn pole([low, high]: [(f64, f64); 2], function: impl Fn(f64) -> Option<f64>) -> 
     (function(below)?.abs() > GROWTH * greatest).then_some(below)
 }
 
-/// What the rows are made of.
+/// Data from which the rows are made.
 struct Tabulated<'c> {
     varied: &'c Varied,
     efforts: &'c dyn Fn(f64) -> Option<Efforts>,

@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 /// How near to an end growth is judged, as fractions of the range.
 const NEAR: [f64; 2] = [1e-4, 1e-6];
 
-/// What can be missed.
+/// Text that says what the search can miss.
 const GUARANTEE: &str = "Every row is solved by itself, and so are 501 evenly spaced values. Where the number of solutions differs between two of them, the change is found by bisection. What begins and ends between two of these values is missed.";
 
 /// The efforts in one direction of motion, and what can be missed.

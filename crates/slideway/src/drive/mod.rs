@@ -57,7 +57,7 @@ use crate::solve::Stages;
 /// The most rows of a table that are computed.
 pub const GREATEST_ROWS: usize = 10_001;
 
-/// What is asked of the drives.
+/// Options of [`drive`]: over what the efforts are tabulated, if over anything.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct DriveOptions {

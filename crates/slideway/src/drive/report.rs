@@ -1,4 +1,4 @@
-//! What is told of driven motion: plain data, which are the JSON output.
+//! Report on driven motion: plain data, which are the JSON output.
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
 use crate::report::{CoordinateState, JointMode, Proof, Status, Undetermined, Unlocking, Verdict};
@@ -28,7 +28,7 @@ pub struct DriveReport {
     /// The efforts over what is varied, if anything is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub course: Option<Course>,
-    /// What it comes to, in words.
+    /// Sentences that sum up the answer.
     pub conclusion: Vec<String>,
 }
 
@@ -175,7 +175,7 @@ pub enum EfficiencyKind {
 }
 
 impl EfficiencyKind {
-    /// What it is where it has no value, in few words: "held by friction".
+    /// Returns the few words that stand for it where it has no value: "held by friction".
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Driving => "driving",
@@ -207,13 +207,13 @@ pub struct BlowUp {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Course {
-    /// What is varied.
+    /// Varied quantity, with its range.
     pub vary: VariedQuantity,
     /// Motion as in the model, and with all rates reversed.
     pub directions: Vec<CourseDirection>,
     /// Whether the values at which something changes were sought between sampled ones, so that some may be missed.
     pub sampled: bool,
-    /// What can be missed, in words.
+    /// Account, in words, of what can be missed.
     pub guarantee: String,
 }
 
@@ -287,7 +287,7 @@ pub struct CourseRow {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sense {
-    /// That of the model's rates.
+    /// The direction of the model's rates.
     Model,
     /// The other one.
     Reversed,

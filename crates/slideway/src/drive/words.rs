@@ -9,7 +9,7 @@ use crate::report::{Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
-/// Efforts of so many states are told in a sentence.
+/// Greatest number of states whose efforts are listed in a sentence.
 const TOLD: usize = 4;
 
 /// The sentences of both directions of motion, and what makes an undetermined effort determinate.

@@ -16,13 +16,13 @@ pub enum Degree {
 }
 
 impl Degree {
-    /// That of a product.
+    /// Returns the degree of a product.
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         if self == Self::Constant || other == Self::Constant { self.max(other) } else { Self::Other }
     }
 
-    /// That of a function of something of this degree.
+    /// Returns the degree of a function of something of this degree.
     #[must_use]
     fn inside(self) -> Self {
         if self == Self::Constant { Self::Constant } else { Self::Other }

@@ -195,7 +195,7 @@ fn written((unit, exponent): &(&str, i8)) -> String {
     }
 }
 
-/// What is known of the dimension of an expression or of a name in it.
+/// Dimension of an expression or of a name in it, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inferred {
     /// Nothing: whatever a name given as a bare number takes part in could be meant in any dimension.

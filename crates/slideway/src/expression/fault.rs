@@ -1,4 +1,4 @@
-//! What can be wrong with an expression.
+//! Kinds of fault in an expression.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::names::Symbol;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{kind}")]
 pub struct ExpressionFault {
-    /// What is wrong.
+    /// Kind of fault; its text is the message.
     pub kind: ExpressionFaultKind,
     /// Where: byte offsets into the text of the expression.
     pub span: Range<usize>,
@@ -36,7 +36,7 @@ impl ExpressionFault {
     }
 }
 
-/// What is wrong with an expression.
+/// Kind of fault in an expression, with its values.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExpressionFaultKind {
     /// There is nothing but blanks.
@@ -71,13 +71,13 @@ pub enum ExpressionFaultKind {
     /// Something else stands where a number, name or `(` must.
     #[error("expected a number, a name or `(`, found `{found}`")]
     ExpectedOperand {
-        /// What stands there.
+        /// Text that stands there.
         found: String,
     },
     /// Two parts follow each other with nothing between them.
     #[error("expected an operator, found `{found}`")]
     ExpectedOperator {
-        /// What stands there.
+        /// Text that stands there.
         found: String,
     },
     /// A `(` that nothing closes.
@@ -136,7 +136,7 @@ pub enum ExpressionFaultKind {
     /// Something that follows a number and is no unit.
     #[error("unknown unit `{unit}`")]
     UnknownUnit {
-        /// What stands there.
+        /// Text that stands there.
         unit: String,
         /// The units most like it.
         nearest: Vec<&'static str>,
@@ -213,7 +213,7 @@ pub enum ExpressionFaultKind {
     /// A division by zero.
     #[error("division by zero: {numerator} / 0")]
     DivisionByZero {
-        /// What is divided.
+        /// Dividend.
         numerator: f64,
     },
     /// An operation that has no value, or one too large, for these arguments.
@@ -233,13 +233,13 @@ pub enum ExpressionFaultKind {
     /// No value was given for a name.
     #[error("no value is given for {symbol:?}")]
     MissingValue {
-        /// What the name stands for.
+        /// Symbol for which the name stands.
         symbol: Symbol,
     },
 }
 
 impl ExpressionFaultKind {
-    /// What to do about it, where there is something to say.
+    /// Returns a hint for mending the fault, or `None` if there is nothing to say.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::UnexpectedCharacter { character } => character_hint(*character),

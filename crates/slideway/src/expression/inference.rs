@@ -9,7 +9,7 @@ use super::names::Symbol;
 use super::program::{Expression, Operation};
 use super::table::Table;
 
-/// What is known of a part of the expression: its dimension, its value if it is constant, its place.
+/// Part of the expression, as far as it is known: its dimension, its value if it is constant, its place.
 struct Part {
     inferred: Inferred,
     constant: Option<f64>,
@@ -24,7 +24,7 @@ impl Part {
 }
 
 impl Expression {
-    /// What is known of the dimension, given what `of` knows of the dimension of each symbol.
+    /// Infers the dimension, as far as it is known, given what `of` knows of the dimension of each symbol.
     ///
     /// # Errors
     ///

@@ -8,7 +8,7 @@ use super::function::{self, FUNCTIONS};
 use super::table::Table;
 use std::sync::Arc;
 
-/// What a name in an expression stands for; an index is the position in the model's list of that kind.
+/// Meaning of a name in an expression; an index is the position in the model's list of that kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Symbol {
     /// A parameter of the model.
@@ -84,8 +84,8 @@ impl Names {
         symbol
     }
 
-    /// What `name` stands for; `t` is always time, `sliding_speed` the absolute sliding velocity, and no
-    /// other reserved name is a symbol.
+    /// Returns the symbol for which `name` stands, or `None` if it is unknown. `t` is always time,
+    /// `sliding_speed` the absolute sliding velocity, and no other reserved name is a symbol.
     pub fn lookup(&self, name: &str) -> Option<Symbol> {
         match name {
             TIME => Some(Symbol::Time),

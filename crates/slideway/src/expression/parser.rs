@@ -24,7 +24,7 @@ pub const MAX_DEPTH: usize = 200;
 ///
 /// # Errors
 ///
-/// Every fault that can be told, in the order of the text: all spelling faults if there are any; otherwise
+/// Every fault that can be found, in the order of the text: all spelling faults if there are any; otherwise
 /// all unknown names, units and functions up to the first place where the structure is broken. The list is
 /// never empty.
 ///

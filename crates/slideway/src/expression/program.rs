@@ -140,7 +140,7 @@ impl Expression {
         })
     }
 
-    /// The same, if the number at a step had a unit of this dimension.
+    /// Returns the expression as it would be if the number at a step had a unit of this dimension.
     pub(crate) fn assuming(&self, step: usize, dimension: Inferred) -> Self {
         let mut assumed = self.clone();
         if let Some(Step { operation: Operation::Number { inferred, .. }, .. }) = assumed.steps.get_mut(step)

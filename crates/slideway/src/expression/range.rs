@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-/// What separates the ends of a range.
+/// Separator between the ends of a range.
 pub(crate) const TO: &str = "..";
-/// What is typed for it by mistake: of `0...1` the end would be 0.1, which nobody means.
+/// Mistyped separators: of `0...1` the end would be 0.1, which nobody means.
 const NOT_TO: [&str; 2] = ["...", "\u{2026}"];
 
 /// Both ends of a range, if it is one.

@@ -4,7 +4,7 @@ use super::dimension::Inferred;
 use crate::interval::{Interval, Real};
 use std::sync::Arc;
 
-/// What a table says outside its arguments.
+/// Value of a table outside its arguments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Beyond {
     /// The first value before them, the last after them.

@@ -153,7 +153,7 @@ pub(crate) struct WrittenUnit {
 }
 
 impl WrittenUnit {
-    /// That of a pure number.
+    /// The unit of a pure number.
     pub(super) const NONE: Self = Self { scale: Scale::ONE, factors: Vec::new() };
 
     /// Whether there is no unit.
@@ -192,13 +192,13 @@ impl WrittenUnit {
         [self.scale.numerator, self.scale.denominator]
     }
 
-    /// What it measures.
+    /// Returns the dimension of the quantities that it measures.
     pub(crate) fn dimension(&self) -> Dimension {
         self.scale.dimension
     }
 
-    /// The SI unit of which it is a multiple. An angle, which has no dimension, is told from a pure number,
-    /// and an energy from a torque.
+    /// Returns the SI unit of which it is a multiple. Angles, which have no dimension, are distinguished from
+    /// pure numbers, and energies from torques.
     pub(crate) fn si(&self) -> String {
         let exponent = |is: fn(&Unit) -> bool| -> i8 {
             self.factors.iter().filter(|(unit, _)| is(unit)).map(|(_, exponent)| *exponent).sum()

@@ -1,8 +1,8 @@
-//! What can be wrong with a quantity that is varied.
+//! Faults of a quantity that is varied.
 
 use super::{Face, FaultKind, Faults};
 
-/// What is wrong with a quantity that is varied.
+/// Kind of fault of a quantity that is varied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the message above each variant says what it and its values mean")]
@@ -52,8 +52,8 @@ impl AxisProblem {
         Self::Value { message: hint.as_ref().map_or_else(String::new, ToString::to_string), hint }
     }
 
-    /// What to do about it in the words of an interface, where there is something better to say than the message
-    /// itself.
+    /// Returns a hint in the words of an interface, or `None` if there is nothing better to say than the
+    /// message itself.
     pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
         let hint = match self {
             Self::Malformed => "for instance `mu=0..0.8:801`, `mu=0.1,0.2,0.5` or `mu=normal(0.3, 0.05)`",

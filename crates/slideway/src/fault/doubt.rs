@@ -1,8 +1,8 @@
-//! What makes sense, but is perhaps not what was meant: warnings.
+//! Warnings: input that makes sense, but is perhaps not what was meant.
 
 use super::{CommandLine, Face};
 
-/// What is perhaps not meant.
+/// Kind of input that is perhaps not meant, with its values.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the message above each variant says what it and its values mean")]
@@ -52,12 +52,12 @@ impl Doubt {
         }
     }
 
-    /// What to do about it, in the words of the command line.
+    /// Returns a hint in the words of the command line.
     pub fn hint(&self) -> String {
         self.hint_for(&CommandLine)
     }
 
-    /// What to do about it, in the words of an interface.
+    /// Returns a hint in the words of an interface.
     pub fn hint_for(&self, face: &dyn Face) -> String {
         match self {
             Self::BareAngle { value, .. } => {

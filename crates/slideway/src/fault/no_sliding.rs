@@ -24,7 +24,7 @@ pub enum NoSliding {
 }
 
 impl NoSliding {
-    /// What to do about a hinge that does not turn.
+    /// Returns the hint for a hinge that does not turn.
     pub(super) fn hint_of_hinge(&self, face: &dyn Face) -> String {
         let without = "without its friction (`mu = 0` or `friction_radius = 0` there) the answer exists";
         match self {
@@ -41,7 +41,7 @@ impl NoSliding {
         }
     }
 
-    /// What to do about it.
+    /// Returns the hint for a joint that does not slide.
     pub(super) fn hint(&self, face: &dyn Face) -> String {
         match self {
             Self::AtRest(coordinates) => hint_at_rest(coordinates, face),
@@ -67,7 +67,7 @@ impl NoSliding {
     }
 }
 
-/// What to do about a joint at rest.
+/// Returns the hint for a joint at rest.
 fn hint_at_rest(coordinates: &[String], face: &dyn Face) -> String {
     let rates = face.rates(coordinates);
     format!("{}; for friction in motion give it a velocity, for instance with `{rates}`", hold(face))

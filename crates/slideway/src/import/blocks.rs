@@ -84,7 +84,8 @@ impl<'s, 't> Reader<'s, 't> {
         if self.count > ENTITIES { Err(ImportFault::TooManyEntities { limit: ENTITIES }) } else { Ok(()) }
     }
 
-    /// What a block holds, and where it is inserted: several times in rows and columns. None where it is left out.
+    /// Returns the contents of a block and where it is inserted: several times in rows and columns. Returns
+    /// `None` if it is left out.
     fn inserted(&mut self, record: &Record<'_>) -> Result<Option<(Drawing, Vec<Placement>)>, ImportFault> {
         let name = record.first(2).map_or("", |group| group.value).to_ascii_uppercase();
         let is_new = self.within.len() < DEPTH && !self.within.contains(&name);

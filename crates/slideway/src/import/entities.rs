@@ -107,7 +107,7 @@ fn light_vertices(record: &Record<'_>) -> Result<Vec<(Vector2<f64>, f64)>, Impor
     Ok(vertices)
 }
 
-/// The same of a polyline whose vertices are entities.
+/// Reads the vertices, with their bulges, of a polyline whose vertices are entities.
 fn heavy_vertices(records: &[&Record<'_>]) -> Result<Vec<(Vector2<f64>, f64)>, ImportFault> {
     let mut vertices = Vec::new();
     for record in records {

@@ -19,7 +19,7 @@ pub(super) struct Record<'t> {
     pub(super) groups: Vec<Group<'t>>,
 }
 
-/// What is read of a file.
+/// Parts of a file that are read: its unit, entities and blocks.
 #[derive(Debug, Clone)]
 pub(super) struct Sections<'t> {
     /// `$INSUNITS`

@@ -12,7 +12,7 @@ pub(super) struct Drawing {
     named: BTreeMap<String, usize>,
 }
 
-/// What a layer holds, in units of the drawing.
+/// Contents of a layer, in units of the drawing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Layer {
     pub(super) name: String,

@@ -1,8 +1,8 @@
 //! Models from the drawings of other programs: a DXF file becomes a model to complete.
 //!
 //! [`dxf`] takes what a drawing says of a mechanism: outlines and points of bodies, one body for each layer.
-//! What it does not say, masses, joints, loads and the state, is left to be written into the model. Nothing is
-//! left out in silence: comments in the model name it.
+//! Masses, joints, loads and the state, of which it says nothing, are left to be written into the model.
+//! Nothing is left out in silence: comments in the model name it.
 //!
 //! # Files
 //! `groups.rs` reads the group codes of the format, `entities.rs` the entities of the drawing, `curves.rs` ellipses
@@ -132,8 +132,8 @@ pub enum ImportFault {
 }
 
 impl ImportFault {
-    /// What to do about it in the words of an interface, where there is something better to say than the message
-    /// itself.
+    /// Returns a hint in the words of an interface, or `None` if there is nothing better to say than the
+    /// message itself.
     pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
         match self {
             Self::NoUnit => Some(format!("say it, for instance with `{}`", face.option_with("unit", "mm"))),

@@ -23,7 +23,7 @@ const BESIDE: f64 = 4.0;
 pub(super) struct Bodies {
     pub(super) layers: Vec<Body>,
     pub(super) spots: Vec<Spot>,
-    /// What is in the drawing and not in these.
+    /// Parts of the drawing that are in none of these, in words.
     pub(super) left_out: Vec<String>,
 }
 
@@ -102,7 +102,7 @@ fn area(corners: &[Corner]) -> f64 {
     moments(&shifted).0.abs()
 }
 
-/// The same line from its other end.
+/// Returns the line from its other end.
 fn reversed(corners: &[Corner]) -> Vec<Corner> {
     let before = corners.iter().rev().skip(1).map(|corner| corner.arc_through).chain([None]);
     corners
@@ -114,7 +114,7 @@ fn reversed(corners: &[Corner]) -> Vec<Corner> {
 }
 
 impl Bodies {
-    /// What a drawing shows.
+    /// Finds the bodies and points that a drawing shows.
     pub(super) fn of(drawing: &Drawing, work: Work<'_>) -> Self {
         let (corner, size) = extent(drawing);
         let grid = Grid::new(corner, JOINED * size);

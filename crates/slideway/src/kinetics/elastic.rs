@@ -1,4 +1,4 @@
-//! What the contacts feel when the guides are slightly elastic (theory, section 7).
+//! Inertia and massless motions that the contacts of slightly elastic guides feel (theory, section 7).
 
 use super::{KineticEquations, Reaction};
 use crate::configuration::null_space;

@@ -35,9 +35,9 @@ pub(crate) struct Influences {
     pub(crate) frictionless: DVector<f64>,
     /// For each contact: what a unit friction force adds, for both faces.
     pub(crate) columns: Vec<[DVector<f64>; 2]>,
-    /// What a unit friction couple of each friction circle adds.
+    /// Contribution of a unit friction couple of each friction circle to all unknowns.
     pub(crate) couples: Vec<DVector<f64>>,
-    /// What a unit normal force of each cut contact adds.
+    /// Contribution of a unit normal force of each cut contact to all unknowns.
     pub(crate) self_stresses: Vec<DVector<f64>>,
     /// Ratio of the greatest to the least pivot.
     pub(crate) condition: f64,
@@ -259,7 +259,7 @@ fn back_substitute(work: &[f64], solution: &mut [f64], (size, sides): (usize, us
 }
 
 impl super::KineticEquations {
-    /// The same from factored equations, for those that need full pivoting.
+    /// Returns the influences by factored equations, for equations that need full pivoting.
     pub(crate) fn influences(&self) -> Influences {
         let sides: Vec<&DVector<f64>> =
             std::iter::once(&self.load).chain(self.friction.iter().flatten()).chain(&self.couples).collect();

@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 /// A force at a place, or a couple, on a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench<T = f64> {
-    /// What it acts on.
+    /// Frame on which it acts.
     pub frame: Frame,
     /// Where the force acts (m).
     pub place: Vector2<T>,
@@ -82,14 +82,15 @@ impl<T: Real> Applied<T> {
         faults.or(())
     }
 
-    /// What a load, counted from 0, puts on the bodies.
+    /// Returns the forces and couples of a load, counted from 0, on the bodies.
     pub(crate) fn of_load(&self, load: usize) -> &[Wrench<T>] {
         let first = if load == 0 { self.weights } else { self.ends[load - 1] };
         &self.wrenches[first..self.ends[load]]
     }
 }
 
-/// What a single load puts on the bodies and on ground, in the order in which the model names its ends.
+/// Returns the forces and couples of a single load on the bodies and on ground, in the order in which the
+/// model names its ends.
 ///
 /// # Errors
 /// A load without a value or direction.

@@ -42,7 +42,7 @@ pub(crate) use system::{equilibration, scaled};
 /// Accelerations that violate the row of a cut contact by more than this part of its terms do not satisfy it.
 const INCONSISTENT: f64 = 1e-9;
 
-/// What a component of the vector of reactions is.
+/// Meaning of a component of the vector of reactions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reaction {
     /// Component of a hinge force on the first body: 0 along x, 1 along y (N).
@@ -239,14 +239,15 @@ impl KineticEquations {
         if violated.is_empty() { Ok(()) } else { Err(singular_position(mechanism, &violated)) }
     }
 
-    /// What a unit normal force of each cut contact adds to all unknowns: the self-stresses.
+    /// Returns the self-stresses: the contribution of a unit normal force of each cut contact to all
+    /// unknowns.
     pub fn self_stresses(&self) -> Vec<DVector<f64>> {
         let units: Vec<DVector<f64>> = self.layout.cut_units();
         let solutions = self.factorization.solve(&units.iter().collect::<Vec<_>>());
         solutions.iter().map(|solution| self.without_noise(solution)).collect()
     }
 
-    /// What a load alone adds to the unknowns.
+    /// Returns the contribution of a load alone to the unknowns.
     ///
     /// # Errors
     /// A load without a value or direction.
@@ -269,7 +270,8 @@ impl KineticEquations {
         self.factorization.solve(&[&self.load]).remove(0)
     }
 
-    /// What a unit friction force of a contact adds to the unknowns, for both sides of contact.
+    /// Returns the contribution of a unit friction force of a contact to the unknowns, for both sides of
+    /// contact.
     pub fn influence_of(&self, contact: ContactId) -> [DVector<f64>; 2] {
         let sides = self.friction[contact.index()].each_ref();
         let mut columns = self.factorization.solve(&sides);
@@ -308,8 +310,8 @@ impl SlidingRow {
         Self(rows::sliding(mechanism, configuration, slider))
     }
 
-    /// What these changes of the unknowns add to the acceleration (m/s^2), or to the velocity if they are
-    /// impulses.
+    /// Returns the contribution of these changes of the unknowns to the acceleration (m/s^2), or to the
+    /// velocity (m/s) if they are impulses.
     pub(crate) fn change(&self, unknowns: &DVector<f64>) -> f64 {
         self.0.times(unknowns)
     }
@@ -484,8 +486,8 @@ impl<T: Real> Builder<'_, T> {
 }
 
 impl Builder<'_> {
-    /// Which motion or drive makes the equations singular: read off a vector that they map to zero. The motion is
-    /// told in the sense in which the loads move it.
+    /// Names the motion or drive that makes the equations singular, read off a vector that they map to zero.
+    /// The motion is named in the sense in which the loads move it.
     fn singular_fault(&self, singular: &Singular, load: &DVector<f64>) -> Fault {
         let Singular { null_vector, weights, condition } = singular;
         let bodies = 3 * self.mechanism.bodies.len();

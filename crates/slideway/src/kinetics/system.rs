@@ -31,7 +31,7 @@ pub(super) struct Factorization {
 pub(super) struct Singular {
     /// A vector that the matrix maps to zero, in the units of the unknowns.
     pub(super) null_vector: DVector<f64>,
-    /// The same in the equilibrated system, where its components can be compared with each other.
+    /// The null vector in the equilibrated system, where its components can be compared with each other.
     pub(super) weights: DVector<f64>,
     /// Ratio of the greatest to the least pivot.
     pub(super) condition: f64,

@@ -1,4 +1,4 @@
-//! What is varied, over which range, and what is found there.
+//! Analysis of limits: the varied quantity, its range, and what is found there.
 
 use super::answer::{self, Along, Naming};
 use super::find::find;
@@ -20,15 +20,15 @@ const USUAL_FACTOR: f64 = 10.0;
 /// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.
 const USUAL_FRICTION: f64 = 1.0;
 
-/// What is varied, over which range, and the modes of both directions.
+/// Varied quantity, its range, and the modes of both directions.
 pub(super) struct Analysis {
     pub(super) varied: Varied,
     pub(super) range: [f64; 2],
     pub(super) found: ModesFound,
     pub(super) reversed: Option<(Varied, ModesFound)>,
-    /// What is asked along the modes.
+    /// Speeds and tipping along the modes.
     along: Along,
-    /// The same in the opposite direction.
+    /// Speeds and tipping along the modes of the opposite direction.
     opposite: Option<Along>,
 }
 

@@ -1,4 +1,4 @@
-//! From what was found to what is told.
+//! Builds the report from the modes that were found.
 
 use super::conclusion::{Conclusion, conclusion};
 use super::found::{Elsewhere, Knowledge, Method, ModesFound};
@@ -169,7 +169,7 @@ impl Naming {
         &self.mechanism.joints[self.mechanism.friction_circles[circle].joint.index()].name
     }
 
-    /// What the forces of hinges with friction do towards both ends of a branch.
+    /// Returns the limits of the forces of hinges with friction towards both ends of a branch.
     fn hinge_forces(&self, branch: &Branch, circles: &[usize]) -> Vec<EndHingeForce> {
         let [from, to] = [&branch.from, &branch.to].map(|end| end.hinge_force.as_deref().unwrap_or_default());
         let force = |(index, &circle): (usize, &usize)| {
@@ -214,7 +214,7 @@ impl Naming {
     }
 }
 
-/// What is asked along the modes of a direction.
+/// Speeds and tipping along the modes of a direction.
 pub(super) struct Along {
     /// For each mode what becomes of the speeds.
     pub(super) speeds: Vec<Vec<SpeedLimits>>,

@@ -41,7 +41,7 @@ pub(super) fn scan(
     modes_found(varied, circles, &options, found, (Method::Bracketing, SameEnds::bisected(options.range)))
 }
 
-/// The same in closed form, if only the radius of the only friction circle is varied.
+/// Finds the modes in closed form, if only the radius of the only friction circle is varied.
 pub(super) fn closed_form(
     varied: &Varied,
     circles: &[usize],
@@ -105,7 +105,7 @@ fn value_of(
     f64::midpoint(below.0, above.0)
 }
 
-/// What branches are in terms of modes.
+/// Converts branches into modes.
 fn modes_found(
     varied: &Varied,
     circles: &[usize],

@@ -4,9 +4,9 @@ use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
 
-/// That a mechanism with drives has one solution.
+/// Verdict that a mechanism with drives has one solution.
 const MOVES: &str = "it moves";
-/// That there is no solution, and no guided slider tips.
+/// Verdict that there is no solution, and no guided slider tips.
 const JAMS: &str = "it jams";
 
 /// The conclusion of limits.
@@ -83,7 +83,7 @@ fn summary(pieces: &[Piece], varied: &Varied) -> Option<String> {
     }
 }
 
-/// That a mechanism without drives has one solution.
+/// Verdict that a mechanism without drives has one solution.
 const ONE_SOLUTION: &str = "one solution";
 
 /// A stretch with the same verdict.

@@ -30,7 +30,7 @@ const STEPS: usize = 240;
 const STEPS_TO_LOCKING: usize = 120;
 const DECADES: f64 = 6.0;
 
-/// What a plot shows.
+/// Quantity that a plot shows.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Quantity {
     /// The normal force of every contact.
@@ -91,13 +91,13 @@ impl Curve {
 /// The quantities of every mode over what is varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
-    /// What was computed.
+    /// Quantity that was computed.
     pub quantity: Quantity,
     /// In which unit values of what is varied are to be shown.
     pub shown_in: Unit,
     /// In which units the values of its series are to be shown: those that suit them nearest to the model.
     pub units: Units,
-    /// What the values of every point are.
+    /// Names and units of the values of every point.
     pub series: Vec<Series>,
     /// One curve for each of [`LimitsReport::modes`].
     pub forwards: Vec<Curve>,
@@ -246,7 +246,7 @@ fn of_branch(
     varied.with_hinges(at, circles, values).ok()
 }
 
-/// What is known of a state.
+/// Data of a state from which quantities are computed.
 struct OfState<'s> {
     pattern: &'s [ContactState],
     normal_force: &'s DVector<f64>,

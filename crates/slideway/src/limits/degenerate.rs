@@ -63,16 +63,17 @@ struct Recount<'r> {
     work: Work<'r>,
 }
 
-/// What the certified search tells at a value.
+/// Result of the certified search at a value.
 struct Certified {
     numbers: CountInterval,
-    /// Whether each of the modes there is a solution that is told with another mode.
+    /// Whether each of the modes there is a solution that is reported with another mode.
     copied: Vec<bool>,
     is_decided: bool,
 }
 
 impl Recount<'_> {
-    /// What the certified search tells at a value; none where all of these modes are off their boundaries.
+    /// Counts the solutions at a value by the certified search. Returns `None` if all of these modes are off
+    /// their boundaries.
     fn at(&self, at: f64, modes: &[&ModeInterval]) -> Option<Certified> {
         let parts = self.varied.parts(at).ok()?;
         let line = parts.line_to(&parts);

@@ -1,5 +1,5 @@
-//! What is proven of the numbers of solutions between the ends of modes: the certified search for whole
-//! intervals of what is varied, which are halved while that helps.
+//! Proofs of the numbers of solutions between the ends of modes: the certified search for whole intervals of
+//! what is varied, which are halved while that helps.
 
 use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::varied::Varied;
@@ -38,13 +38,13 @@ pub(super) struct Examiner<'v> {
     work: Work<'v>,
 }
 
-/// What lies between neighbouring ends of modes, and what is proven of it.
+/// Interval between neighbouring ends of modes, and what is proven of it.
 struct Cell {
     /// The interval of equal numbers to which it belongs.
     interval: usize,
     wanted: [usize; 2],
     bounds: [f64; 2],
-    /// What is to be proven: all but what is next to the ends of modes.
+    /// Part that is to be proven: all but what is next to the ends of modes.
     part: [f64; 2],
     proven: Vec<[f64; 2]>,
     open: Vec<[f64; 2]>,
@@ -191,8 +191,8 @@ impl<'v> Examiner<'v> {
     }
 }
 
-/// The proven stretches of some cells in their order, with ends as they are `told`: what lies between ends that
-/// are one is no gap. Parts that touch are one.
+/// Joins the proven parts of some cells to stretches, in ascending order and with ends as `told` reports
+/// them. Parts that touch are one; between ends that are reported as one there is no gap.
 fn stretches<'c>(cells: impl Iterator<Item = &'c Cell>, told: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let mut parts: Vec<[f64; 2]> =
         cells.flat_map(|cell| cell.proven.iter().map(|part| part.map(&told))).collect();
@@ -207,7 +207,7 @@ fn stretches<'c>(cells: impl Iterator<Item = &'c Cell>, told: impl Fn(f64) -> f6
     stretches
 }
 
-/// What is left out at an end of an interval, at most.
+/// Returns the greatest width that is left out at an end of an interval.
 pub(super) fn margin_of([from, to]: [f64; 2]) -> f64 {
     margin(from, [from, to]).max(margin(to, [from, to]))
 }

@@ -1,4 +1,4 @@
-//! What is found of modes in a range.
+//! Modes that are found in a range.
 
 use crate::fault::Faults;
 use crate::modes::branches::Branch;
@@ -42,7 +42,7 @@ impl ModesFound {
 pub(crate) struct SameEnds {
     /// Ends nearer to each other than this.
     pub(crate) within: f64,
-    /// The ends of the range and zero, each with the distance within which an end is told as it.
+    /// The ends of the range and zero, each with the distance within which an end is reported as it.
     landmarks: [(f64, f64); 3],
 }
 
@@ -53,8 +53,9 @@ impl SameEnds {
         Self { within, landmarks: [from, to, 0.0].map(|value| (value, within)) }
     }
 
-    /// Zeros of determinants, which are told as they are, where the ends of what the model allows of the range
-    /// were bisected: these are told apart from where they lead as far as halving can tell.
+    /// Zeros of determinants, which are reported as they are. Only the ends of what the model allows of the
+    /// range were bisected: within what halving can resolve they are reported as the end of the range or the
+    /// zero that they lead to.
     pub(super) fn zeros([from, to]: [f64; 2], allowed: [f64; 2]) -> Self {
         let resolution = (to - from) * 0.5_f64.powi(HALVINGS);
         let reach = |value: f64| {
@@ -69,7 +70,7 @@ impl SameEnds {
         to - from > self.within
     }
 
-    /// An end as it is told: as the end of the range or the zero that it is the same as.
+    /// Returns an end as it is reported: as the end of the range or the zero that it is the same as.
     pub(crate) fn told(&self, at: f64) -> f64 {
         let same = self.landmarks.iter().find(|(value, reach)| (at - value).abs() <= *reach);
         same.map_or(at, |(value, _)| *value)
@@ -110,7 +111,7 @@ impl SingleValues {
     }
 }
 
-/// What is known of the number of solutions in an interval.
+/// Evidence for the number of solutions in an interval.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Knowledge {
     /// The stretches for all values of which the number is proven, both ends included; no two of them touch.
@@ -118,7 +119,7 @@ pub(crate) struct Knowledge {
     pub(crate) elsewhere: Elsewhere,
 }
 
-/// What is known outside the proven stretch.
+/// Evidence for the number of solutions outside the proven stretches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Elsewhere {
     /// All of the interval is proven, but for what is next to ends of modes, as [`super::examine::MARGIN`]

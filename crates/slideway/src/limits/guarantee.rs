@@ -1,4 +1,4 @@
-//! What a search for limits can miss, in words.
+//! Texts that say what a search for limits can miss.
 
 use super::found::{Elsewhere, Method, ModesFound, SingleValues, left_out};
 use super::text::at_most;
@@ -46,7 +46,7 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
     sentences.join(" ")
 }
 
-/// What was left out, in words.
+/// Returns a sentence on each kind of mode that was left out.
 pub(super) fn not_examined(found: &ModesFound) -> Vec<String> {
     let existence = &found.existence;
     let (rigid, singular): (Vec<_>, Vec<_>) =

@@ -1,16 +1,16 @@
-//! What to find the limits of.
+//! Options of a search for limits.
 
 use super::vary::Vary;
 
 /// Certified searches that are made by default to prove numbers of solutions.
 pub const EFFORT: u64 = 800;
 
-/// What to find the limits of.
+/// Options of a search for limits: the varied quantity, and which modes count.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LimitsOptions {
-    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to
-    /// twice its value, but at least to 1; whatever else is varied needs a range.
+    /// Quantity that is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction
+    /// from 0 to twice its value, but at least to 1; whatever else is varied needs a range.
     pub vary: Vary,
     /// Modes count only where no normal force exceeds this (N).
     pub max_reaction: Option<f64>,

@@ -1,4 +1,4 @@
-//! What is told of limits: plain data, which are the JSON output.
+//! Report on limits: plain data, which are the JSON output.
 
 use super::found::left_out;
 use crate::report::{CoordinateState, JointMode, ModeEndCause, SpeedChange, Tipping, without_solution};
@@ -17,7 +17,7 @@ pub struct LimitsReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
-    /// What is varied.
+    /// Varied quantity, with its range.
     pub vary: VariedQuantity,
     /// The coordinates for which it holds, but for one that is varied.
     pub state: Vec<CoordinateState>,
@@ -31,7 +31,7 @@ pub struct LimitsReport {
     pub steps_from_drawing: Option<usize>,
     /// How the ends of modes were found.
     pub method: LimitsMethod,
-    /// What the method can miss, in words.
+    /// Account, in words, of what the method can miss.
     pub guarantee: String,
     /// The modes in the direction of the model's rates.
     pub modes: Vec<ModeLimits>,
@@ -47,12 +47,12 @@ pub struct LimitsReport {
     /// The opposite direction, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reversed: Option<Direction>,
-    /// What it comes to, in words: a sentence for each stretch.
+    /// Conclusion in words: a sentence for each stretch.
     pub conclusion: Vec<String>,
     /// The limit in one sentence, if there is one only.
     #[serde(skip)]
     pub(super) summary: Option<String>,
-    /// What was left out, in words; absent if nothing was.
+    /// Sentences on what was left out; absent if nothing was.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_examined: Vec<String>,
 }
@@ -72,7 +72,7 @@ pub enum LimitsMethod {
     Independent,
 }
 
-/// What is varied, in SI units.
+/// Varied quantity, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct VariedQuantity {
@@ -112,7 +112,7 @@ pub struct Direction {
 pub struct ModeLimits {
     /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
     pub pattern: String,
-    /// The same as numbers.
+    /// The pattern as numbers: 1 and -1 for the signs, 0 in a preload gap.
     pub signs: Vec<i8>,
     /// Whether a contact rests in its preload gap.
     pub preload_gap: bool,
@@ -130,16 +130,16 @@ pub struct ModeLimits {
     pub from_at: Vec<String>,
     /// The contacts or guided sliders that end it.
     pub to_at: Vec<String>,
-    /// What the normal force of each contact does towards both ends.
+    /// Limits of the normal force of each contact towards both ends.
     pub reactions: Vec<EndReaction>,
     /// With friction in hinges the sign of `det(I - H D)`, 1 or -1: solutions of one mode that merge in a fold have
     /// opposite ones, and the mechanism never settles where it is negative. Absent without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation: Option<i8>,
-    /// What the force of each hinge with friction does towards both ends; absent without any.
+    /// Limits of the force of each hinge with friction towards both ends; absent without any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hinge_forces: Vec<EndHingeForce>,
-    /// What becomes of the speed of each coordinate that no drive moves, from value to value.
+    /// Change of the speed of each coordinate that no drive moves, from value to value.
     pub speeds: Vec<SpeedLimits>,
 }
 
@@ -153,14 +153,14 @@ pub struct SpeedLimits {
     pub from: f64,
     /// Where it ends: where the acceleration vanishes, or the mode ends.
     pub to: f64,
-    /// What becomes of the speed.
+    /// Change of its speed in the interval.
     pub speed: SpeedChange,
     /// Whether it is proven somewhere in the interval that the loads push the motion and friction takes more power
     /// than they give; never with drives.
     pub friction_exceeds_loads: bool,
 }
 
-/// What a normal force does towards both ends of an interval.
+/// Limits of a normal force towards both ends of an interval, or its growth without bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EndReaction {
@@ -172,11 +172,12 @@ pub struct EndReaction {
     pub to: Option<f64>,
     /// 1 or -1 where it grows without bound towards the beginning with this sign, else 0.
     pub from_grows: i8,
-    /// The same towards the end.
+    /// 1 or -1 where it grows without bound towards the end with this sign, else 0.
     pub to_grows: i8,
 }
 
-/// What the force of a hinge with friction does towards both ends of an interval.
+/// Limits of the force of a hinge with friction towards both ends of an interval, or its growth without
+/// bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EndHingeForce {
@@ -189,7 +190,7 @@ pub struct EndHingeForce {
     pub to: Option<f64>,
     /// Whether it grows without bound towards the beginning.
     pub from_grows: bool,
-    /// The same towards the end.
+    /// Whether it grows without bound towards the end.
     pub to_grows: bool,
 }
 
@@ -209,7 +210,7 @@ pub struct CountLimits {
     pub continuum: bool,
     /// How these numbers are known.
     pub known: Known,
-    /// What tips where there is no solution; absent where nothing does.
+    /// Guided sliders that tip where there is no solution; absent where none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<Tipping>,
     /// The stretches for all values of which they are proven, both ends included. If `known` is `proven`
@@ -236,7 +237,7 @@ pub enum Known {
 }
 
 impl CountLimits {
-    /// What it means that there is no solution.
+    /// Returns the meaning of no solution, in words: "it jams", or what tips.
     pub(super) fn without_solution(&self) -> String {
         without_solution(self.tipping.as_ref())
     }
@@ -266,7 +267,7 @@ pub struct RestLimitsReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
-    /// What is varied.
+    /// Varied quantity, with its range.
     pub vary: VariedQuantity,
     /// The coordinates for which it holds, but for one that is varied.
     pub state: Vec<CoordinateValue>,
@@ -278,7 +279,7 @@ pub struct RestLimitsReport {
     pub load: Option<String>,
     /// The stretches, one after another.
     pub spans: Vec<SpanOfRest>,
-    /// What may have been missed, in words.
+    /// Account, in words, of what may have been missed.
     pub guarantee: String,
 }
 

@@ -1,9 +1,9 @@
-//! What becomes of the speeds of the coordinates along each mode.
+//! Changes of the speeds of the coordinates along each mode.
 //!
-//! Between places at which an acceleration changes its sign it has one answer, which the certified solution
-//! in the middle gives. Where modes were found from zeros of determinants these places are zeros of the
-//! accelerations, found likewise; elsewhere they are bisected between values that were tried. With friction in hinges
-//! the solution is the one whose forces are those of the branch.
+//! Between two places at which an acceleration changes its sign there is one answer, which the certified
+//! solution in the middle gives. Where modes were found from zeros of determinants these places are zeros of
+//! the accelerations, found likewise; elsewhere they are bisected between values that were tried. With
+//! friction in hinges the solution is the one whose forces are those of the branch.
 
 use super::closed_form::value_at;
 use super::found::{Method, ModesFound};
@@ -42,7 +42,7 @@ struct Along<'a> {
 }
 
 impl Along<'_> {
-    /// What becomes of the speed of a coordinate, from value to value.
+    /// Returns the change of the speed of a coordinate, from value to value.
     fn speeds(&self, coordinate: usize) -> Vec<SpeedLimits> {
         let name = &self.varied.model().coordinates[coordinate].name;
         let cuts = match self.found.method {
@@ -73,7 +73,8 @@ impl Along<'_> {
         speeds
     }
 
-    /// What the certified solution at a value says, and whether friction takes more there than the loads give.
+    /// Returns the change of the speed in the certified solution at a value, and whether friction takes more
+    /// there than the loads give.
     fn speed(&self, coordinate: usize, at: f64) -> (SpeedChange, bool) {
         let sought = pattern(&self.mode.pattern);
         let found = self.varied.solved(at, self.work).ok();

@@ -1,4 +1,4 @@
-//! What is varied: a parameter, a coordinate, or all coefficients of friction together.
+//! Varied quantity: a parameter, a coordinate, or all coefficients of friction together.
 
 use crate::configuration::Follower;
 use crate::enclosure::{
@@ -23,7 +23,7 @@ use crate::solve::{
 use crate::units::Unit;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What is varied in a model.
+/// Kind of quantity that is varied in a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// The factor of all coefficients of friction.
@@ -95,7 +95,7 @@ impl Varied {
         Ok(varied)
     }
 
-    /// The same for questions of rest, which need no inertia.
+    /// Makes a varied model for questions of rest, which need no inertia.
     ///
     /// # Errors
     /// An unknown name.
@@ -125,12 +125,12 @@ impl Varied {
         })
     }
 
-    /// The same, whose faults lie in this argument.
+    /// Returns the varied model with faults that lie in this argument.
     pub(super) fn given_by(self, argument: &str) -> Self {
         Self { argument: Arc::from(argument), ..self }
     }
 
-    /// The same, shown in the unit of both ends of a range as they were typed, if they have one.
+    /// Shows values in the unit of both ends of a range as they were typed, if they have one.
     pub(crate) fn typed_as(mut self, range: Option<&[Value; 2]>) -> Self {
         let unit = range.and_then(|[from, to]| from.unit().filter(|unit| to.unit().as_ref() == Some(unit)));
         if let Some(unit) = unit {
@@ -149,7 +149,7 @@ impl Varied {
         self.kind == Kind::Parameter && self.model.is_itself_friction(&self.name)
     }
 
-    /// What it is, in words.
+    /// Returns its name with its kind: "the parameter mu".
     pub(crate) fn in_words(&self) -> String {
         match self.kind {
             Kind::Friction => "the factor of all coefficients of friction".to_owned(),
@@ -241,7 +241,8 @@ impl Varied {
         (certain_counts(&enclosed, &result, options, greatest), result.nodes())
     }
 
-    /// The same with friction in the hinges of these circles; nothing is proven of guided sliders, which may tip.
+    /// Proves numbers as [`Self::certain_counts`] does, with friction in the hinges of these circles. Nothing
+    /// is proven of guided sliders, which may tip.
     pub(crate) fn certain_block_counts(
         &self,
         (bounds, circles): ([f64; 2], &[usize]),
@@ -267,8 +268,8 @@ impl Varied {
         (certain_block_counts((&problem, &open), &result, greatest), result.nodes)
     }
 
-    /// What follows from the model, the bounds of what is varied, and the stages in the middle of them; none if
-    /// there are none.
+    /// Evaluates `question` on the model, the bounds of what is varied, and the stages in the middle of them.
+    /// Returns `None` if there are no such stages.
     fn enclosed<R>(
         &self,
         [from, to]: [f64; 2],
@@ -322,7 +323,7 @@ impl Varied {
         self.with_hinges(value, circles, block_instance)
     }
 
-    /// What is asked of the stages at a value, and of the hinges of these friction circles.
+    /// Evaluates `question` on the stages at a value, and on the hinges of these friction circles.
     ///
     /// # Errors
     /// Whatever `solve` refuses there, and those of the question.

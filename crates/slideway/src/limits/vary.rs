@@ -1,4 +1,4 @@
-//! What is to be varied, and over which range.
+//! Quantity to vary, and its range.
 
 use super::varied::Varied;
 use crate::expression::{TO, ends_of_range};
@@ -12,8 +12,8 @@ use std::str::FromStr;
 /// Without a range a parameter goes from its value divided by this to its value multiplied by it.
 const FACTOR_AROUND: f64 = 5.0;
 
-/// What is to be varied, and over which range: a parameter, a coordinate, or all coefficients of friction
-/// together ([`FRICTION`](super::FRICTION)).
+/// Quantity to vary, and its range: a parameter, a coordinate, or all coefficients of friction together
+/// ([`FRICTION`](super::FRICTION)).
 ///
 /// ```
 /// use slideway::limits::Vary;
@@ -33,12 +33,12 @@ pub struct Vary {
 }
 
 impl Vary {
-    /// What bears this name, over its usual range.
+    /// Varies the quantity of this name over its usual range.
     pub fn usual(name: &str) -> Self {
         Self { name: name.to_owned(), range: None }
     }
 
-    /// What bears this name, from one value to another.
+    /// Varies the quantity of this name from one value to another.
     pub fn between(name: &str, from: impl Into<Value>, to: impl Into<Value>) -> Self {
         Self { name: name.to_owned(), range: Some([from.into(), to.into()]) }
     }

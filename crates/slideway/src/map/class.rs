@@ -15,7 +15,7 @@ pub(super) const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::I
 /// The most patterns for which margins are computed.
 const PATTERNS: u64 = 1 << 12;
 
-/// What the points of a class have in common.
+/// Property that the points of a class have in common.
 #[derive(Debug, Clone, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum ClassMeaning {
@@ -56,7 +56,7 @@ pub enum ClassMeaning {
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         tips_opposite: bool,
     },
-    /// What becomes of the speeds in each solution.
+    /// Changes of the speeds in each solution.
     Motion {
         /// For each solution, for each coordinate that no drive moves.
         solutions: Vec<Vec<SpeedChange>>,
@@ -81,7 +81,7 @@ pub enum ClassMeaning {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ClassKey(pub(super) ClassMeaning);
 
-/// What is known of one direction at a point.
+/// Answer for one direction of motion at a point.
 pub(super) enum Answer {
     /// Its mode problem.
     Problem(Box<Point>),
@@ -199,13 +199,13 @@ pub(super) fn class(
     }
 }
 
-/// What becomes of the speeds in the solutions, in any order.
+/// Builds the class of these changes of the speeds, with the solutions sorted: their order does not count.
 fn motion(mut solutions: Vec<Vec<SpeedChange>>) -> ClassMeaning {
     solutions.sort_unstable();
     ClassMeaning::Motion { solutions }
 }
 
-/// What becomes of the speeds in each solution.
+/// Returns the changes of the speeds in each solution.
 fn speeds(point: &Point, states: &States) -> Vec<Vec<SpeedChange>> {
     let line = point.parts.line_to(&point.parts);
     let of_solution = |sides: &Vec<ContactState>| {

@@ -21,7 +21,7 @@ struct Corners {
     free: Vec<(usize, f64)>,
 }
 
-/// What finds the class of a point.
+/// Evaluator that finds the class of a point.
 pub(super) struct Evaluator<'a> {
     axes: &'a [Axis; 2],
     colour_by: ColourBy,
@@ -169,7 +169,7 @@ impl Source {
     }
 }
 
-/// What is known from the points before.
+/// Stages and last solution of the points before.
 #[derive(Default)]
 struct Before {
     trail: Trail,

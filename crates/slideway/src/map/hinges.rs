@@ -67,7 +67,7 @@ fn of_report(report: &SolveReport, stages: &Stages) -> States {
     }
 }
 
-/// What becomes of the speed of each coordinate that no drive moves.
+/// Returns the change of the speed of each coordinate that no drive moves.
 fn changes(solution: &Solution, stages: &Stages) -> Vec<SpeedChange> {
     let of_bodies = solution.bodies.iter().flat_map(|body| body.acceleration);
     let greatest = of_bodies.fold(0.0_f64, |greatest, value| greatest.max(value.abs()));

@@ -47,7 +47,7 @@ const USUAL_PROBE: usize = 8;
 /// The most pixels along a side.
 pub const GREATEST_SIZE: usize = 8192;
 
-/// What the colours of a map tell.
+/// Property that the colours of a map show.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -61,7 +61,7 @@ pub enum ColourBy {
     Margin,
     /// Whether it moves as in the model, and the other way.
     Jam,
-    /// What becomes of the speed of each coordinate that no drive moves, in each solution.
+    /// The change of the speed of each coordinate that no drive moves, in each solution.
     Motion,
     /// Whether it can stay at rest, drives absent.
     Hold,
@@ -83,7 +83,7 @@ impl Choice for ColourBy {
 }
 
 impl ColourBy {
-    /// What the colours tell, in words.
+    /// Returns the name of the property, in words.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Solutions => "number of solutions",
@@ -96,19 +96,19 @@ impl ColourBy {
     }
 }
 
-/// What to map.
+/// Options of a map: its two quantities, its size, and the property that its colours show.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MapOptions {
-    /// What varies from left to right; there is no usual range.
+    /// Quantity that varies from left to right; there is no usual range.
     pub x: Vary,
-    /// The same from bottom to top.
+    /// Quantity that varies from bottom to top, likewise.
     pub y: Vary,
     /// Pixels from left to right.
     pub width: usize,
     /// Pixels from bottom to top.
     pub height: usize,
-    /// What the colours tell.
+    /// Property that the colours show.
     pub colour_by: ColourBy,
     /// Pixels between probes: narrower regions may be missed. 1 looks at every pixel.
     pub probe: usize,

@@ -40,7 +40,7 @@ type Cell = [usize; 4];
 /// No class yet.
 const OPEN: u32 = u32::MAX;
 
-/// What tells the classes of points that lie near one another.
+/// Function that returns the classes of points that lie near one another.
 type Classes<'c, K> = &'c (dyn Fn(&[[usize; 2]]) -> Vec<K> + Sync);
 
 struct Work<'w, K> {

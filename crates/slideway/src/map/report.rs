@@ -1,4 +1,4 @@
-//! What is told of a map: plain data, which are the JSON output.
+//! Report on a map: plain data, which are the JSON output.
 
 use super::class::{ClassKey, ClassMeaning};
 use super::evaluate::Evaluator;
@@ -25,7 +25,7 @@ pub struct MapReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
-    /// What the colours tell.
+    /// Property that the colours show.
     pub colour_by: ColourBy,
     /// From left to right.
     pub x: MapAxis,
@@ -35,9 +35,9 @@ pub struct MapReport {
     pub classes: Vec<MapClass>,
     /// Number of points that were solved.
     pub points: usize,
-    /// What can have been missed, in words.
+    /// Account, in words, of what can have been missed.
     pub guarantee: String,
-    /// What its colours do not tell, in words; absent if there is nothing.
+    /// Remark on what its colours do not show; absent if there is nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
     /// Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels
@@ -61,9 +61,9 @@ pub struct MapAxis {
     pub pixels: usize,
     /// The unit in which it is to be shown; empty for pure numbers.
     pub unit: String,
-    /// That unit in SI units.
+    /// Size of that unit in SI units.
     pub scale: f64,
-    /// The same unit.
+    /// Unit for texts and pictures: `unit` and `scale` in one.
     #[serde(skip)]
     pub shown_in: Unit,
 }
@@ -72,9 +72,9 @@ pub struct MapAxis {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MapClass {
-    /// What its points have in common.
+    /// Property that its points have in common.
     pub meaning: ClassMeaning,
-    /// The same in words.
+    /// Words for that property.
     pub words: String,
     /// For modes: each of them in words.
     pub modes: Vec<String>,

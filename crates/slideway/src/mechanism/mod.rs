@@ -55,13 +55,13 @@ pub struct Mechanism<T = f64> {
     pub drives: Vec<Drive<T>>,
     /// The chosen coordinates.
     pub coordinates: Vec<Coordinate<T>>,
-    /// What a motion is watched for.
+    /// Events for which a motion is watched.
     pub events: Vec<EventDefinition<T>>,
     /// The units in which its numbers are shown.
     pub units: Units,
     /// The diagonal of the rectangle around its points (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
-    /// What redundant guides have in excess.
+    /// Joint equations that redundant guides have in excess, and the contacts that are cut for them.
     pub excess: Excess,
     /// By what the coefficients of friction are multiplied, those that follow from sliding speeds, too.
     friction: T,
@@ -104,7 +104,7 @@ pub enum Shape<T = f64> {
 /// A point that moves with a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Attachment<T = f64> {
-    /// What it moves with.
+    /// Frame with which it moves.
     pub frame: Frame,
     /// Its place in the drawing.
     pub position: Vector2<T>,
@@ -117,7 +117,7 @@ pub struct Joint<T = f64> {
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
-    /// What it is.
+    /// Kind of joint, with its data.
     pub kind: JointKind<T>,
 }
 
@@ -161,13 +161,13 @@ pub struct Slider<T = f64> {
 /// A contact with friction.
 #[derive(Debug, Clone)]
 pub struct Contact<T = f64> {
-    /// "joint", "joint.front" or "joint.rear".
+    /// Name: "joint"; for a block "joint.front", "joint.rear", or "joint." and the name of a support.
     pub name: Arc<str>,
     /// The sliding joint it belongs to.
     pub joint: JointId,
     /// Distance from the middle of the block along the tangent in the drawing (m).
     pub offset: T,
-    /// What it travels with.
+    /// Part with which it travels: block or guide.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative: at the
     /// sliding speed zero, or at that of the last call of
@@ -230,11 +230,11 @@ pub struct FrictionCircle<T = f64> {
     pub radius: T,
     /// Radius of the friction circle at rest (m).
     pub static_radius: T,
-    /// What the radii follow from.
+    /// Law from which the radii follow.
     pub law: CircleLaw<T>,
 }
 
-/// What the radii of a friction circle follow from.
+/// Law from which the radii of a friction circle follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CircleLaw<T = f64> {
     /// They are given.
@@ -256,7 +256,7 @@ impl FrictionCircle {
         self.radius.max(self.static_radius) > 0.0
     }
 
-    /// What is varied where static friction is: the coefficient of a pin, else the radius.
+    /// Returns the number that is varied where static friction is: the coefficient of a pin, else the radius.
     pub(crate) fn static_friction(&self) -> f64 {
         match self.law {
             CircleLaw::Radius => self.static_radius,
@@ -274,7 +274,7 @@ impl FrictionCircle {
 }
 
 impl<T: Real> FrictionCircle<T> {
-    /// That of a hinge with this friction; `value` is that of each formula.
+    /// Builds the friction circle of a hinge with this friction; `value` returns the value of each formula.
     pub(crate) fn new(joint: JointId, friction: &HingeFriction, value: impl Fn(FormulaId) -> T) -> Self {
         let [kinetic, at_rest] = friction.radii(&value);
         let law = match *friction {
@@ -321,7 +321,7 @@ pub struct Load<T = f64> {
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
-    /// What it is.
+    /// Kind of load, with its data.
     pub kind: LoadKind<T>,
 }
 
@@ -338,7 +338,7 @@ pub enum LoadKind<T = f64> {
         axes: [Vector2<T>; 2],
         /// Whether the directions turn with the body.
         turns: bool,
-        /// What the opposite force acts on.
+        /// Frame on which the opposite force acts, if it acts on one.
         reaction: Option<Frame>,
     },
     /// A torque.
@@ -347,7 +347,7 @@ pub enum LoadKind<T = f64> {
         body: Frame,
         /// Its moment (N m).
         moment: Quantity<T>,
-        /// What the opposite torque acts on.
+        /// Frame on which the opposite torque acts, if it acts on one.
         reaction: Option<Frame>,
     },
     /// A spring.
@@ -412,14 +412,14 @@ pub enum Effort<T = f64> {
         direction: Vector2<T>,
         /// Whether the direction turns with the body.
         turns: bool,
-        /// What the opposite force acts on.
+        /// Frame on which the opposite force acts, if it acts on one.
         reaction: Option<Frame>,
     },
     /// A torque (N m).
     Torque {
         /// The body on which it acts.
         body: Frame,
-        /// What the opposite torque acts on.
+        /// Frame on which the opposite torque acts, if it acts on one.
         reaction: Option<Frame>,
     },
 }
@@ -456,7 +456,7 @@ pub struct Coordinate<T = f64> {
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
-    /// What it measures.
+    /// Motion that it measures.
     pub kind: CoordinateKind<T>,
     /// Its value in the drawing (m or rad).
     pub drawn_at: T,
@@ -466,7 +466,7 @@ pub struct Coordinate<T = f64> {
     pub rate: T,
 }
 
-/// What a coordinate measures.
+/// Motion that a coordinate measures.
 #[derive(Debug, Clone, Copy)]
 pub enum CoordinateKind<T = f64> {
     /// Displacement of a sliding joint.
@@ -775,7 +775,7 @@ impl<T: Real> Mechanism<T> {
         self.quantity_on(quantity, &self.values(coordinates, rates, time), None)
     }
 
-    /// The same with every relation on its piece, if pieces are given.
+    /// Evaluates a quantity with every relation on its piece, if pieces are given.
     ///
     /// # Errors
     /// As [`Self::quantity`].
@@ -799,7 +799,7 @@ impl<T: Real> Mechanism<T> {
         &self.formulas[id.index()].expression
     }
 
-    /// What the names in an expression stand for in a state.
+    /// Returns the values for which the names in an expression stand in a state.
     pub(crate) fn values<'a>(&'a self, coordinates: &'a [T], rates: &'a [T], time: T) -> Values<'a, T> {
         Values { parameters: &self.parameters, coordinates, rates, time, sliding_speed: T::zero() }
     }

@@ -44,7 +44,7 @@ impl<T: Real> Pad<T> {
         &LAWS[usize::from(!self.constants[1].is_zero())]
     }
 
-    /// What the names in its law stand for.
+    /// Returns the values for which the names in its law stand.
     pub(crate) fn values<'a>(&'a self, depth: &'a [T; 2]) -> Values<'a, T> {
         let (coordinates, rates) = depth.split_at(1);
         Values { coordinates, rates, ..Values::of_parameters(&self.constants) }

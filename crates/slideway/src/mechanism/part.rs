@@ -179,7 +179,7 @@ pub(crate) fn body_of(mechanism: &Mechanism, joint: JointId) -> Option<BodyId> {
 }
 
 impl Effort {
-    /// What it acts on.
+    /// Returns the frames on which it acts, that of the reaction included.
     pub(crate) fn frames(&self) -> Vec<Frame> {
         let (frame, reaction) = match self {
             Self::Force { at, reaction, .. } => (at.frame, *reaction),
@@ -190,7 +190,7 @@ impl Effort {
 }
 
 impl CoordinateKind {
-    /// What it depends on.
+    /// Returns the frames on whose motion it depends.
     pub(crate) fn frames(&self, mechanism: &Mechanism) -> Vec<Frame> {
         match self {
             Self::Slide(joint) => frames_of(mechanism, *joint).to_vec(),

@@ -113,13 +113,13 @@ impl Mechanism {
         }
     }
 
-    /// The same for forces (N).
+    /// Turns forces (N) of the mode problem into those of the faces of press fits.
     pub(crate) fn forces_at_faces(&self, states: &[ContactState], mut forces: Vec<f64>) -> Vec<f64> {
         self.put_at_faces(states, &mut forces, 0.0, |one, other| one + other);
         forces
     }
 
-    /// The same for bounds of forces (N).
+    /// Turns bounds of forces (N) of the mode problem into those of the faces of press fits.
     pub(crate) fn bounds_at_faces(
         &self,
         states: &[ContactState],

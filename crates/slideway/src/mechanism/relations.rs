@@ -18,7 +18,7 @@ pub(crate) struct Relation {
     pub(crate) pad: Option<Pad>,
     /// Its number within the formula.
     pub(crate) number: usize,
-    /// What is known of it.
+    /// Its dependence on time and rates, and whether its value jumps.
     pub(crate) kind: RelationKind,
 }
 
@@ -44,7 +44,7 @@ impl Pieces {
         &self.list[self.first[formula.index()]..self.first[formula.index() + 1]]
     }
 
-    /// That of a relation, in the order of [`Mechanism::relations`].
+    /// Returns the piece of a relation, in the order of [`Mechanism::relations`].
     pub(crate) fn piece(&self, relation: usize) -> Piece {
         self.list[relation]
     }

@@ -19,7 +19,7 @@ pub(crate) struct BareNumber {
     pub(crate) is_all: bool,
 }
 
-/// What follows from the parameters: where each is used.
+/// Uses of the parameters: in which formulas each stands.
 struct Uses {
     /// The parameter that a formula is the value of.
     parameter: Vec<Option<usize>>,

@@ -1,5 +1,5 @@
-//! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
-//! relations between values, and how its parts are connected.
+//! Checks of a model that need no motion: circles of parameters, dimensions, ranges of values, relations
+//! between values, and how its parts are connected.
 
 use super::{
     Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, NamedPoint, Slider, SliderKind,
@@ -443,7 +443,7 @@ impl Model {
         }
     }
 
-    /// What is wrong with a kinetic and a static value of friction, if the static one is the smaller one.
+    /// Returns a fault if the static value of friction is smaller than the kinetic one.
     pub(crate) fn static_below_kinetic(
         &self,
         name: &str,

@@ -21,9 +21,10 @@ use std::collections::BTreeSet;
 /// How the mode problem depends on a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Dependence {
-    /// That of its numbers.
+    /// Degree of its numbers.
     pub(crate) problem: Degree,
-    /// That of what only has to be allowed: static friction above kinetic, travel, stiffness of guides, pads.
+    /// Degree of the values that only have to be allowed: static friction above kinetic, travel, stiffness of
+    /// guides, pads.
     pub(crate) conditions: Degree,
     /// Whether static friction, which counts at rest alone, depends on it.
     pub(crate) at_rest: bool,
@@ -128,7 +129,8 @@ impl Places<'_> {
         self.greatest(ids.collect::<Vec<_>>())
     }
 
-    /// What redundant contacts are made like: their compliance is the inverse of their stiffness.
+    /// Returns the degree of the play, misalignment and compliance of redundant contacts; the compliance is
+    /// the inverse of the stiffness.
     fn fits(&mut self) -> Degree {
         let contacts = || self.model.contacts();
         let fits = contacts().flat_map(|contact| contact.play.into_iter().chain(contact.misalignment));

@@ -37,7 +37,7 @@ impl Origin {
     }
 }
 
-/// What has to be of a quantity that is [`Allowed::Positive`].
+/// Condition of a quantity that is [`Allowed::Positive`], in words.
 pub(crate) const POSITIVE: &str = "greater than zero";
 
 /// Which values a quantity may have.
@@ -65,7 +65,7 @@ pub enum Varies {
 /// A number or an expression of the model.
 #[derive(Debug, Clone)]
 pub struct Formula {
-    /// What it computes.
+    /// Expression that gives its value.
     pub expression: Expression,
     /// The ends of the range of which the expression is the middle; only parameters have one.
     pub range: Option<Box<[Expression; 2]>>,
@@ -77,7 +77,7 @@ pub struct Formula {
     pub allowed: Allowed,
     /// Whether it could not be read, or uses a parameter that could not; only while a model is read.
     pub(super) broken: bool,
-    /// What it is, in the words of the messages: "the mass of bar".
+    /// Name of the quantity in messages: "the mass of bar".
     pub what: std::sync::Arc<str>,
     /// Where it stands.
     pub origin: Origin,
@@ -185,8 +185,8 @@ impl Formula {
     }
 }
 
-/// Where the text of a quantity begins in the file, if it can be told: behind one quotation mark, and only if
-/// no escape sequence or line end shifts it.
+/// Returns where the text of a quantity begins in the file: behind one quotation mark. Returns `None` if it
+/// is no text, or an escape sequence or line end shifts it.
 pub(super) fn expression_start(quantity: &Quantity, source: &str) -> Option<usize> {
     let Value::Text(text) = &quantity.written else { return None };
     let start = quantity.span.start + 1;

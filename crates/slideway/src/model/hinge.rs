@@ -16,7 +16,7 @@ pub struct Hinge {
 /// Friction of a hinge.
 #[derive(Debug, Clone, Copy)]
 pub enum HingeFriction {
-    /// That of a pin.
+    /// Friction of a pin.
     Pin {
         /// Kinetic and static friction coefficient.
         mu: [FormulaId; 2],

@@ -106,13 +106,13 @@ pub struct Model {
     pub drives: Vec<Drive>,
     /// The chosen coordinates, in the order of the file.
     pub coordinates: Vec<Coordinate>,
-    /// What a motion is watched for, in the order of the file.
+    /// Events for which a motion is watched, in the order of the file.
     pub events: Vec<EventDefinition>,
     /// Every formula of the model.
     pub formulas: Arc<Vec<Formula>>,
     /// The units in which its numbers are shown.
     pub units: Units,
-    /// What was perhaps not meant in the settings that were applied.
+    /// Doubts about settings that were applied, but perhaps not meant so.
     pub(crate) doubts: Vec<Fault>,
     /// The parameters in an order in which each uses only those before it.
     evaluation_order: Vec<usize>,
@@ -149,7 +149,7 @@ pub struct Body {
     pub name: Arc<str>,
     /// Its entry in the file.
     pub place: Place,
-    /// What inertia it has.
+    /// Its inertia, or that it is massless.
     pub inertia: Inertia,
     /// Its named points.
     pub points: Vec<NamedPoint>,
@@ -177,12 +177,12 @@ pub enum Inertia {
         mass: FormulaId,
         /// Centre of mass in the drawing; nothing means the middle of the bar.
         centre_of_mass: Option<[FormulaId; 2]>,
-        /// What gives its moment of inertia.
+        /// Source of its moment of inertia.
         moment: Moment,
     },
 }
 
-/// What gives a moment of inertia about the centre of mass.
+/// Source of a moment of inertia about the centre of mass.
 #[derive(Debug, Clone)]
 pub enum Moment {
     /// The number itself (kg m^2).
@@ -198,7 +198,7 @@ pub enum Moment {
 /// A point of a body, by its place in the drawing.
 #[derive(Debug, Clone)]
 pub struct Attachment {
-    /// What it moves with.
+    /// Frame with which it moves.
     pub frame: Frame,
     /// The point's name.
     pub name: Arc<str>,
@@ -213,7 +213,7 @@ pub struct Joint {
     pub name: Arc<str>,
     /// Its entry in the file.
     pub place: Place,
-    /// What it is.
+    /// Kind of joint, with its data.
     pub kind: JointKind,
 }
 
@@ -277,11 +277,11 @@ pub enum Along {
 /// A contact with friction.
 #[derive(Debug, Clone)]
 pub struct Contact {
-    /// "joint" or, for the ends of a block slider, "joint.front" and "joint.rear".
+    /// Name: "joint"; for a block "joint.front", "joint.rear", or "joint." and the name of a support.
     pub name: Arc<str>,
     /// Its place from the middle of the block; nothing means an end of a block, or its middle for other sliders.
     pub offset: Option<FormulaId>,
-    /// What it travels with.
+    /// Part with which it travels: block or guide.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
     pub mu: [FormulaId; 2],
@@ -327,7 +327,7 @@ pub struct Load {
     pub name: Arc<str>,
     /// Its entry in the file.
     pub place: Place,
-    /// What it is.
+    /// Kind of load, with its data.
     pub kind: LoadKind,
 }
 
@@ -342,7 +342,7 @@ pub enum LoadKind {
         force: ForceValue,
         /// In which frame its direction is fixed.
         frame: ForceFrame,
-        /// What the opposite force acts on.
+        /// Frame on which the opposite force acts, if it acts on one.
         reaction: Option<Frame>,
     },
     /// A torque on a body.
@@ -351,7 +351,7 @@ pub enum LoadKind {
         body: Frame,
         /// Its moment.
         moment: FormulaId,
-        /// What the opposite torque acts on.
+        /// Frame on which the opposite torque acts, if it acts on one.
         reaction: Option<Frame>,
     },
     /// A spring between two points.
@@ -423,14 +423,14 @@ pub enum Effort {
         direction: Along,
         /// In which frame the direction is fixed.
         frame: ForceFrame,
-        /// What the opposite force acts on.
+        /// Frame on which the opposite force acts, if it acts on one.
         reaction: Option<Frame>,
     },
     /// A torque.
     Torque {
         /// The body on which it acts.
         body: Frame,
-        /// What the opposite torque acts on.
+        /// Frame on which the opposite torque acts, if it acts on one.
         reaction: Option<Frame>,
     },
 }
@@ -442,7 +442,7 @@ pub struct Coordinate {
     pub name: Arc<str>,
     /// Its entry in the file.
     pub place: Place,
-    /// What it measures.
+    /// Motion that it measures.
     pub kind: CoordinateKind,
     /// Its value in the drawing; nothing means zero.
     pub drawn_at: Option<FormulaId>,
@@ -452,7 +452,7 @@ pub struct Coordinate {
     pub rate: Option<FormulaId>,
 }
 
-/// What a coordinate measures.
+/// Motion that a coordinate measures.
 #[derive(Debug, Clone)]
 pub enum CoordinateKind {
     /// Displacement of a sliding joint.
@@ -461,7 +461,7 @@ pub enum CoordinateKind {
     Rotation {
         /// The body.
         body: BodyId,
-        /// What it is counted against.
+        /// Frame against which the rotation is counted.
         relative_to: Frame,
     },
     /// Displacement of a point in the direction of x.

@@ -26,7 +26,7 @@ pub struct OutlineCorner<P> {
 }
 
 impl<P> OutlineCorner<P> {
-    /// The same corner with its places in another form.
+    /// Returns the corner with its places in another form.
     pub(crate) fn map<Q>(&self, place: impl Fn(&P) -> Q) -> OutlineCorner<Q> {
         OutlineCorner { at: place(&self.at), arc_through: self.arc_through.as_ref().map(place) }
     }
@@ -59,7 +59,7 @@ pub(crate) fn moments(outline: &[OutlineCorner<Vector2<f64>>]) -> (f64, Vector2<
     (area, first, polar)
 }
 
-/// What leads from one corner to the next.
+/// Line or arc from one corner to the next.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     from: Vector2<f64>,

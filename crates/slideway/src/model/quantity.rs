@@ -100,7 +100,7 @@ pub(super) enum Direction {
 /// A value for both sides of contact, or one for each.
 #[derive(Debug, Clone)]
 pub(super) enum PerSide {
-    /// The same on both sides.
+    /// One value for both sides.
     Both(Quantity),
     /// One for each sign of the normal force.
     Each(Box<Sides>),
@@ -129,7 +129,7 @@ pub(super) enum Gravity {
 /// the places of the parts, which serde's untagged enums lose.
 struct EitherVisitor<T>(std::marker::PhantomData<T>);
 
-/// What a value of several written forms makes of each of them.
+/// Conversion of a value from each of its written forms.
 trait Either<'de>: Sized {
     const EXPECTED: &'static str;
     fn from_quantity(quantity: Quantity) -> Option<Self>;

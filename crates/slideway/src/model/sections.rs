@@ -182,7 +182,8 @@ impl SectionReader<'_, '_> {
         entries
     }
 
-    /// What the schema let through but the types refuse, such as an integer beyond 64 bits.
+    /// Records what the schema let through but the types refuse, such as an integer beyond 64 bits. Returns
+    /// `None` for it.
     fn keep<T>(&mut self, result: Result<T, toml::de::Error>) -> Option<T> {
         result
             .map_err(|error| {

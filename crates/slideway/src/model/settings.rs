@@ -1,4 +1,4 @@
-//! What a command changes in a model before it is solved: parameters, coordinate values and rates.
+//! Changes of a model before it is solved, made by a command: parameters, coordinate values and rates.
 
 use super::formula::{Allowed, Formula, Origin, Varies};
 use super::range::{Parsed, parse_value};
@@ -23,7 +23,7 @@ pub struct Settings {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Setting {
-    /// What is changed.
+    /// Kind of quantity that is changed.
     pub kind: SettingKind,
     /// Name of the parameter or coordinate.
     pub name: String,
@@ -43,7 +43,7 @@ impl Setting {
     }
 }
 
-/// What a setting changes.
+/// Kind of quantity that a setting changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

@@ -1,8 +1,8 @@
-//! What stops a block at an end of its travel.
+//! Stops of a block at the ends of its travel.
 
 use serde::Serialize;
 
-/// What stops a block at an end of its travel: by numbers (`T` is `f64` or an interval), or by formulas.
+/// Stop of a block at an end of its travel: by numbers (`T` is `f64` or an interval), or by formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Stop<T = f64> {
@@ -21,7 +21,7 @@ pub enum Stop<T = f64> {
 }
 
 impl<T: Copy> Stop<T> {
-    /// The same with other numbers.
+    /// Returns the stop with other numbers.
     pub(crate) fn map<U>(self, value: impl Fn(T) -> U) -> Stop<U> {
         match self {
             Self::Impact { restitution } => Stop::Impact { restitution: value(restitution) },

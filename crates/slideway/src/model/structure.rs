@@ -32,7 +32,7 @@ struct Mend {
     with: StandIn,
 }
 
-/// What takes the place of a value.
+/// Stand-in that takes the place of a value.
 #[derive(Clone, Copy)]
 enum StandIn {
     Text,
@@ -188,7 +188,7 @@ impl<'s> StructureCheck<'s> {
         lacking
     }
 
-    /// What can take the place of a value of this schema.
+    /// Returns the stand-in for a value of this schema.
     fn stand_in(&self, schema: &'s Schema) -> StandIn {
         let schema = self.resolve(schema);
         if schema.get("enum").is_some() {

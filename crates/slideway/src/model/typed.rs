@@ -6,8 +6,9 @@ use crate::fault::Doubt;
 use crate::units::{TypedUnits, Unit};
 
 impl Model {
-    /// The units behind the numbers of the file and, as SI units, its bare numbers where the dimension is that
-    /// of the place. Zero has no unit, and angles are told from other pure numbers only by theirs.
+    /// Returns the units behind the numbers of the file and, as SI units, its bare numbers where the
+    /// dimension is that of the place. Zero has no unit, and only their unit distinguishes angles from other
+    /// pure numbers.
     pub(super) fn typed_units(&self, text: &str) -> TypedUnits {
         let names = self.names();
         let mut formulas: Vec<&Formula> =

@@ -16,7 +16,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// What is a plain number, without unit or expression.
+    /// Returns the number if it is a plain one, without unit or expression.
     pub(crate) fn plain_number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),

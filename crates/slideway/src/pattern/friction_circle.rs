@@ -12,8 +12,7 @@
 //! friction in hinges, section 7). The difference is of second order in `d`.
 
 use super::program::{End, NOTHING, Region};
-use super::simplex::Unsolved;
-use super::{Affine, Extent};
+use super::{Affine, Extent, Unsolved};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::FRAC_PI_4;

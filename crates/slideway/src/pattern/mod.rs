@@ -29,7 +29,10 @@ pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipp
 pub(crate) use friction_circle::{Pin, direction};
 pub(crate) use phase::{ContactPhase, HingePhase, JointPhase, Phase};
 pub(crate) use program::{NOTHING, Region};
-pub(crate) use simplex::Unsolved;
+
+/// The solver gave up, its answer contradicts what is known, or the work is to end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Unsolved;
 
 /// Least and greatest value; nothing where there is none.
 pub(crate) type Extent = [Option<f64>; 2];

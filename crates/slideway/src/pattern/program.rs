@@ -1,8 +1,8 @@
 //! A region of points within linear inequalities, and the linear programs that ask for its extent.
 
 use super::friction_circle::{Pin, Pinned};
-use super::simplex::{Optimum, Unsolved, least};
-use super::{Affine, Extent};
+use super::simplex::{Optimum, least};
+use super::{Affine, Extent, Unsolved};
 use crate::progress::Work;
 use nalgebra::Vector3;
 

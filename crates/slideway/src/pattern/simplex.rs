@@ -8,7 +8,7 @@
 //! unknowns; unknowns and the other slacks are kept as functions of these. So the table has as many columns
 //! as unknowns, however many slacks there are.
 
-use super::Affine;
+use super::{Affine, Unsolved};
 
 /// Slopes below this are rounding errors; coefficients are of order one.
 const FLAT: f64 = 1e-11;
@@ -153,10 +153,6 @@ impl<'a> Table<'a> {
         if self.slacks.iter().all(holds) { Ok(point) } else { Err(Unsolved) }
     }
 }
-
-/// The solver gave up, its answer contradicts what is known, or the work is to end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Unsolved;
 
 #[cfg(test)]
 mod tests {

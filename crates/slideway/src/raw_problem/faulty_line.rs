@@ -1,10 +1,10 @@
-//! What is wrong with one of many problems.
+//! Faults of one of many problems.
 
 use super::{RawFaults, SCHEMA};
 use crate::report::{Report, Style};
 use serde::Serialize;
 
-/// What is told in place of the answer to a problem in a line that cannot be understood.
+/// Report in place of the answer to a problem in a line that cannot be understood.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct FaultyLine {
@@ -17,7 +17,7 @@ pub struct FaultyLine {
 }
 
 impl FaultyLine {
-    /// What is wrong with a line.
+    /// Builds the report on the faults of a line, each with its hint.
     pub fn new(line: u64, faults: &RawFaults) -> Self {
         let with_hint = |fault: &super::RawFault| match fault.hint() {
             Some(hint) => format!("{fault}; {hint}"),

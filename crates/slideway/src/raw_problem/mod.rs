@@ -1,4 +1,4 @@
-//! Problems given as matrices, told as text and JSON: see [`slideway_modes::raw_problem`].
+//! Problems given as matrices, with answers as text and JSON: see [`slideway_modes::raw_problem`].
 
 mod faulty_line;
 mod line;

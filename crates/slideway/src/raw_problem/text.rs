@@ -8,11 +8,11 @@ use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::{Proof, Report, Status, Style, count};
 
-/// Groups that are told one by one.
+/// Greatest number of groups that are listed one by one.
 const GROUPS: usize = 8;
-/// Parts of a continuum that are told one by one.
+/// Greatest number of parts of a continuum that are listed one by one.
 const PARTS: usize = 8;
-/// Signs that are told in one line.
+/// Greatest number of signs that are listed in one line.
 const SIGNS: usize = 64;
 
 impl Report for RawReport {
@@ -388,7 +388,7 @@ fn shape(part: &ContinuumPart) -> String {
     }
 }
 
-/// A value as text; of an unknown, by name and number, that has none as it is told beside.
+/// Returns a value as text, or that of `beyond_range` if the unknown of this name and index is there.
 fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
     let is_it = |one: &&BeyondRange| one.name.as_str() == name && one.index == index;
     match beyond_range.iter().find(is_it) {

@@ -134,7 +134,7 @@ pub struct SolveReport {
     /// Between which values the forces and the motion of these lie; absent if there are none, and where it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undetermined: Option<Undetermined>,
-    /// Modes on the boundary within rounding: whether they have a solution cannot be told.
+    /// Modes on the boundary within rounding: whether they have a solution cannot be decided.
     pub undecided_modes: Vec<UndecidedMode>,
     /// Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern
     /// was tried.

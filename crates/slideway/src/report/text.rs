@@ -58,8 +58,8 @@ impl SolveReport {
         std::iter::once(proven).chain(open).collect()
     }
 
-    /// That friction exceeds the loads, and how to ask whether it jams; none where no solution slows
-    /// down although the loads push it.
+    /// Returns the remark that friction exceeds the loads, with how to ask whether it jams. Returns `None` if
+    /// no solution slows down although the loads push it.
     pub fn remark(&self) -> Option<String> {
         self.solutions.iter().any(slows_though_pushed).then(|| FRICTION_EXCEEDS_LOADS.to_owned())
     }

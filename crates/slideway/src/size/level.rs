@@ -10,7 +10,7 @@ use crate::modes::existence::TooManyModes;
 use crate::progress::Work;
 use crate::report::{Continuum, DrivenMotion, Solution, SolveReport};
 
-/// What counts of a solution: efforts of the drives, normal forces of the contacts.
+/// Forces of a solution that count: efforts of the drives, normal forces of the contacts.
 struct Forces {
     efforts: Vec<f64>,
     normal_forces: Vec<f64>,

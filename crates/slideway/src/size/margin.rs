@@ -25,7 +25,7 @@ pub(super) enum Margin {
     Finite(f64),
     /// No friction reaches the limit.
     Infinite,
-    /// What has to keep the limit is without bound in infinitely many solutions.
+    /// The quantity that has to keep the limit is without bound in infinitely many solutions.
     Unbounded,
 }
 
@@ -66,13 +66,13 @@ impl Margin {
     }
 }
 
-/// What is varied, and which margin is asked for.
+/// Varied quantity, and which margin is asked for.
 pub(super) struct MarginQuestion<'v> {
     pub(super) varied: &'v Varied,
-    /// The same with all rates reversed, if both directions count.
+    /// The varied quantity with all rates reversed, if both directions count.
     pub(super) reversed: Option<&'v Varied>,
     pub(super) against: &'v Against,
-    /// What an effort, normal force, bearing pressure or efficiency has to keep.
+    /// Limit that an effort, normal force, bearing pressure or efficiency has to keep.
     pub(super) limit: f64,
 }
 
@@ -101,7 +101,7 @@ impl MarginQuestion<'_> {
         }
     }
 
-    /// What tips at a value, if there is no solution for that reason.
+    /// Returns the guided sliders that tip at a value, if there is no solution for that reason.
     pub(super) fn tipping(&self, value: f64, work: Work<'_>) -> Option<Tipping> {
         let is_asked = self.varied.model().has_guided_sliders()
             && !matches!(self.against, Against::SelfLocking { .. } | Against::Hold { .. });

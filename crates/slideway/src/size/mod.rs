@@ -50,7 +50,7 @@ use search::MarginSearch;
 
 /// Steps of the evenly spaced values against locking.
 const STEPS: usize = 500;
-/// The same at rest, where each value takes linear programs.
+/// Steps of the evenly spaced values at rest, where each value takes linear programs.
 const STEPS_AT_REST: usize = 100;
 
 /// Against what there is to be a margin.
@@ -152,13 +152,13 @@ impl Against {
     }
 }
 
-/// What is to be sized.
+/// Options of a design: the quantity to be sized, and the wanted margin.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SizeOptions {
-    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to
-    /// twice its value, but at least to 1, a parameter that was typed as an angle the quarter turn in which it
-    /// stands, any other parameter that is not zero from a fifth of its value to five times it.
+    /// Quantity that is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction
+    /// from 0 to twice its value, but at least to 1, a parameter that was typed as an angle the quarter turn
+    /// in which it stands, any other parameter that is not zero from a fifth of its value to five times it.
     pub vary: Vary,
     /// The wanted margin, positive: a factor of friction. Against an effort, normal force or bearing pressure
     /// the greatest that is allowed (N, N m or Pa), against the efficiency the least.

@@ -1,4 +1,4 @@
-//! What is told of a design: plain data, which are the JSON output.
+//! Report on a design: plain data, which are the JSON output.
 
 use super::margin::Margin;
 use crate::limits::VariedQuantity;
@@ -40,7 +40,7 @@ impl MarginKind {
         matches!(self, Self::Effort | Self::NormalForce | Self::Pressure)
     }
 
-    /// What there is where nothing can be told.
+    /// Returns the words for [`SampleKind::NoSolution`].
     pub(super) fn nothing(self) -> &'static str {
         match self {
             Self::Efficiency => "no solution, or friction takes all",
@@ -48,7 +48,8 @@ impl MarginKind {
         }
     }
 
-    /// What a margin of the search stands for, which is how many times a limit is kept.
+    /// Converts a margin of the search, which is how many times a limit is kept, into the number that is
+    /// reported.
     pub(super) fn told(self, margin: Margin, limit: f64) -> (SampleKind, Option<f64>) {
         match (self, margin) {
             (kind, Margin::Infinite) if kind.is_greatest() => (SampleKind::Finite, Some(0.0)),
@@ -70,7 +71,7 @@ pub struct SizeReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
-    /// What is varied.
+    /// Varied quantity, with its range.
     pub vary: VariedQuantity,
     /// The coordinates for which it holds, but for one that is varied; at rest their rates are taken as zero.
     pub state: Vec<CoordinateState>,
@@ -94,7 +95,7 @@ pub struct SizeReport {
     pub both_directions: bool,
     /// The margin in the model.
     pub present: Sample,
-    /// What tips in the model, if there is no solution for that reason; absent otherwise.
+    /// Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<Tipping>,
     /// The intervals in which the wanted margin is met, in ascending order.
@@ -107,11 +108,11 @@ pub struct SizeReport {
     /// The margin at all values that were tried, in ascending order; for plots, not in the JSON output.
     #[serde(skip)]
     pub tried: Vec<Sample>,
-    /// What the search can miss, in words.
+    /// Account, in words, of what the search can miss.
     pub guarantee: String,
     /// Two steps of what was tried: narrower ranges could be missed (unit of what is varied).
     pub narrowest: f64,
-    /// What it comes to, in words.
+    /// Sentences that sum up the answer.
     pub conclusion: Vec<String>,
 }
 
@@ -129,7 +130,7 @@ pub struct MetInterval {
     pub to_is: MetEnd,
     /// The margin outside of the beginning where it jumps; null where it is infinite, or does not jump.
     pub from_jumps_to: Option<f64>,
-    /// The same at the end.
+    /// The margin outside of the end where it jumps, likewise.
     pub to_jumps_to: Option<f64>,
 }
 
@@ -149,7 +150,7 @@ pub enum MetEnd {
     NoPosition,
 }
 
-/// What a sample says.
+/// Kind of sample: whether its margin is a number, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SampleKind {
@@ -157,8 +158,8 @@ pub enum SampleKind {
     Finite,
     /// No friction reaches the limit.
     Infinite,
-    /// There is no solution, of which an effort, normal force, bearing pressure or efficiency could be told, or none has
-    /// any efficiency: friction takes all that the load would give.
+    /// There is no solution with an effort, normal force, bearing pressure or efficiency, or none has any
+    /// efficiency: friction takes all that the load would give.
     NoSolution,
     /// There are infinitely many solutions, in which an effort, normal force or bearing pressure is without bound, or an
     /// efficiency as small as can be.
@@ -173,7 +174,7 @@ pub enum SampleKind {
 pub struct Sample {
     /// The value.
     pub at: f64,
-    /// What is known there.
+    /// Whether the margin is a number there, and if not, why.
     pub is: SampleKind,
     /// The margin; null unless it is a number.
     pub margin: Option<f64>,

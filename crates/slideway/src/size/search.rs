@@ -48,7 +48,7 @@ pub(super) struct SizeGap {
     pub(super) faults: Faults,
 }
 
-/// What a search finds.
+/// Values at which a search finds the margin met, and the margin at those it tried.
 pub(super) struct SizesFound {
     /// The margin at evenly spaced values, and where dips and humps made more necessary.
     pub(super) places: Vec<Tried>,

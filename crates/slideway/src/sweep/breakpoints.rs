@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 /// Ends that are nearer to each other than this part of the range are one.
 const SAME: f64 = 1e-12;
-/// A fold is entered by this part of the range, so that both solutions, which differ by its square root, exist and are told
-/// apart.
+/// Part of the range by which a fold is entered: both solutions, which differ by its square root, exist there
+/// and are distinguished.
 const INSIDE: f64 = 1e-10;
 
 /// A point at which a mode begins or ends.

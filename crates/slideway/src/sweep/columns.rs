@@ -17,18 +17,18 @@ pub struct Column {
     pub unit: &'static str,
 }
 
-/// What of the unknowns is told besides normal forces, friction and shares.
+/// Output of a row besides normal forces, friction and shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Output {
     /// Acceleration of a chosen coordinate.
     Coordinate(usize),
     /// One of the unknowns, with a sign.
     Unknown(usize, f64),
-    /// What is no unknown: the friction couple of a hinge, a number within a mode.
+    /// A number that is no unknown: the friction couple of a hinge, a number within a mode.
     Other,
 }
 
-/// What is told of a hinge with friction: three outputs, its force and its friction couple.
+/// Columns of a hinge with friction: three outputs, its force and its friction couple.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HingeColumns {
     pub(super) joint: JointId,

@@ -190,8 +190,8 @@ fn write(
     Ok(Writer { plan, mechanism, stages, guides, hinges: &[] }.write(states, point, rows))
 }
 
-/// The same with friction in hinges; also nothing, and `false`, where a careful answer is needed, or attainability is
-/// asked for.
+/// Adds the rows of a point with friction in hinges. Adds nothing and returns `false` as `write` does, and
+/// also where a careful answer is needed, or attainability is asked for.
 fn write_with_hinges(
     plan: &Plan,
     mechanism: &Mechanism,

@@ -16,7 +16,7 @@ pub(super) struct Friction {
 }
 
 impl Friction {
-    /// That of every contact.
+    /// Returns the friction of every contact.
     pub(super) fn of(mechanism: &Mechanism) -> Vec<Self> {
         let contacts = mechanism.contacts.iter();
         contacts.map(|contact| Self { mu: contact.mu, preload: contact.preload }).collect()

@@ -1,4 +1,4 @@
-//! What a sweep over one quantity varies, for plots.
+//! Quantity and range of a sweep over one quantity, for plots.
 
 use super::{Sweep, Values};
 use crate::limits::Varied;
@@ -21,9 +21,9 @@ pub struct Line {
 }
 
 impl Sweep {
-    /// What a sweep over one quantity varies. None with samples, several quantities, a single value, or
-    /// values in another order than the ascending one: what lies between two points is then not the line
-    /// between them.
+    /// Returns the quantity and the range of a sweep over one quantity. Returns `None` with samples, several
+    /// quantities, a single value, or values in another order than the ascending one: what lies between two
+    /// points is then not the line between them.
     pub fn line(&self) -> Option<Line> {
         let ([axis], None) = (&self.axes[..], self.samples) else { return None };
         let range = match &axis.values {

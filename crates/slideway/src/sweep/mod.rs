@@ -91,7 +91,7 @@ use std::ops::{ControlFlow, Range};
 const CHUNKS: [u64; 2] = [128, 1];
 /// Chunks of which each thread may hold the rows at a time.
 const CHUNKS_PER_THREAD: usize = 4;
-/// Less of a distribution than this is not worth telling.
+/// Truncated probability mass below this is not reported.
 const NEGLIGIBLE: f64 = 1e-9;
 /// The most points of a sweep.
 const MOST_POINTS: u64 = 1_000_000_000_000;
@@ -114,7 +114,7 @@ pub struct SweepState {
     /// Points that are done.
     pub done: u64,
     branches: Branches,
-    /// What they come to.
+    /// Tally of these points.
     pub tally: Tally,
 }
 
@@ -281,7 +281,7 @@ impl Sweep {
         }
     }
 
-    /// What the whole sweep comes to.
+    /// Computes the tally of the whole sweep.
     pub fn tally(&self) -> Tally {
         let mut state = self.start();
         self.run(&mut state, &|_| (), &mut |_, _| ControlFlow::Continue(()));

@@ -1,4 +1,4 @@
-//! What to sweep over: the axes of a grid, or quantities with their distributions.
+//! Points of a sweep: the axes of a grid, or quantities with their distributions.
 
 use super::Sampling;
 use crate::expression::{TO, ends_of_range};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// What to sweep over.
+/// Options of a sweep: its points, and what is computed at each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SweepOptions {
@@ -18,7 +18,7 @@ pub struct SweepOptions {
     pub breakpoints: bool,
     /// Whether the attainability of each solution is examined.
     pub attainability: bool,
-    /// Whether accelerations of bodies and hinge forces are told, too.
+    /// Whether accelerations of bodies and hinge forces have columns, too.
     pub all_columns: bool,
 }
 
@@ -54,7 +54,7 @@ impl SweepOptions {
         self
     }
 
-    /// Whether accelerations of bodies and hinge forces are told, too.
+    /// Whether accelerations of bodies and hinge forces have columns, too.
     #[must_use]
     pub fn all_columns(mut self, all: bool) -> Self {
         self.all_columns = all;
@@ -298,10 +298,10 @@ fn sampled_values(text: &str) -> Result<SampledValues, AxisProblem> {
 const NORMAL: &str = "normal";
 const LOGNORMAL: &str = "lognormal";
 const UNIFORM: &str = "uniform";
-/// What the second number of a lognormal distribution is.
+/// Name of the second number of a lognormal distribution.
 pub(super) const LOGARITHM: &str = "the standard deviation of the logarithm";
 
-/// What is wrong with an axis.
+/// Returns the fault of the axis that was written as `text`.
 pub(super) fn fault(text: &str, problem: AxisProblem) -> Faults {
     let kind = FaultKind::Axis { text: text.to_owned(), problem };
     Fault::of_argument(kind, text, 0..text.len()).into()

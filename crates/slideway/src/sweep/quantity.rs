@@ -1,10 +1,10 @@
-//! What is varied: parameters, coordinates, rates, the time, all friction together.
+//! Varied quantities: parameters, coordinates, rates, the time, all friction together.
 
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::limits::FRICTION;
 use crate::model::{Model, Setting, SettingKind, Settings, Value};
 
-/// What follows the name of a coordinate whose rate is meant.
+/// Suffix of the name of a coordinate whose rate is meant.
 const RATE: &str = ".rate";
 
 /// The units that columns of parameters may have.
@@ -27,7 +27,7 @@ const UNITS: [&str; 14] = [
 /// The name of the time of the state.
 pub(super) const TIME: &str = "time";
 
-/// What a varied quantity is.
+/// Kind of varied quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A parameter, by its number.

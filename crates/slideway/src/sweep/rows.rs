@@ -88,11 +88,11 @@ worded! {
 pub struct RowHead {
     /// Number of the point, from 0, inserted ones included.
     pub point: u64,
-    /// What is exact about the point.
+    /// Reason for which a mode begins or ends exactly at the point, if one does.
     pub breakpoint: Breakpoint,
     /// Whether the point was inserted, because it is none of the sweep's own.
     pub inserted: bool,
-    /// What became of the point.
+    /// Outcome at the point.
     pub status: PointStatus,
     /// Number of its solutions.
     pub solutions: u32,
@@ -100,7 +100,7 @@ pub struct RowHead {
     pub gap_states: u32,
     /// Number of solutions that a guided slider rejects because it would tip.
     pub rejected: u32,
-    /// What the row tells of.
+    /// Kind of state in the row.
     pub kind: RowKind,
     /// Number of the branch, from 1; 0 if there is none.
     pub branch: u32,
@@ -122,7 +122,7 @@ impl RowHead {
 pub struct Refusal {
     /// Its number.
     pub point: u64,
-    /// What stands in the way, by its kind ...
+    /// Obstacle, by its kind ...
     pub status: PointStatus,
     /// ... and in words.
     pub reason: String,

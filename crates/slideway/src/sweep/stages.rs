@@ -28,11 +28,11 @@ pub(super) struct Stages {
     pub(super) eta_preload: [Square; 2],
     /// Outputs without friction.
     pub(super) frictionless: Vec<f64>,
-    /// What a unit friction adds to the outputs: contact by contact, for both faces.
+    /// Contribution of a unit friction to the outputs: contact by contact, for both faces.
     pub(super) influences: Vec<[Vec<f64>; 2]>,
-    /// What a unit friction couple of each friction circle adds to the outputs.
+    /// Contribution of a unit friction couple of each friction circle to the outputs.
     pub(super) couples: Vec<Vec<f64>>,
-    /// What a unit normal force of each cut contact of redundant guides adds to the outputs.
+    /// Contribution of a unit normal force of each cut contact of redundant guides to the outputs.
     pub(super) self_stresses: Vec<Vec<f64>>,
     /// The greatest applied force (N).
     pub(super) greatest_load: f64,

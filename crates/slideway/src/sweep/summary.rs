@@ -1,4 +1,4 @@
-//! What a sweep comes to.
+//! Tally of a sweep, and the probabilities that follow from it.
 
 use super::rows::{PointStatus, Refusal, RowKind, Rows};
 use serde::{Deserialize, Serialize};

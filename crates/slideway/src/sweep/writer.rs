@@ -12,7 +12,7 @@ use crate::modes::ContactState;
 use crate::modes::screen::SmallState;
 use crate::report::Verdict;
 
-/// What the rows of a point are made of.
+/// Data from which the rows of a point are written.
 pub(super) struct Writer<'w> {
     pub(super) plan: &'w Plan,
     /// With the friction of the point.
@@ -73,8 +73,8 @@ impl Writer<'_> {
         true
     }
 
-    /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told, or a number
-    /// overflows.
+    /// Writes the row of a state unless a guided slider rejects it. Returns `None` if that cannot be decided,
+    /// or a number overflows.
     fn row(
         &self,
         (state, hinges): (&SmallState, &[HingeState]),

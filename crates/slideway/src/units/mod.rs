@@ -127,8 +127,8 @@ impl Units {
         Self { system, typed: Arc::new(typed), suited: Vec::new() }
     }
 
-    /// The same for a report in which these values stand, each with its SI unit: of each kind the greatest
-    /// decides whether they read well in the unit that was typed.
+    /// Suits the units to a report in which these values stand, each with its SI unit: of each kind the
+    /// greatest decides whether they read well in the unit that was typed.
     #[must_use]
     pub(crate) fn suited_to(mut self, values: impl IntoIterator<Item = (&'static str, f64)>) -> Self {
         let mut greatest: BTreeMap<&str, f64> = BTreeMap::new();
@@ -140,8 +140,9 @@ impl Units {
         self
     }
 
-    /// The same for a picture that shows these values of one kind: in the unit in which most of them read well, of the
-    /// present one, the others that were typed and, if it is smaller, the SI unit; of as many in the first of these.
+    /// Suits the units to a picture that shows these values of one kind: takes the unit in which most of them
+    /// read well, of the present one, the others that were typed and, if it is smaller, the SI unit; of as
+    /// many the first of these.
     #[must_use]
     pub fn suited_to_most(mut self, si: &str, values: &[f64]) -> Self {
         let present = self.of(si);
@@ -157,13 +158,13 @@ impl Units {
         self
     }
 
-    /// The same in another system.
+    /// Returns the units in another system.
     #[must_use]
     pub fn in_system(&self, system: UnitSystem) -> Self {
         Self { system, ..self.clone() }
     }
 
-    /// The same, with a parameter typed anew.
+    /// Returns the units with a parameter typed anew.
     #[must_use]
     pub(crate) fn with_parameter(mut self, name: &str, unit: Unit) -> Self {
         Arc::make_mut(&mut self.typed).parameter(name, unit);

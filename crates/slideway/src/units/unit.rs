@@ -13,7 +13,7 @@ pub struct Unit {
     denominator: f64,
 }
 
-/// That of a pure number.
+/// The unit of a pure number.
 impl Default for Unit {
     fn default() -> Self {
         Self::si_unit("")
@@ -115,7 +115,7 @@ impl Unit {
         against(self.number_of(value), self.number_of(scale))
     }
 
-    /// What lies between two SI values: "L from 200 to 500 mm".
+    /// Returns the range between two SI values of a quantity, in words: "L from 200 to 500 mm".
     pub(crate) fn range(&self, what: &str, [from, to]: [f64; 2]) -> String {
         format!("{what} from {} to {}", self.precise_number(from), self.precise(to))
     }

@@ -48,9 +48,9 @@ pub struct WarningReport {
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
     pub place: Option<WarningPlace>,
-    /// What is perhaps not meant.
+    /// Message: what is perhaps not meant.
     pub message: String,
-    /// What to do about it.
+    /// Hint on what to do about it.
     pub hint: String,
 }
 

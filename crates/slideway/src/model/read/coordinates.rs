@@ -99,7 +99,7 @@ impl Reader<'_> {
         CoordinateKind::Slide(JointId(0))
     }
 
-    /// What a motion is watched for; an event without a formula that can be read is left out.
+    /// Reads the events for which a motion is watched; one without a formula that can be read is left out.
     pub(super) fn read_events(&mut self, entries: Vec<Entry<EventTable>>) -> Vec<EventDefinition> {
         let mut events = Vec::new();
         for entry in entries {

@@ -27,7 +27,7 @@ struct ReadFriction {
 }
 
 impl ReadFriction {
-    /// What is written at the end of a block wins over what is written for the joint.
+    /// Completes the properties written at the end of a block by those of the joint; the former win.
     fn or(self, joint: Self) -> Self {
         Self {
             mu: self.mu.or(joint.mu),

@@ -53,7 +53,7 @@ fn angles(sections: &Sections) -> Vec<String> {
     sections.coordinates.iter().filter(is_angle).map(|entry| entry.name.clone()).collect()
 }
 
-/// What a formula is wanted for.
+/// Demands on a formula: its name in messages, its dimension and values, and with what it may vary.
 struct Wanted {
     what: String,
     dimension: Dimension,
