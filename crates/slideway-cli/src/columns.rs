@@ -11,28 +11,16 @@ pub(crate) fn list(entries: &[(String, String)], indent: usize) -> String {
     let mut text = String::new();
     for (entry, meaning) in entries {
         let lines = wrapped(meaning, WIDTH.saturating_sub(indent + width + 2));
-        if lines.is_empty() {
-            let _ = writeln!(text, "{:indent$}{entry}", "");
-        }
         for (index, line) in lines.iter().enumerate() {
             let name = if index == 0 { entry } else { "" };
-            let _ = writeln!(text, "{:indent$}{name:width$}  {line}", "");
+            let line = format!("{:indent$}{name:width$}  {line}", "");
+            let _ = writeln!(text, "{}", line.trim_end());
         }
     }
     text
 }
 
-/// Lines of at most `width` characters, broken between words.
+/// Lines of at most `width` characters, broken between words, but not between a value and its name or unit.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
+    slideway::report::wrapped(text, "", width)
 }

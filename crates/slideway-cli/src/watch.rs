@@ -72,9 +72,8 @@ pub(crate) struct Watch {
     start: Instant,
     shown: Duration,
     limit: Option<Duration>,
-    /// The elapsed time and the fraction done at the first report with a fraction, from which the time left
-    /// is estimated.
-    first: Option<(Duration, f64)>,
+    /// When it was first asked how much had been done, when that last changed, and both times how much it was.
+    told: Option<[(Duration, f64); 2]>,
     line: ProgressLine,
     halt: Option<Halt>,
 }
@@ -93,7 +92,7 @@ impl Watch {
             let _ = ctrlc::set_handler(interrupt);
         });
         WATCHED.store(true, Ordering::Relaxed);
-        Self { start, shown: Duration::ZERO, limit, first: None, line: ProgressLine::new(), halt: None }
+        Self { start, shown: Duration::ZERO, limit, told: None, line: ProgressLine::new(), halt: None }
     }
 
     /// Starts now, as [`Self::new`], but shows no progress where the answer itself appears bit by bit on the
@@ -138,8 +137,9 @@ impl Watch {
     /// Tells of the progress, if a line is due.
     fn tell(&mut self, progress: &Progress) {
         let elapsed = self.start.elapsed();
-        if let (None, Some(fraction)) = (self.first, progress.fraction) {
-            self.first = Some((elapsed, fraction));
+        if let Some(fraction) = progress.fraction {
+            let [first, last] = self.told.unwrap_or([(elapsed, fraction); 2]);
+            self.told = Some([first, if fraction == last.1 { last } else { (elapsed, fraction) }]);
         }
         if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
             self.shown = elapsed;
@@ -178,22 +178,39 @@ impl Watch {
             let _ = write!(text, "{found} found, ");
         }
         text.push_str(&rough(elapsed.as_secs_f64()));
-        match (progress, self.first) {
-            // A search goes on by leaps.
-            (Progress { fraction: Some(fraction), found: None, .. }, Some((since, first)))
-                if *fraction > first =>
-            {
-                let rate = (fraction - first) / elapsed.saturating_sub(since).as_secs_f64();
-                let _ = write!(text, ", {} left", rough((1.0 - fraction) / rate));
-            }
-            _ => {}
+        // A search goes on by leaps.
+        let left = self.told.filter(|_| progress.found.is_none()).and_then(|told| left(told, elapsed));
+        if let Some(left) = left {
+            let _ = write!(text, ", {} left", rough(left));
         }
         text
     }
 }
 
+/// The seconds left if the rest goes on as it went until the work last changed; none where that time is over.
+fn left([first, last]: [(Duration, f64); 2], elapsed: Duration) -> Option<f64> {
+    let rate = (last.1 - first.1) / last.0.saturating_sub(first.0).as_secs_f64();
+    let left = (1.0 - last.1) / rate - elapsed.saturating_sub(last.0).as_secs_f64();
+    (rate > 0.0 && left > 0.0).then_some(left)
+}
+
 impl Drop for Watch {
     fn drop(&mut self) {
         WATCHED.store(false, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left;
+    use std::time::Duration;
+
+    /// A tenth in the first second leaves nine more, and less with every second in which nothing is done.
+    #[test]
+    fn the_time_left_never_grows_while_nothing_is_done() {
+        let told = [(Duration::ZERO, 0.0), (Duration::from_secs(1), 0.1)];
+        let at = |seconds| left(told, Duration::from_secs(seconds));
+        assert_eq!([1, 4, 9, 10].map(at), [Some(9.0), Some(6.0), Some(1.0), None]);
+        assert_eq!(left([told[0]; 2], Duration::from_secs(1)), None);
     }
 }

@@ -153,7 +153,7 @@ fn limits_of_what_makes_no_sense() {
         assert_eq!(run.code, 2, "{vary}");
         run.stderr
     };
-    let all: Vec<String> = ["mu_4", "mu_1=0.3..0.3", "alpha", "mu_1=0.3"].map(vary).into();
+    let all: Vec<String> = ["mu_4", "mu_1=0.3..0.3", "q", "mu_1=0.3"].map(vary).into();
     insta::assert_snapshot!(all.join("\n"));
 }
 

@@ -100,7 +100,7 @@ fn a_page_about_rest_is_headed_by_whether_it_holds() {
     let header = html.split("</header>").next().unwrap().split("<header>").nth(1).unwrap();
     assert!(header.contains("<strong>At rest: It holds.</strong>"), "{header}");
     assert!(header.contains(
-        "In motion it has no answer:</p>\n<p>what moves is massless, so that no acceleration can be computed"
+        "In motion it has no answer:</p>\n<p>the acceleration cannot be computed, as the moving parts have no mass"
     ));
 }
 

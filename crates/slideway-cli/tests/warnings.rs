@@ -60,7 +60,7 @@ told! {
     three_dots_in_a_setting: 2 ["solve", DRAWER, "--set", "mu=0.1...0.2"];
     unknown_quantity: 2 ["limits", DRAWER, "--vary", "nu=0..1"];
     unknown_unit_of_an_end: 2 ["limits", DRAWER, "--vary", "depth=0 mm..1 furlong"];
-    range_needed: 2 ["limits", DRAWER, "--vary", "depth"];
+    range_needed: 2 ["limits", DRAWER, "--vary", "out"];
     both_axes: 2 ["map", DRAWER, "--x", "mu=1", "--y", "a=0...1", "--output", "unwritten.svg"];
     malformed_settings: 2 ["solve", DRAWER, "--set", "mu", "--at", "out=", "--rate", "=1"];
 }

@@ -26,7 +26,7 @@ use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::motion::{AnimationOptions, animation};
-use slideway_pictures::page::{limits_part, reasons, stylesheet};
+use slideway_pictures::page::{limits_part, stylesheet};
 use slideway_pictures::plot::{self, limits_figure};
 use slideway_pictures::{map, theme};
 
@@ -220,8 +220,7 @@ fn drawn(of: &Asked, theme: ThemeName, callback: &mut Callback<'_>) -> Answered<
     let solved = solve_with(&model, &SolveOptions::default(), callback);
     let drawn = sheet(&mechanism, &configuration, solved.as_ref().ok(), Shown::All);
     let Some(sheet) = drawn else { return Ok(None) };
-    let why = solved.as_ref().err().map(reasons).unwrap_or_default();
-    let sheet = if why.is_empty() { sheet } else { sheet.unsolved(&why) };
+    let sheet = if let Err(faults) = &solved { sheet.unsolved(faults) } else { sheet };
     let sheet = sheet.changed_by(&of.settings);
     Ok(Some(Told {
         svg: Some(write(&sheet.scene, &sheet.frame(None, Colours::Theme(*theme.colours())))?),

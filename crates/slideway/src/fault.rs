@@ -434,7 +434,7 @@ pub enum FaultKind {
     ZeroLength { load: String },
 
     // Kinetics.
-    #[error("what moves is massless, so that no acceleration can be computed: {motion}")]
+    #[error("the acceleration cannot be computed, as the moving parts have no mass: {motion}")]
     MotionWithoutInertia { motion: String },
     #[error("the drives cannot produce their motion: {motion}")]
     DriveCannotMove { drives: Vec<String>, motion: String },
@@ -652,8 +652,11 @@ impl FaultKind {
                 format!("the block has left its guide; choose {} closer to the drawing", face.option("at"))
             }
             Self::MotionWithoutInertia { .. } => format!(
-                "ask `{}` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
-                face.question("hold")
+                "`{}` says whether it stays at rest, and with {} from which friction on; `{}` with {} finds dimensions that hold. For its motion, add a drive or give a mass to the bodies that move",
+                face.question("hold"),
+                face.option("vary"),
+                face.question("size"),
+                face.option_with("against", "hold")
             ),
             Self::NoDirectionAtRest => format!("omit {}", face.option("both-directions")),
             Self::NothingToSimulate { .. } => {

@@ -4,7 +4,7 @@
 use slideway::report::{Proof, Status};
 use slideway::standstill::HoldOptions;
 use slideway::template::{FILE, TEMPLATES, find};
-use slideway::{DriveOptions, Model, Settings, drive, hold, solve};
+use slideway::{DriveOptions, Model, Settings, check, drive, hold, solve};
 
 /// A template with other values, as it would be written to a file.
 fn model(name: &str, values: &[(&str, f64)]) -> Model {
@@ -150,12 +150,17 @@ fn wrong_units_unknown_names_and_what_cannot_be_assembled_are_faults() {
 fn drawer() {
     for (length, offset, mu, width) in [(0.4, 0.15, 0.3, 0.0), (0.3, 0.2, 0.5, 0.6), (0.5, 0.4, 0.1, 0.45)] {
         let values = [("L", length), ("a", offset), ("width", width)];
-        let expected = 20.0 / (1.0 - 2.0 * mu * offset / length);
-        assert_close(effort("drawer", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        let with_friction = [&values[..], &[("mu", mu)]].concat();
+        let lever = 2.0 * mu * offset / length;
+        assert_close(effort("drawer", &with_friction), 20.0 / (1.0 - lever), "P");
+        assert_close(effort_back("drawer", &with_friction), 20.0 / (1.0 + lever), "P, braking");
         assert_locks_at("drawer", length / (2.0 * offset), &values);
         let turned = [("v", -0.1), ("Q", -20.0)];
         assert_locks_back_at("drawer", length / (2.0 * offset), &values, &turned);
     }
+    // The rectangle of 450 mm x 500 mm that the independent review measured: 8 kg / 12 (0.45^2 + 0.5^2) m^2.
+    let desk = model("drawer", &[("L", 0.45), ("a", 0.2), ("width", 0.5), ("m", 8.0)]);
+    assert_close(check(&desk).unwrap().bodies[0].moment_of_inertia, 8.0 / 12.0 * 0.4525, "inertia");
     // At rest it can be wedged from mu = L/width on.
     for (mu, wedges) in [(0.499, false), (0.501, true)] {
         let model = model("drawer", &[("L", 0.4), ("width", 0.8), ("mu", mu)]);
@@ -331,8 +336,10 @@ fn peg() {
         [(0.015, 0.006, 0.02, 0.3), (0.04, 0.01, 0.03, 0.5), (0.01, 0.02, 0.0, 0.1)]
     {
         let values = [("l", depth), ("e", offset), ("D", diameter)];
-        let expected = 5.0 / (1.0 - 2.0 * mu * offset / depth);
-        assert_close(effort("peg", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        let with_friction = [&values[..], &[("mu", mu)]].concat();
+        let lever = 2.0 * mu * offset / depth;
+        assert_close(effort("peg", &with_friction), 5.0 / (1.0 - lever), "P");
+        assert_close(effort_back("peg", &with_friction), 5.0 / (1.0 + lever), "P, braking");
         assert_locks_at("peg", depth / (2.0 * offset), &values);
         let turned = [("v", -1e-3), ("R", -5.0)];
         assert_locks_back_at("peg", depth / (2.0 * offset), &values, &turned);

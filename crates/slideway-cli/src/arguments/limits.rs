@@ -16,6 +16,8 @@ Examples:
   slideway limits klepp-2002.toml --vary mu_1=0..0.8 --both-directions
   slideway limits drawer.toml --vary mu --plot limits.svg
 
+A quantity without a range has the same range as in `slideway size`.
+
 Exit codes:
   0    done
   2    invalid input: the model, the settings, the name, the range or the

@@ -20,9 +20,10 @@ Examples:
   slideway new wedge --help           the dimensions of a wedge
 
 The model goes to NAME.toml, or to the file of --output. It has comments, and
-its first question is answered at once. Dimensions that are not given are as in
-the template. `--output -` writes the model to standard output, and nothing
-else.
+its first question is answered at once. If no dimension is given, each is asked
+for on a terminal; otherwise, and without a terminal, those that are not given
+are as in the template. `--output -` writes the model to standard output, and
+nothing else.
 
 Exit codes:
   0    the model is written, whatever the first answer says

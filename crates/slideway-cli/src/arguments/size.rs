@@ -32,9 +32,9 @@ The load of a margin at rest can be the effort of a drive. --max-pressure needs
 a `pad`, the area in contact, at the sliding joints of the model.
 
 Without a range, a coefficient of friction goes from 0 to 1 or to twice its
-value, `friction` from 0 to 10, and an angle with a unit over its quarter turn
-(45 deg: 0 to 90 deg; 90 deg: 0 to 180 deg). Any other parameter goes from a
-fifth of its value to five times its value.
+value, `friction` from 0 to 10, and both beyond where it is known to jam. An
+angle with a unit goes over its quarter turn (45 deg: 0 to 90 deg; 90 deg: 0 to
+180 deg), any other parameter from a fifth of its value to five times its value.
 
 Exit codes:
   0    the margin is met somewhere in the range

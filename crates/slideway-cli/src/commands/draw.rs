@@ -18,7 +18,6 @@ use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
-use slideway_pictures::page::reasons;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -33,10 +32,9 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
     let mut watch = Watch::new(arguments.time.time_limit);
     let solved = solutions(&model, arguments.solution, &mut watch).map_err(|faults| input.refused(faults))?;
-    let (report, reasons) = match solved {
-        Some(Ok(report)) => (Some(report), Vec::new()),
-        Some(Err(faults)) => (None, reasons(&faults)),
-        None => (None, Vec::new()),
+    let (report, refused) = match solved.transpose() {
+        Ok(report) => (report, None),
+        Err(faults) => (None, Some(faults)),
     };
     let halt = watch.finish();
     let shown = match arguments.solution {
@@ -51,7 +49,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         let count = report.map_or(0, |report| report.solutions.len());
         return Err(Failure::NoSuchSolution { count });
     };
-    let sheet = if reasons.is_empty() { sheet } else { sheet.unsolved(&reasons) };
+    let sheet = if let Some(faults) = &refused { sheet.unsolved(faults) } else { sheet };
     let sheet = sheet.changed_by(&input.settings);
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);

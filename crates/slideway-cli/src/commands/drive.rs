@@ -14,8 +14,6 @@ use slideway::limits::{Variable, variables};
 use slideway::printable;
 use slideway_pictures::plot::{drive_figure, to_svg};
 
-/// Stands for a blank at which no line is broken.
-const TOGETHER: &str = "\u{0}";
 /// Rows of the table that a plot is made of, at least: two for each pixel of a screen.
 const PLOTTED_ROWS: usize = 801;
 
@@ -54,9 +52,8 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
 
 /// Over which quantities the efforts can be tabulated, with their present values.
 fn over_what(variables: &[Variable]) -> String {
-    // A value stays on the line of its name.
-    let one = |one: &Variable| format!("{} = {}", one.name, one.value).replace(' ', TOGETHER);
+    let one = |one: &Variable| format!("{} = {}", one.name, one.value);
     let all: Vec<String> = variables.iter().map(one).collect();
     let text = format!("To see it over one of these, add `--vary NAME`: {}.", all.join(", "));
-    format!("\n{}\n", printable::lines(&wrapped(&text, WIDTH).join("\n").replace(TOGETHER, " ")))
+    format!("\n{}\n", printable::lines(&wrapped(&text, WIDTH).join("\n")))
 }

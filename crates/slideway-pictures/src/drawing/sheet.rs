@@ -11,6 +11,7 @@ use super::{NAME_SIZE, VALUE_SIZE, View, dimensions, quantity};
 use crate::changes::changes;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
+use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{CoordinateState, SolveReport};
@@ -85,10 +86,11 @@ impl Sheet {
         if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
     }
 
-    /// The same, with the reasons below the title why it shows no contact mode.
+    /// The same, with the faults below the title that keep it from showing a contact mode.
     #[must_use]
-    pub fn unsolved(self, reasons: &[String]) -> Self {
-        self.headed(&format!("Without forces of contacts: {}.", reasons.join("; ")))
+    pub fn unsolved(self, faults: &Faults) -> Self {
+        let reasons: Vec<String> = faults.sorted().iter().map(|fault| fault.kind.to_string()).collect();
+        self.headed(&format!("Forces at contacts are not drawn: {}.", reasons.join("; ")))
     }
 
     /// The same, with a further paragraph at the end of the heading.

@@ -2,6 +2,7 @@
 
 use crate::Case;
 use nalgebra::Vector2;
+use slideway::fault::{Fault, FaultKind};
 use slideway::model::Settings;
 use slideway_pictures::drawing::{
     Class, ContactStates, Point, Scene, SceneOptions, Shape, Sheet, Shown, View, scene, sheet,
@@ -334,14 +335,14 @@ fn the_heading_tells_settings_and_reasons() {
     let case = Case::gallery("klepp-2002");
     let plain = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
     let settings = Settings::default().parameter("mu_1", "0.3").position("q", "-0.4 m");
-    let reasons = ["nothing moves".to_owned(), "there is no friction".to_owned()];
-    let told = plain.clone().unsolved(&reasons).changed_by(&settings);
+    let fault = Fault::general(FaultKind::MotionWithoutInertia { motion: "pin moves".to_owned() });
+    let told = plain.clone().unsolved(&fault.into()).changed_by(&settings);
     let place = |sheet: &Sheet, wanted: &str| {
         let mut texts = sheet.scene.texts().map(|(_, text)| text);
         texts.find(|text| text.text.starts_with(wanted)).map(|text| text.at.y)
     };
     let lines = [
-        "Without forces of contacts: nothing moves; there is no friction.",
+        "Forces at contacts are not drawn: the acceleration cannot be computed,",
         "With mu_1 = 0.3, at q = -0.4 m.",
         "The mechanism, to scale",
     ];

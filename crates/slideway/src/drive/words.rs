@@ -117,9 +117,11 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
         _ if is_idle => ", all of it against friction".to_owned(),
         (EfficiencyKind::Driving, Some(value)) => format!(": efficiency {}", percent(value)),
         (EfficiencyKind::Braking, Some(value)) => {
-            format!("; the load pushes, and {} of its power arrives", percent(value))
+            format!(" to brake the load: efficiency {}", percent(value))
         }
-        (EfficiencyKind::HeldByFriction, _) => ": friction holds the load, so it must be driven".to_owned(),
+        (EfficiencyKind::HeldByFriction, _) => {
+            return format!("it is self-locking: to move, {}", needs.join(", "));
+        }
         (EfficiencyKind::NoPower, _) => "; without friction the motion needs no power".to_owned(),
         _ => "; without friction the drives push, with it they brake".to_owned(),
     };
@@ -182,7 +184,7 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     let Some(factor) = direction.no_solution else {
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
-        return never.then(|| "it does not jam at any friction.".to_owned());
+        return never.then(|| "it does not jam at any friction while it moves.".to_owned());
     };
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {

@@ -7,6 +7,7 @@ use super::options::LimitsOptions;
 use super::report::LimitsReport;
 use super::speeds::speeds;
 use super::varied::Varied;
+use super::vary::range_around;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -15,12 +16,7 @@ use crate::progress::Work;
 use crate::report::Tipping;
 use crate::solve::Stages;
 
-/// Without a range the factor of all coefficients of friction is varied from 0 to this.
-const USUAL_FACTOR: f64 = 10.0;
-/// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.
-const USUAL_FRICTION: f64 = 1.0;
-
-/// Varied quantity, its range, and the modes of both directions.
+/// What is varied, over which range, and the modes of both directions.
 pub(super) struct Analysis {
     pub(super) varied: Varied,
     pub(super) range: [f64; 2],
@@ -39,7 +35,7 @@ impl Analysis {
         }
         let vary = &options.vary;
         let varied = vary.of(model)?;
-        let range = vary.ends(&varied, || usual_range(model, &varied))?;
+        let range = vary.ends(&varied, || range_around(model, &varied))?;
         let directions = 1 + usize::from(options.both_directions);
         let (modes, along) = (work.part(0, 2), work.part(1, 2));
         let find = |varied: &Varied, part: usize| {
@@ -90,15 +86,4 @@ fn tipping(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Option<Ti
         Tipping::of(places.filter(|_| !work.is_over()).map(at))
     };
     found.counts.iter().map(within).collect()
-}
-
-/// The range of a coefficient of friction, or of their factor; whatever else is varied needs one.
-fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
-    if varied.is_friction_factor() {
-        Ok([0.0, USUAL_FACTOR])
-    } else if model.is_friction_coefficient(&varied.name) {
-        Ok([0.0, (2.0 * varied.present()?).max(USUAL_FRICTION)])
-    } else {
-        Err(varied.range_needed())
-    }
 }

@@ -9,8 +9,7 @@ pub const EFFORT: u64 = 800;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LimitsOptions {
-    /// Quantity that is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction
-    /// from 0 to twice its value, but at least to 1; whatever else is varied needs a range.
+    /// What is varied, over the usual ranges of [`crate::SizeOptions::vary`].
     pub vary: Vary,
     /// Modes count only where no normal force exceeds this (N).
     pub max_reaction: Option<f64>,

@@ -5,6 +5,7 @@ use crate::expression::{TO, ends_of_range};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
 use crate::model::{Model, Value};
+use crate::solve::last_change;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 use std::str::FromStr;
@@ -163,17 +164,17 @@ impl fmt::Display for Vary {
 }
 
 /// A range around the value in the model; coordinates and values of zero need one. Angles, which are known by
-/// their unit, have the quarter turn in which they stand: sines and cosines keep their signs there.
+/// their unit, have the quarter turn in which they stand: sines and cosines keep their signs there. Friction has one
+/// from zero on, with the friction in it at which the number of solutions is known to change.
 ///
 /// # Errors
 /// A fault if a range is needed.
 pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
-    if varied.is_friction_factor() {
-        return Ok([0.0, 2.0 * FACTOR_AROUND]);
-    }
     let present = varied.present()?;
-    if model.is_friction_coefficient(&varied.name) {
-        Ok([0.0, (2.0 * present).max(1.0)])
+    if varied.is_friction_factor() {
+        Ok(with_changes(model, varied, present, 2.0 * FACTOR_AROUND))
+    } else if model.is_friction_coefficient(&varied.name) {
+        Ok(with_changes(model, varied, present, (2.0 * present).max(1.0)))
     } else if varied.is_angle() && !varied.is_coordinate() {
         // Between two of them it has both. Adding zero turns -0 into 0.
         let quarters = present / FRAC_PI_2;
@@ -184,4 +185,12 @@ pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], F
         let ends = [present / FACTOR_AROUND, present * FACTOR_AROUND];
         Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })
     }
+}
+
+/// From zero to this value of friction, or to twice that of the last change that is known if that lies beyond.
+fn with_changes(model: &Model, varied: &Varied, present: f64, usual: f64) -> [f64; 2] {
+    let is_all_friction =
+        |mu: Option<f64>| varied.is_friction_factor() || varied.is_itself_friction() && mu == Some(present);
+    let known = last_change(model).filter(|(_, mu)| is_all_friction(*mu)).map(|(factor, _)| factor * present);
+    [0.0, known.filter(|known| *known >= usual).map_or(usual, |known| 2.0 * known)]
 }

@@ -66,6 +66,11 @@ impl Region<'_> {
         Region { dimension, slacks, pins, work }
     }
 
+    /// The work that may end its searches.
+    pub(crate) fn work(&self) -> Work<'_> {
+        self.work
+    }
+
     /// The region in which the couples of these pins, too, are within their friction circles.
     pub(crate) fn with_pins(self, pins: Vec<Pin>) -> Self {
         Self { pins, ..self }

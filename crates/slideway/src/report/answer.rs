@@ -61,7 +61,7 @@ impl SolveReport {
         match jams {
             Some(jams) => sentences.push(end_in_words(margins, &at(jams))),
             None if margins.another_count.is_none() && self.has_friction() => {
-                sentences.push("More friction would not jam it.".to_owned());
+                sentences.push("While it moves, more friction would not jam it.".to_owned());
             }
             None => {}
         }
@@ -215,7 +215,7 @@ impl SolveReport {
         format!("It moves in a preload gap, {loose} pressed by its preload alone{moves}.")
     }
 
-    /// "Safe for any load up to 2.222 times this friction."
+    /// "While it moves, it is safe for any load up to 2.222 times this friction."
     fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
         let factor = margins.uniqueness?;
         let times = format!("{} times this friction", brief(factor));
@@ -229,14 +229,17 @@ impl SolveReport {
                 "Not safe for {every}: from {times} on, some can jam it or leave it several ways to move."
             )
         } else {
-            format!("Safe for {any} up to {times}.")
+            format!("While it moves, it is safe for {any} up to {times}.")
         })
     }
 
     fn without_margins(&self) -> Vec<String> {
-        let least = self
-            .unique_at_least
-            .map(|factor| format!("Safe for any load up to at least {} times this friction.", brief(factor)));
+        let least = self.unique_at_least.map(|factor| {
+            format!(
+                "While it moves, it is safe for any load up to at least {} times this friction.",
+                brief(factor)
+            )
+        });
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()

@@ -25,6 +25,7 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::{Answered, indented};
+pub use page::wrapped;
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};

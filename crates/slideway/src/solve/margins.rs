@@ -1,11 +1,12 @@
 //! How far friction may grow before the answer changes.
 
 use super::mode_problem::determinate_problem;
-use super::stages::ProblemData;
+use super::stages::{ProblemData, Stages};
 use super::state::{pattern, signs};
 use crate::enclosure::EnclosedModeProblem;
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
+use crate::model::Model;
 use crate::modes::certificate::{
     IntervalInfluence, IntervalMatrix, IntervalModeProblem, proven_determinant_sign,
 };
@@ -133,6 +134,18 @@ fn first_locking(
         }
     };
     line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
+}
+
+/// The last factor on all friction, of those that margins name, at which the number of solutions changes, and the
+/// coefficient that it applies to if there is only one; none if nothing changes or that is not computed.
+pub(crate) fn last_change(model: &Model) -> Option<(f64, Option<f64>)> {
+    let stages = Stages::of_any_model(model).ok()?;
+    if stages.mechanism.rough_hinges().next().is_some() || !stages.standing.is_empty() {
+        return None;
+    }
+    let growth = Growth::along(stages.data(), &|_| true)?;
+    let last = growth.another_count().into_iter().chain(growth.no_solution()).reduce(f64::max)?;
+    Some((last, common_coefficient(&stages.mechanism)))
 }
 
 /// The modes as friction grows by a factor.

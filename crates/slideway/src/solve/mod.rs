@@ -51,7 +51,7 @@ pub(crate) use hinges::{
     turning_hinges, unknowns_of,
 };
 pub use locking::{Locking, locking};
-pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient};
+pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_change};
 pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
 };

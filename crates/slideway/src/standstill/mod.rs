@@ -157,10 +157,12 @@ fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<H
     let setup = Setup::new(model, options, work)?;
     let rest_patterns = check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
-    let (rest, is_held) = rest::at_rest(&setup, nominal, work.part(0, 4));
-    let load = load_report(model, options, &setup, work.part(1, 4).part(0, 2))?;
-    let wedging = threshold::wedging(model, options, &setup, work.part(1, 4).part(1, 2))?;
-    let beginning = Beginning::new(&setup, is_held, work.part(1, 2));
+    let [loads, sharings] = [setup.load.is_some(), setup.shared.is_some()].map(usize::from);
+    let part = |index| work.part(index, 2 + loads + sharings);
+    let (rest, is_held) = rest::at_rest(&setup, nominal, part(0));
+    let load = load_report(model, options, &setup, part(1))?;
+    let wedging = threshold::wedging(model, options, &setup, part(1 + loads))?;
+    let beginning = Beginning::new(&setup, is_held, part(1 + loads + sharings));
     let original = Mechanism::new(model)?;
     let undecided =
         [load.as_ref().map(|load| load.undecided), wedging.as_ref().map(|wedging| wedging.undecided)];

@@ -5,7 +5,7 @@ use super::setup::Setup;
 use super::state::State;
 use crate::ids::{DriveId, JointId};
 use crate::kinetics::Reaction;
-use crate::mechanism::Effort;
+use crate::mechanism::{Effort, Mechanism};
 use crate::pattern::{AffineExpression, GuidedCouple, Region, Unsolved};
 
 /// The range of an expression in a region of a state, in this unit.
@@ -32,16 +32,24 @@ pub(super) fn ranges(
     Ok(extents.into_iter().map(|[least, greatest]| Range { least, greatest }.times(unit)).collect())
 }
 
-/// The ranges of all reactions in a region of a state.
+/// The ranges of all reactions in a region of a state; unsolved if its work is to end.
 pub(super) fn reactions(
     setup: &Setup,
     state: &State<'_>,
     region: &Region<'_>,
 ) -> Result<Reactions, Unsolved> {
-    let contacts = (0..setup.mechanism.contacts.len()).map(|k| contact(setup, state, region, k));
-    let joints = (0..setup.mechanism.joints.len()).map(JointId);
-    let hinges = joints.filter_map(|joint| hinge(setup, joint, state, region));
-    let drives = (0..setup.mechanism.drives.len()).map(|index| drive(setup, DriveId(index), state, region));
+    let Mechanism { contacts, joints, drives, .. } = &setup.mechanism;
+    let all = contacts.len() + joints.len() + drives.len();
+    let next =
+        |index| region.work().piece("reactions", index, all).continue_value().map(drop).ok_or(Unsolved);
+    let before = [contacts.len(), contacts.len() + joints.len()];
+    let contacts = (0..contacts.len()).map(|k| next(k).and_then(|()| contact(setup, state, region, k)));
+    let hinges = (0..joints.len()).filter_map(|index| {
+        let range = || hinge(setup, JointId(index), state, region).transpose();
+        next(before[0] + index).and_then(|()| range()).transpose()
+    });
+    let drives = (0..drives.len())
+        .map(|index| next(before[1] + index).and_then(|()| drive(setup, DriveId(index), state, region)));
     Ok(Reactions {
         contacts: contacts.collect::<Result<_, _>>()?,
         hinges: hinges.collect::<Result<_, _>>()?,

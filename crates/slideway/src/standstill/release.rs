@@ -38,13 +38,13 @@ pub(super) fn releases(
         let work = work.part(index, all);
         if let Some(states) = isolated(setup, signs, &motions, work) {
             over.undecided += usize::from(!states.decided);
-            for state in until_over(states.list, work) {
-                over.note(setup, turned(setup, &state, work).map(Vec::from_iter));
+            for (state, piece) in until_over(states.list, work) {
+                over.note(setup, turned(setup, &state, piece).map(Vec::from_iter));
             }
             continue;
         }
-        for sides in until_over(sides(setup), work) {
-            over.note(setup, released(setup, &Pattern { contacts: sides, ..signs.clone() }, work));
+        for (sides, piece) in until_over(sides(setup), work) {
+            over.note(setup, released(setup, &Pattern { contacts: sides, ..signs.clone() }, piece));
         }
     }
     over
@@ -87,7 +87,11 @@ fn question(setup: &Setup) -> StateQuestion {
 fn released(setup: &Setup, pattern: &Pattern, work: Work<'_>) -> Result<Vec<Release>, Unsolved> {
     let Some(state) = State::new(setup, pattern, question(setup)) else { return Ok(Vec::new()) };
     let parts = state.region(&static_friction(setup)).watched(work).parts()?;
-    let releases = parts.into_iter().map(|part| release(setup, pattern, &state, part));
+    let all = parts.len();
+    let of_part = |(index, part): (usize, Region<'_>)| {
+        release(setup, pattern, &state, part.watched(work.part(index, all)))
+    };
+    let releases = parts.into_iter().enumerate().map(of_part);
     releases.filter_map(Result::transpose).collect()
 }
 

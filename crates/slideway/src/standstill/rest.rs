@@ -54,22 +54,25 @@ pub(super) fn symbols(setup: &Setup, pattern: &Pattern, reactions: &Reactions) -
     pattern.contacts.iter().enumerate().map(one).collect()
 }
 
-/// States one after another, until the work is to end.
-pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Item = T> {
+/// States one after another, each with its piece of the work, until it is to end.
+pub(super) fn until_over<'w, T>(states: Vec<T>, work: Work<'w>) -> impl Iterator<Item = (T, Work<'w>)> {
     let all = states.len();
-    let goes_on = move |(index, _): &(usize, T)| work.piece("states", *index, all).is_continue();
-    states.into_iter().enumerate().take_while(goes_on).map(|(_, state)| state)
+    let piece = move |(index, state): (usize, T)| {
+        let piece = work.piece("states", index, all);
+        piece.continue_value().map(|piece| (state, piece))
+    };
+    states.into_iter().enumerate().map_while(piece)
 }
 
 /// All states of rest with a factor of the varied load, and whether there is one: its reactions may not be decided.
 pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> (Over<Option<AtRest>>, bool) {
     let mut over = Over { found: None::<AtRest>, undecided: 0 };
     let mut is_possible = false;
-    for sides in until_over(sides(setup), work.part(0, 2)) {
+    for (sides, piece) in until_over(sides(setup), work.part(0, 2)) {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
-        let region = possible(state.region(&static_friction(setup)).watched(work));
+        let region = possible(state.region(&static_friction(setup)).watched(piece));
         is_possible |= matches!(region, Ok(Some(_)));
         match region.and_then(|region| region.map(|r| reactions(setup, &state, &r)).transpose()) {
             Ok(None) => {}
@@ -112,7 +115,7 @@ fn without_preloads(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> 
 /// could have shown one was not solved.
 pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
     let mut undecided = false;
-    for sides in until_over(sides(setup), work) {
+    for (sides, _) in until_over(sides(setup), work) {
         let question = StateQuestion::rest(Some(factor));
         let pattern = resting(setup, sides);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
@@ -128,7 +131,7 @@ pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<
 /// The factors of the varied load that can be held: the union over all patterns.
 pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
-    for sides in until_over(sides(setup), work) {
+    for (sides, _) in until_over(sides(setup), work) {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(None);
         let Some(state) = State::new(setup, &pattern, question) else { continue };

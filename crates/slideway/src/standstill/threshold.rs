@@ -26,7 +26,7 @@ use crate::ids::FormulaId;
 use crate::mechanism::FrictionCircle;
 use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
-use crate::progress::Work;
+use crate::progress::{Progress, Work};
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
 const ROUNDING: f64 = 1e-13;
@@ -143,15 +143,15 @@ fn least_value(alone: &Setup, law: &Law, question: StateQuestion, work: Work<'_>
     let mut found: Option<f64> = None;
     let mut undecided = 0;
     let mut again = Vec::new();
-    for sides in until_over(sides(alone), work) {
+    for (sides, piece) in until_over(sides(alone), work.part(0, 2)) {
         let pattern = resting(alone, sides);
-        match least_in(alone, &pattern, law, (question, found), work) {
+        match least_in(alone, &pattern, law, (question, found), piece) {
             Ok(least) => found = least.or(found),
             Err(Unsolved) => again.push(pattern),
         }
     }
-    for pattern in &again {
-        match least_in(alone, pattern, law, (question, found), work) {
+    for (pattern, piece) in until_over(again, work.part(1, 2)) {
+        match least_in(alone, &pattern, law, (question, found), piece) {
             Ok(least) => found = least.or(found),
             Err(Unsolved) => undecided += 1,
         }
@@ -172,14 +172,15 @@ fn least_in(
         let region = state.region(&law.friction(alone, value)).watched(work);
         region.highest_from(-enough).map(|(slack, _)| -slack)
     };
-    least_of(found.unwrap_or(GREATEST), missing)
+    least_of(found.unwrap_or(GREATEST), missing, work)
 }
 
 /// The least value from 0 to `best` where a falling function is no more than zero; of a function that is greater than its
-/// second argument it is enough to know that.
+/// second argument it is enough to know that. The progress of the work is that of the bisection, in digits.
 fn least_of(
     best: f64,
     mut function: impl FnMut(f64, f64) -> Result<f64, Unsolved>,
+    work: Work<'_>,
 ) -> Result<Option<f64>, Unsolved> {
     let mut margin = |value| function(value, ROUNDING);
     if margin(0.0)? <= ROUNDING {
@@ -197,6 +198,11 @@ fn least_of(
         let middle = f64::midpoint(below, above);
         if middle <= below || middle >= above {
             break;
+        }
+        let digits = ((above - below) / above).ln() / WIDTH.ln();
+        let progress = Progress { fraction: Some(digits), ..Progress::of("states", 0, 1) };
+        if work.tell(&progress).is_break() {
+            return Err(Unsolved);
         }
         match margin(middle) {
             Ok(margin) if margin > ROUNDING => below = middle,

@@ -254,6 +254,9 @@ fn what_is_massless_is_refused_with_what_to_ask_instead() {
         map(&model, &MapOptions::new(vary(), Vary::between("e", 0.002, 0.02)).size(8, 8)).unwrap_err(),
     ] {
         let told = faults.sorted()[0].kind.with_hint();
-        assert!(told.contains("what moves is massless") && told.contains("ask `slideway hold`"), "{told}");
+        assert!(
+            told.contains("the moving parts have no mass") && told.contains("`slideway hold` says"),
+            "{told}"
+        );
     }
 }
