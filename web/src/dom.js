@@ -73,6 +73,26 @@ export function settled(act, wait) {
   };
 }
 
+/**
+ * The function, called with what was given last right before the screen is drawn again: what the pointer changes by then is laid
+ * out together with it.
+ */
+export function withNextFrame(act) {
+  let newest = null;
+  const now = () => {
+    const given = newest;
+    newest = null;
+    if (given) act(...given);
+  };
+  return (...given) => {
+    const isAsked = newest !== null;
+    newest = given;
+    // What is not seen is not drawn.
+    if (document.hidden) now();
+    else if (!isAsked) requestAnimationFrame(now);
+  };
+}
+
 /** Which colours the page shows. */
 export function themeName() {
   const chosen = document.documentElement.dataset.theme;
