@@ -27,10 +27,14 @@ export function shape(name, attributes = {}, ...children) {
   return made;
 }
 
+/** A document that is not shown, in which nothing runs or is fetched. */
+let unseen;
+
 /** Markup of the engine, in which all text of the model is escaped, as elements. Nothing in it runs: the page's policy. */
 export function parsed(markup) {
-  const read = new DOMParser().parseFromString(markup, "text/html").body;
-  return [...read.childNodes].map((node) => document.adoptNode(node));
+  unseen ??= document.implementation.createHTMLDocument();
+  unseen.body.innerHTML = markup;
+  return [...unseen.body.childNodes].map((node) => document.adoptNode(node));
 }
 
 /** Makes an element the same as another one, which may take its place; what is as before is not touched. */
