@@ -27,10 +27,14 @@ export function shape(name, attributes = {}, ...children) {
   return made;
 }
 
+/** A document that is not shown, in which nothing runs or is fetched. */
+let unseen;
+
 /** Markup of the engine, in which all text of the model is escaped, as elements. Nothing in it runs: the page's policy. */
 export function parsed(markup) {
-  const read = new DOMParser().parseFromString(markup, "text/html").body;
-  return [...read.childNodes].map((node) => document.adoptNode(node));
+  unseen ??= document.implementation.createHTMLDocument();
+  unseen.body.innerHTML = markup;
+  return [...unseen.body.childNodes].map((node) => document.adoptNode(node));
 }
 
 /** Makes an element the same as another one, which may take its place; what is as before is not touched. */
@@ -70,6 +74,26 @@ export function settled(act, wait) {
   return (...given) => {
     clearTimeout(timer);
     timer = setTimeout(() => act(...given), wait);
+  };
+}
+
+/**
+ * The function, called with what was given last right before the screen is drawn again: what the pointer changes by then is laid
+ * out together with it.
+ */
+export function withNextFrame(act) {
+  let newest = null;
+  const now = () => {
+    const given = newest;
+    newest = null;
+    if (given) act(...given);
+  };
+  return (...given) => {
+    const isAsked = newest !== null;
+    newest = given;
+    // What is not seen is not drawn.
+    if (document.hidden) now();
+    else if (!isAsked) requestAnimationFrame(now);
   };
 }
 

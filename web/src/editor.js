@@ -54,6 +54,10 @@ export class Editor {
 
   /** `change(text)`: the text was edited. */
   constructor(place, change) {
+    // Fields tell of their selection whenever a value is put into them. To look that up for nothing, the editor would have the
+    // whole page laid out for every step of a slider.
+    const elsewhere = (event) => document.activeElement !== place && event.stopImmediatePropagation();
+    addEventListener("selectionchange", elsewhere, { capture: true });
     // In a shadow tree its style sheets are made without style elements, which the page's policy forbids.
     const root = place.attachShadow({ mode: "open" });
     const listener = EditorView.updateListener.of((update) => {

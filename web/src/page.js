@@ -1,6 +1,6 @@
 // The page: a model, what is changed in it, and what the engine says of it.
 
-import { byId, element, inWords, parsed, say, settled, themeName } from "./dom.js";
+import { byId, element, inWords, parsed, say, settled, themeName, withNextFrame } from "./dom.js";
 import { pixels, save } from "./downloads.js";
 import { Drawings } from "./drawings.js";
 import { Editor } from "./editor.js";
@@ -98,10 +98,15 @@ function refresh() {
     );
   wanted(false);
   thoroughly(wanted);
-  say(byId("command"), state.command());
-  byId("reset").hidden = state.changes.size === 0;
+  showChanges();
   remember();
 }
+
+/** Shows that something is changed, and the command that does so. */
+const showChanges = withNextFrame(() => {
+  say(byId("command"), state.command());
+  byId("reset").hidden = state.changes.size === 0;
+});
 
 const thoroughly = settled((wanted) => {
   wanted(true);

@@ -1,7 +1,7 @@
 // A strip that shows for which values of one quantity each mode exists, and how many solutions there are, with the present
 // value, which can be dragged.
 
-import { element, inWords, put, say, shape } from "./dom.js";
+import { element, inWords, put, say, shape, withNextFrame } from "./dom.js";
 import { setEnds } from "./sliders.js";
 import { scale as slider, short, ticks, withUnit } from "./numbers.js";
 
@@ -55,9 +55,11 @@ export class Strip {
   /** `change(value)`: the value was dragged, in the unit of the quantity. */
   constructor(place, change) {
     this.#slider = element("input", { type: "range", class: "strip-slider" });
+    const follow = withNextFrame((value) => this.#mark(value));
     this.#slider.addEventListener("input", () => {
-      this.#mark(Number(this.#slider.value));
-      change(Number(this.#slider.value));
+      const value = Number(this.#slider.value);
+      change(value);
+      follow(value);
     });
     const drag = (event) => {
       if (event.buttons === 0 && event.type === "pointermove") return;

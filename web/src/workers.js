@@ -1,5 +1,7 @@
 // Engines in workers: asked one question at a time, and ended if they take too long.
 
+import { withNextFrame } from "./dom.js";
+
 /** A question was ended before it was answered. */
 export class Ended extends Error {}
 
@@ -124,7 +126,7 @@ export class Engine {
 
 /**
  * Asks for the newest of many questions: while one is being answered only the latest of the others is kept, and one that
- * takes long is ended for it.
+ * takes long is ended for it. The newest of the answers is shown when the screen is drawn again.
  */
 export class Newest {
   #engine;
@@ -161,16 +163,20 @@ export class Newest {
       );
       // The engine goes on with what is wanted by now, while this answer is drawn.
       asked = this.#ask();
-      try {
-        if (error) throw error;
-        // What is not the newest is shown, too: the picture follows.
-        take(reply, question);
-      } catch (caught) {
-        if (!asked) fail(caught);
-      }
+      // What is not the newest is shown, too: the picture follows.
+      this.#show({ reply, error, question, take, fail });
     }
     this.#running = false;
   }
+
+  #show = withNextFrame(({ reply, error, question, take, fail }) => {
+    try {
+      if (error) throw error;
+      take(reply, question);
+    } catch (caught) {
+      if (!this.#engine.isBusy) fail(caught);
+    }
+  });
 
   /** Asks what is wanted now, if anything is. */
   #ask() {

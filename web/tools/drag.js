@@ -3,12 +3,13 @@
 //     node web/tools/drag.js [NAME ..]
 //
 // For each model of the gallery, or those that are named: how many pictures a second the first drag shows, right after the model was opened, when
-// everything is as slow as if the machine were so many times slower; and the processor time of the renderer for each
-// picture, which does not depend on what else the machine does. Before that, how long the first picture and the engine take over
-// slow lines.
+// everything is as slow as if the machine were so many times slower, which is little where others use the processors, too; and
+// the processor time of the page's main thread for each picture, as fast as the machine is. Before that, how long the first
+// picture and the engine take over slow lines.
 
 import { readdirSync } from "node:fs";
 import { resolve } from "node:path";
+import { setTimeout } from "node:timers/promises";
 import { chromium } from "playwright-core";
 import { browserProgram, limits, settled } from "../test/browser.js";
 import { page as folder, top } from "./places.js";
@@ -16,36 +17,33 @@ import { serve } from "./serve.js";
 
 /** So many times slower than this machine. */
 const SLOWER = 4;
-const MOVES = 60;
+/** How long is dragged, and how long it is from move to move (ms). */
+const DRAG = 2000;
+const BETWEEN_MOVES = 16;
 /** Lines (Mbit/s), with 100 ms from question to answer. */
 const LINES = [1.6, 0.4];
 const LATENCY = 100;
 
 const server = await serve(folder);
-const at = `http://localhost:${server.address().port}/`;
+const site = `http://localhost:${server.address().port}/`;
 const browser = await chromium.launch({ executablePath: browserProgram(), args: ["--no-sandbox"] });
-const control = await browser.newBrowserCDPSession();
 
-/** Makes a worker slower, which the browser can do for the page only: each answer waits for so many times its own time. */
+/**
+ * Makes a worker slower, which the browser can do for the page only: each answer comes after so many times its own time. It waits
+ * without work: the page has a processor of its own.
+ */
 const slowed = (script) => `{
   const post = self.postMessage.bind(self);
   let begun = 0;
   addEventListener("message", () => { begun = performance.now(); });
   self.postMessage = (message) => {
-    const until = performance.now() + ${SLOWER - 1} * (performance.now() - begun);
-    while (message.reply && performance.now() < until);
-    post(message);
+    if (message.reply) setTimeout(() => post(message), ${SLOWER - 1} * (performance.now() - begun));
+    else post(message);
   };
 }
 ${script}`;
 
-/** Processor time of all pages (s). */
-async function spent() {
-  const { processInfo } = await control.send("SystemInfo.getProcessInfo");
-  return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { cpuTime }) => sum + cpuTime, 0);
-}
-
-/** The first drag of a model: pictures a second, and the processor time of each (ms). */
+/** The first drag of a model: pictures a second, and the processor time of the page itself for each (ms). */
 async function firstDrag(name, slower) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, serviceWorkers: "block" });
   const page = await context.newPage();
@@ -55,28 +53,44 @@ async function firstDrag(name, slower) {
       await route.fulfill({ response, body: slowed(await response.text()) });
     });
   }
-  await page.goto(`${at}#model=gallery:${name}`);
+  await page.goto(`${site}#model=gallery:${name}`);
   await settled(page);
   await limits(page).catch(() => {});
-  if (slower) {
-    const client = await context.newCDPSession(page);
-    await client.send("Emulation.setCPUThrottlingRate", { rate: SLOWER });
-  }
+  const client = await context.newCDPSession(page);
+  await client.send("Performance.enable", { timeDomain: "threadTicks" });
+  if (slower) await client.send("Emulation.setCPUThrottlingRate", { rate: SLOWER });
+  const state = async () => {
+    const { metrics } = await client.send("Performance.getMetrics");
+    const [pictures, now] = await page.evaluate(() => [
+      Number(document.documentElement.dataset.shown),
+      performance.now(),
+    ]);
+    return { pictures, now, spent: 1000 * metrics.find((metric) => metric.name === "TaskDuration").value };
+  };
   const box = await page.locator(".strip-slider").boundingBox();
-  const shown = () => page.evaluate(() => [Number(document.documentElement.dataset.shown), performance.now()]);
-  const y = box.y + box.height / 2;
-  await page.mouse.move(box.x + 0.3 * box.width, y);
+  const at = (part) => [box.x + (0.3 + 0.4 * part) * box.width, box.y + box.height / 2];
+  await page.mouse.move(...at(0));
   await page.mouse.down();
-  const [[first, from], before] = [await shown(), await spent()];
-  for (let move = 1; move <= MOVES; move++) {
-    await page.mouse.move(box.x + (0.3 + (0.4 * move) / MOVES) * box.width, y);
-    await page.evaluate(() => new Promise(requestAnimationFrame));
-  }
-  const [[last, to], after] = [await shown(), await spent()];
+  const before = await state();
+  await moved(client, at);
+  const after = await state();
   await page.mouse.up();
   await context.close();
-  const count = Math.max(1, last - first);
-  return { rate: (1000 * (last - first)) / (to - from), each: (1000 * (after - before)) / count };
+  const count = after.pictures - before.pictures;
+  return { rate: (1000 * count) / (after.now - before.now), each: (after.spent - before.spent) / Math.max(1, count) };
+}
+
+/** Moves the mouse as a hand does, which does not wait for the page. */
+async function moved(client, at) {
+  const heard = [];
+  const begun = performance.now();
+  for (let part = 0; part < 1; part = (performance.now() - begun) / DRAG) {
+    const [x, y] = at(part);
+    const move = { type: "mouseMoved", x, y, button: "left", buttons: 1 };
+    heard.push(client.send("Input.dispatchMouseEvent", move));
+    await setTimeout(BETWEEN_MOVES);
+  }
+  await Promise.all(heard);
 }
 
 /** Time until the first picture over a line, and until the engine is there (s), and what came (MB). */
@@ -97,7 +111,7 @@ async function firstPicture(megabits) {
     uploadThroughput: throughput,
   });
   const begun = performance.now();
-  await page.goto(at, { waitUntil: "commit", timeout: 120_000 });
+  await page.goto(site, { waitUntil: "commit", timeout: 120_000 });
   const until = async (...states) => {
     await page.waitForFunction((wanted) => wanted.includes(document.documentElement.dataset.state), states, {
       timeout: 300_000,

@@ -16,8 +16,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent.parent
 OUTPUT = HERE / "python" / "slideway" / "_slideway.pyi"
-# As tests/python.rs builds the extension: so it is not built twice.
-FEATURES = ["--features", "parquet,as-in-workspace"]
+# As tests/python.rs builds the extension: so it is not built twice. The profile of pyproject.toml would take minutes.
+BUILD = ["--profile", "dev", "--features", "parquet,as-in-workspace"]
 # What annotations of the sources name, which maturin does not know of.
 IMPORTS = """from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -68,7 +68,7 @@ OTHER_ANSWERS = {
 def made() -> str:
     """The stubs as maturin makes them."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "maturin", "generate-stubs", "--quiet", "--locked", *FEATURES, "--out", folder]
+        command = [sys.executable, "-m", "maturin", "generate-stubs", "--quiet", "--locked", *BUILD, "--out", folder]
         subprocess.run(command, cwd=HERE, check=True)
         return (Path(folder) / "slideway" / "_slideway.pyi").read_text()
 
