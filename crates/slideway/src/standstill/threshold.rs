@@ -30,13 +30,12 @@ use crate::progress::Work;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
 const ROUNDING: f64 = 1e-13;
-/// The bisection ends at this relative width.
-const WIDTH: f64 = 1e-14;
-/// Distances below the end of the bisection, relative to it, of the points of the last secant.
+/// Distances below the bracket, relative to it, of the points of the last secant.
 const SECANT: [f64; 2] = [1e-6, 1e-8];
-/// The secant changes the end of the bisection by no more than this, relative to it; margins that are not decided nearer
-/// to the threshold end the bisection.
+/// The secant is tried once the bracket has this relative width; margins that are not decided within it end the bisection.
 const NEAR: f64 = 1e-9;
+/// Where the secant finds no root in the bracket, the bisection ends at this relative width.
+const WIDTH: f64 = 1e-14;
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
 /// Static friction as a function `constant + slope p` of what is varied.
@@ -170,7 +169,10 @@ fn least_in(
     let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
     let missing = |value, enough: f64| {
         let region = state.region(&law.friction(alone, value)).watched(work);
-        region.highest_from(-enough).map(|(slack, _)| -slack)
+        let t = std::time::Instant::now();
+        let r = region.highest_from(-enough).map(|(slack, _)| -slack);
+        eprintln!("DBG {:?} {:?} {value:?} enough {enough:e} {r:?} {:?}", pattern.joints, pattern.contacts, t.elapsed());
+        r
     };
     least_of(found.unwrap_or(GREATEST), missing)
 }
@@ -179,43 +181,48 @@ fn least_in(
 /// second argument it is enough to know that.
 fn least_of(
     best: f64,
-    mut function: impl FnMut(f64, f64) -> Result<f64, Unsolved>,
+    mut margin: impl FnMut(f64, f64) -> Result<f64, Unsolved>,
 ) -> Result<Option<f64>, Unsolved> {
-    let mut margin = |value| function(value, ROUNDING);
-    if margin(0.0)? <= ROUNDING {
+    if margin(0.0, ROUNDING)? <= ROUNDING {
         return Ok(Some(0.0));
     }
     let (mut below, mut above) = (0.0, 1.0_f64.min(best));
-    while margin(above)? > ROUNDING {
+    while margin(above, ROUNDING)? > ROUNDING {
         if above >= best {
             return Ok(None);
         }
         below = above;
         above = (4.0 * above).min(best);
     }
+    let mut is_polished = false;
     while above - below > WIDTH * above {
+        if above - below <= NEAR * above && !std::mem::replace(&mut is_polished, true) {
+            // Nearer to the root friction circles decide a sign with ever more sectors.
+            if let Some(root) = polished([below, above], |value| margin(value, f64::INFINITY)) {
+                return Ok(Some(root));
+            }
+        }
         let middle = f64::midpoint(below, above);
         if middle <= below || middle >= above {
             break;
         }
-        match margin(middle) {
+        match margin(middle, ROUNDING) {
             Ok(margin) if margin > ROUNDING => below = middle,
             Ok(_) => above = middle,
-            // Friction circles decide the sign of a margin near zero with ever more sectors.
             Err(Unsolved) if above - below <= NEAR * above => break,
             Err(Unsolved) => return Err(Unsolved),
         }
     }
-    Ok(Some(polished(above, |value| function(value, f64::INFINITY)).unwrap_or(above)))
+    Ok(Some(above))
 }
 
-/// The root near `value` from the secant through two points below it, where the margin is well above
-/// rounding. The bisection ends where the margin falls below [`ROUNDING`], not at its root.
-fn polished(value: f64, mut margin: impl FnMut(f64) -> Result<f64, Unsolved>) -> Result<f64, Unsolved> {
-    let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
-    let (at_first, at_second) = (margin(first)?, margin(second)?);
+/// The root in a bracket, or beyond it by its width, from the secant through two points below it, where the margin is well
+/// above rounding: the bisection ends where the margin falls below [`ROUNDING`], not at its root.
+fn polished([below, above]: [f64; 2], mut margin: impl FnMut(f64) -> Result<f64, Unsolved>) -> Option<f64> {
+    let [first, second] = SECANT.map(|distance| below * (1.0 - distance));
+    let (at_first, at_second) = (margin(first).ok()?, margin(second).ok()?);
     let root = second + at_second * (second - first) / (at_first - at_second);
-    Ok(if (root - value).abs() <= NEAR * value { root } else { value })
+    (below..=above + (above - below)).contains(&root).then_some(root)
 }
 
 /// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is
