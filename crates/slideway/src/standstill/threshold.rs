@@ -10,7 +10,8 @@
 //! without weights, other loads and preloads, which are negligible beside a load that is great enough. More
 //! static friction only widens this cone, so that there is one threshold, found by bisection of the linear
 //! programs' feasibility and polished by a secant: self-locking from there on, free below. The accuracy is
-//! about 1e-12, and 1e-11 where a block wedges in its guide, as the reactions grow without bound there.
+//! about 1e-12. Where a block wedges in its guide the reactions grow without bound as the inverse of the distance from
+//! the threshold: there it is 1e-11, and 1e-9 beside hinges with friction.
 //!
 //! Redundant guides *wedge* where the cone without any load holds normal forces that do not vanish: friction then
 //! keeps them pressed against each other, however hard. Play and misalignment are negligible beside the deflections of
@@ -28,16 +29,19 @@ use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
 use crate::progress::Work;
 
-/// Feasible within rounding: what the programs leave over at the exact threshold.
+/// Feasible within rounding, as a part of the greatest term: what the programs leave over at the exact threshold.
 const ROUNDING: f64 = 1e-13;
-/// Distances below the bracket, relative to it, of the points of the last secant.
-const SECANT: [f64; 2] = [1e-6, 1e-8];
-/// The secant is tried once the bracket has this relative width; margins that are not decided within it end the bisection.
-const NEAR: f64 = 1e-9;
-/// Where the secant finds no root in the bracket, the bisection ends at this relative width.
+/// The bisection ends at this relative width, ...
 const WIDTH: f64 = 1e-14;
+/// ... and at this one where friction circles would decide the sign of what is missed nearer to the root, with ever more
+/// sectors. Roots of secants are no farther from the bracket.
+const NEAR: f64 = 1e-9;
+/// Distances from the bracket, relative to it, of the points of a secant below it, and of one above it.
+const BELOW: [f64; 2] = [1e-6, 1e-8];
+const ABOVE: [f64; 2] = [1e-4, 1e-6];
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
+
 /// Static friction as a function `constant + slope p` of what is varied.
 struct Law {
     varied: String,
@@ -167,62 +171,82 @@ fn least_in(
     work: Work<'_>,
 ) -> Result<Option<f64>, Unsolved> {
     let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
-    let missing = |value, enough: f64| {
+    let missed = |value, enough: f64| {
         let region = state.region(&law.friction(alone, value)).watched(work);
-        let t = std::time::Instant::now();
-        let r = region.highest_from(-enough).map(|(slack, _)| -slack);
-        eprintln!("DBG {:?} {:?} {value:?} enough {enough:e} {r:?} {:?}", pattern.joints, pattern.contacts, t.elapsed());
-        r
+        let (slack, point) = region.highest_from(-enough)?;
+        let greatest_term = region.greatest_term(&point);
+        Ok(Missed { part: -slack / greatest_term, greatest_term })
     };
-    least_of(found.unwrap_or(GREATEST), missing)
+    let width = if law.hinges.is_empty() { WIDTH } else { NEAR };
+    least_of((found.unwrap_or(GREATEST), width), missed)
 }
 
-/// The least value from 0 to `best` where a falling function is no more than zero; of a function that is greater than its
-/// second argument it is enough to know that.
+/// By how much the load is not held.
+#[derive(Clone, Copy)]
+struct Missed {
+    /// The greatest slack that is missed, as a part of the greatest term: positive where the load is not held.
+    part: f64,
+    /// The greatest term of any slack there, or 1: it grows without bound towards the friction from which a block wedges.
+    greatest_term: f64,
+}
+
+/// The least value from 0 to `best` where a load is held, to a relative width if no secant tells it; of what is missed by
+/// more than the second argument of `missed` it is enough to know that.
 fn least_of(
-    best: f64,
-    mut margin: impl FnMut(f64, f64) -> Result<f64, Unsolved>,
+    (best, width): (f64, f64),
+    missed: impl Fn(f64, f64) -> Result<Missed, Unsolved>,
 ) -> Result<Option<f64>, Unsolved> {
-    if margin(0.0, ROUNDING)? <= ROUNDING {
+    let is_held = |value| Ok(missed(value, ROUNDING)?.part <= ROUNDING);
+    if is_held(0.0)? {
         return Ok(Some(0.0));
     }
     let (mut below, mut above) = (0.0, 1.0_f64.min(best));
-    while margin(above, ROUNDING)? > ROUNDING {
+    while !is_held(above)? {
         if above >= best {
             return Ok(None);
         }
         below = above;
         above = (4.0 * above).min(best);
     }
-    let mut is_polished = false;
-    while above - below > WIDTH * above {
-        if above - below <= NEAR * above && !std::mem::replace(&mut is_polished, true) {
-            // Nearer to the root friction circles decide a sign with ever more sectors.
-            if let Some(root) = polished([below, above], |value| margin(value, f64::INFINITY)) {
-                return Ok(Some(root));
-            }
-        }
+    while above - below > width * above {
         let middle = f64::midpoint(below, above);
         if middle <= below || middle >= above {
             break;
         }
-        match margin(middle, ROUNDING) {
-            Ok(margin) if margin > ROUNDING => below = middle,
-            Ok(_) => above = middle,
-            Err(Unsolved) if above - below <= NEAR * above => break,
-            Err(Unsolved) => return Err(Unsolved),
+        match is_held(middle) {
+            Ok(true) => above = middle,
+            Ok(false) => below = middle,
+            // Beside the friction from which a block wedges, forces may be too great for a linear program.
+            Err(Unsolved) => {
+                let root = missed_at([below, above], &missed).or_else(|| wedged_at([below, above], &missed));
+                return root.map(Some).ok_or(Unsolved);
+            }
         }
     }
-    Ok(Some(above))
+    Ok(Some(missed_at([below, above], &missed).unwrap_or(above)))
 }
 
-/// The root in a bracket, or beyond it by its width, from the secant through two points below it, where the margin is well
-/// above rounding: the bisection ends where the margin falls below [`ROUNDING`], not at its root.
-fn polished([below, above]: [f64; 2], mut margin: impl FnMut(f64) -> Result<f64, Unsolved>) -> Option<f64> {
-    let [first, second] = SECANT.map(|distance| below * (1.0 - distance));
-    let (at_first, at_second) = (margin(first).ok()?, margin(second).ok()?);
+/// The root in a bracket, or near it, from the secant through two points below it, where what is missed is well above
+/// rounding: the bisection ends where that falls below [`ROUNDING`], not at its root.
+fn missed_at(bracket: [f64; 2], missed: &impl Fn(f64, f64) -> Result<Missed, Unsolved>) -> Option<f64> {
+    let points = BELOW.map(|distance| bracket[0] * (1.0 - distance));
+    secant(bracket, points, |value| Some(missed(value, f64::INFINITY).ok()?.part))
+}
+
+/// The same from two points above it, where forces are well below their infinity at the root.
+fn wedged_at(bracket: [f64; 2], missed: &impl Fn(f64, f64) -> Result<Missed, Unsolved>) -> Option<f64> {
+    let points = ABOVE.map(|distance| bracket[1] * (1.0 + distance));
+    secant(bracket, points, |value| Some(missed(value, ROUNDING).ok()?.greatest_term.recip()))
+}
+
+fn secant(
+    [below, above]: [f64; 2],
+    [first, second]: [f64; 2],
+    function: impl Fn(f64) -> Option<f64>,
+) -> Option<f64> {
+    let (at_first, at_second) = (function(first)?, function(second)?);
     let root = second + at_second * (second - first) / (at_first - at_second);
-    (below..=above + (above - below)).contains(&root).then_some(root)
+    (below * (1.0 - NEAR)..=above * (1.0 + NEAR)).contains(&root).then_some(root)
 }
 
 /// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is
