@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use proptest::prelude::*;
-use slideway::check::check;
+use slideway::check::{check, check_with};
 use slideway::drive::{drive, drive_with};
 use slideway::fault::{Fault, FaultKind, Faults, Source};
 use slideway::gallery::{MODELS, find, telescopic_boom};
@@ -140,6 +140,25 @@ fn an_elimination_ends_where_the_callback_says_so() {
             if progress.counted == ends_in { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         assert_eq!(only(&ended.unwrap_err()), FaultKind::WorkEnded, "{ends_in}");
+    }
+}
+
+/// Checking hundreds of bodies takes seconds: it ends in each of its stages.
+#[test]
+fn a_check_ends_where_the_callback_says_so() {
+    let model = chain(40);
+    let calls_until = |most: usize| {
+        let mut calls = 0;
+        let report = check_with(&model, &mut |_| {
+            calls += 1;
+            if calls < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        (report.unwrap(), calls)
+    };
+    let (whole, calls) = calls_until(usize::MAX);
+    assert_eq!(whole, Some(check(&model).unwrap()));
+    for most in [1, calls / 2, calls] {
+        assert_eq!(calls_until(most), (None, most));
     }
 }
 

@@ -1,6 +1,6 @@
 //! `slideway check`
 
-use super::{CheckFormat, Destination, ModelArguments};
+use super::{CheckFormat, Destination, ModelArguments, TimeArguments};
 use clap::Args;
 
 pub(super) const HELP: &str = "\
@@ -11,7 +11,9 @@ Examples:
 
 Exit codes:
   0  at least one question can be answered in this state
-  2  invalid input, or no question can be answered";
+  2  invalid input, or no question can be answered
+  3  not done within --time-limit: nothing is written
+130  interrupted: nothing is written";
 
 /// Arguments of `slideway check`.
 #[derive(Debug, Args)]
@@ -25,4 +27,7 @@ pub(crate) struct CheckArguments {
 
     #[command(flatten)]
     pub(crate) destination: Destination,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 }

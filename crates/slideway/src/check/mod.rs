@@ -19,13 +19,16 @@ mod text;
 
 pub use questions::Question;
 
-use crate::configuration::{Configuration, Mobility, Pose, free_motions, motions_without_inertia, unit};
+use crate::configuration::{
+    Configuration, Mobility, Pose, every_motion_has_inertia, free_motions, motions_without_inertia, unit,
+};
 use crate::fault::{FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Assembled, KineticEquations};
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
+use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{LoadSharing, finite};
 use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem};
 use crate::units::Units;
@@ -296,13 +299,25 @@ pub struct CoordinateSummary {
 /// # Errors
 /// Values that are not finite or not allowed: then there is nothing to check.
 pub fn check(model: &Model) -> Result<CheckReport, Faults> {
+    undisturbed(|work| checked(model, work))
+}
+
+/// [`check`] with a callback; `None` once that has broken.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_with(model: &Model, progress: &mut Callback<'_>) -> Result<Option<CheckReport>, Faults> {
+    watched(progress, |work| checked(model, work))
+}
+
+fn checked(model: &Model, work: Work<'_>) -> Result<CheckReport, Faults> {
     let mut mechanism = Mechanism::new(model)?;
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
     // What is too large to be solved is too large to be analysed further.
     mechanism.check_size()?;
     let drawing = Configuration::drawing(&mechanism);
-    let state = Configuration::new(&mechanism);
+    let state = Configuration::with_progress(&mechanism, &mut |progress| work.tell(progress));
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));
     let assembled = state.is_ok();
     let original = mechanism.clone();
@@ -312,7 +327,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     if assembled {
         keep(configuration.put_friction(&mut mechanism));
         let sliding = Sliding::of(&mechanism, &configuration);
-        match KineticEquations::new(&mechanism, &configuration) {
+        match KineticEquations::new_while(&mechanism, &configuration, &mut || !work.is_over()) {
             Ok(equations) => {
                 condition = Some(equations.condition());
                 let influence = Influence::new(&equations);
@@ -338,7 +353,12 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         units: model.units.clone(),
         sound: faults.is_empty(),
         findings: faults.sorted().iter().map(|fault| Finding::of(&fault.kind)).collect(),
-        questions: questions::questions((model, &original), assembled.then_some(&configuration), &faults),
+        questions: questions::questions(
+            (model, &original),
+            assembled.then_some(&configuration),
+            &faults,
+            work,
+        ),
         warnings: WarningReport::list(&warnings(model)),
         mobility: mobility_summary(&mechanism, &mobility),
         sharing,
@@ -385,10 +405,11 @@ fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySumma
 
 /// The motions z = Z x with x^T Z^T M Z x = 0.
 fn inertia(mechanism: &Mechanism, configuration: &Configuration) -> InertiaSummary {
-    let motions = free_motions(mechanism, configuration);
-    if motions.ncols() == 0 {
+    // The motions of hundreds of bodies take seconds.
+    if every_motion_has_inertia(mechanism) {
         return InertiaSummary { regular: true, motions_without: Vec::new() };
     }
+    let motions = free_motions(mechanism, configuration);
     // Where a load has no value it is told elsewhere, and leaves the sense of a motion open.
     let without_loads = || DVector::zeros(motions.nrows());
     let loads = Assembled::new(mechanism, configuration)

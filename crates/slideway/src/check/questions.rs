@@ -6,7 +6,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::motion::{SimulateOptions, Thorough, simulate_with};
-use crate::progress::Progress;
+use crate::progress::{Progress, Work};
 use crate::standstill::can_hold;
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -54,6 +54,7 @@ pub(super) fn questions(
     (model, mechanism): (&Model, &Mechanism),
     configuration: Option<&Configuration>,
     of_solve: &Faults,
+    work: Work<'_>,
 ) -> Vec<Question> {
     let drive = if model.drives.is_empty() {
         let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
@@ -71,14 +72,14 @@ pub(super) fn questions(
         let options = SimulateOptions::new(1.0);
         // After the first step: how it begins has been decided.
         let mut stop = |progress: &Progress| {
-            if progress.done > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if progress.done > 0 { ControlFlow::Break(()) } else { work.flow() }
         };
         simulate_with(mechanism, configuration, &options, &mut Thorough, &mut stop).map(|_| ())
     };
     vec![
         Question::new("solve", of_solve),
         Question::new("drive", &drive),
-        Question::new("hold", &within(&|_| can_hold(model))),
+        Question::new("hold", &within(&|_| can_hold(model, work))),
         Question::new("simulate", &within(&begins)),
     ]
 }

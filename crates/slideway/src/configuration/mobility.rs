@@ -312,6 +312,14 @@ pub(crate) fn moved_by(motion: DVector<f64>, loads: &DVector<f64>) -> DVector<f6
     if forwards < 0.0 { -motion } else { motion }
 }
 
+/// Whether every motion meets inertia, whatever the joints leave: that of the motions of [`free_motions`] lies between the
+/// least and the greatest of the bodies.
+pub(crate) fn every_motion_has_inertia(mechanism: &Mechanism) -> bool {
+    let square = mechanism.size * mechanism.size;
+    let inertia = || mechanism.bodies.iter().flat_map(|body| [square * body.mass, body.moment_of_inertia]);
+    inertia().fold(f64::INFINITY, f64::min) > NO_INERTIA * inertia().fold(0.0, f64::max)
+}
+
 /// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words: each in the
 /// direction in which loads (N, N, N m of every body) move it.
 pub(crate) fn motions_without_inertia(

@@ -28,7 +28,8 @@ pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{
-    PROBE, advance, free_motions, motion_in_words, motions_without_inertia, moved_by, null_space,
+    PROBE, advance, every_motion_has_inertia, free_motions, motion_in_words, motions_without_inertia,
+    moved_by, null_space,
 };
 pub(crate) use standing::{NO_ACCELERATION, staying};
 

@@ -64,6 +64,12 @@ impl Affine {
         self.coefficients.iter().zip(z).map(|(a, z)| a * z).sum::<f64>() + self.constant
     }
 
+    /// The magnitude of its greatest term.
+    pub(crate) fn greatest_term(&self, z: &[f64]) -> f64 {
+        let terms = self.coefficients.iter().zip(z).map(|(a, z)| (a * z).abs());
+        terms.fold(self.constant.abs(), f64::max)
+    }
+
     /// Whether it is no constant.
     pub(crate) fn varies(&self) -> bool {
         self.coefficients.iter().any(|coefficient| *coefficient != 0.0)

@@ -178,7 +178,7 @@ impl<'w> Pinned<'_, 'w> {
     }
 
     /// The point at which the least slack is greatest, those of the friction circles among them, and that slack; once one
-    /// is positive, greater ones are not sought, and of those below `least` only that they are below.
+    /// is positive, greater ones are not sought, and of those below `least` times the greatest term only that they are below.
     ///
     /// # Errors
     /// If a linear program was not solved, too many sectors would be needed, or the work is to end.
@@ -187,7 +187,7 @@ impl<'w> Pinned<'_, 'w> {
         let mut open = BinaryHeap::from([self.node(vec![None; self.pins.len()])?]);
         for _ in self.steps() {
             let Some(Node { upper, at, sectors }) = open.pop() else { return Ok(best) };
-            if upper < least {
+            if upper < least * self.convex.greatest_term(&at.at) {
                 return Ok((upper, at.at));
             }
             let agree = NOTHING.max(SLACK_AGREEMENT * upper.abs());

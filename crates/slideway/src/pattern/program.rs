@@ -124,6 +124,12 @@ impl Region<'_> {
         Ok((slacks.fold(GREATEST, f64::min), point))
     }
 
+    /// The greatest term of any slack at a point, or 1: rounding is a part of that.
+    pub(crate) fn greatest_term(&self, point: &[f64]) -> f64 {
+        let pins = self.pins.iter().flat_map(|pin| pin.reaction.iter().chain([&pin.couple]));
+        self.slacks.iter().chain(pins).map(|function| function.greatest_term(point)).fold(1.0, f64::max)
+    }
+
     /// The greatest `t` that no slack is below, from where all unknowns are zero.
     fn highest_by_simplex(&self) -> Result<Vec<f64>, Unsolved> {
         let lowest = self.slacks.iter().map(|slack| slack.constant).fold(GREATEST, f64::min);

@@ -31,6 +31,15 @@ enum Column {
     Slack(usize),
 }
 
+/// Which of several slacks that become zero together leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Choice {
+    /// The one that falls most (Harris, 1973): dividing by what falls little magnifies rounding.
+    Steepest,
+    /// The first one (Bland, 1977): no vertex comes twice.
+    First,
+}
+
 /// Slacks, unknowns and the cost as functions of what the columns stand for.
 struct Table<'a> {
     slacks: &'a [Affine],
@@ -49,13 +58,21 @@ struct Table<'a> {
 /// # Errors
 /// If rounding kept it from an end, or the end misses a slack.
 pub(super) fn least(cost: &[f64], slacks: &[Affine], start: &[f64]) -> Result<Optimum, Unsolved> {
+    [Choice::Steepest, Choice::First]
+        .into_iter()
+        .map(|choice| least_by(choice, (cost, slacks), start))
+        .find(Result::is_ok)
+        .unwrap_or(Err(Unsolved))
+}
+
+fn least_by(choice: Choice, (cost, slacks): (&[f64], &[Affine]), start: &[f64]) -> Result<Optimum, Unsolved> {
     let mut table = Table::new(cost, slacks, start);
     // By the rule of the first index no vertex comes twice; there is no telling how many there are, and they
     // are few.
     let most = 50 * (slacks.len() + cost.len());
     for _ in 0..most {
         let Some((column, direction)) = table.entering() else { return table.end().map(Optimum::At) };
-        match table.leaving(column, direction) {
+        match table.leaving(column, direction, choice) {
             Some(row) => table.exchange(row, column),
             None => return Ok(Optimum::Unbounded),
         }
@@ -92,19 +109,21 @@ impl<'a> Table<'a> {
         Some((column, -self.cost[column].signum()))
     }
 
-    /// The slack that becomes zero first along a column; the first of several.
-    fn leaving(&self, column: usize, direction: f64) -> Option<usize> {
-        let mut first: Option<(usize, f64)> = None;
-        for (row, slack) in self.rows.iter().enumerate() {
-            let slope = slack.coefficients[column] * direction;
-            if slope < -FLAT {
-                let step = slack.constant.max(0.0) / -slope;
-                if first.is_none_or(|(_, least)| step < least) {
-                    first = Some((row, step));
-                }
+    /// The slack that becomes zero first along a column.
+    fn leaving(&self, column: usize, direction: f64, choice: Choice) -> Option<usize> {
+        let falls = |slack: &Affine| -direction * slack.coefficients[column];
+        let falling = || self.rows.iter().enumerate().filter(|(_, slack)| falls(slack) > FLAT);
+        let step = |slack: &Affine, allowed: f64| (slack.constant.max(0.0) + allowed) / falls(slack);
+        match choice {
+            Choice::First => falling().min_by(|one, other| step(one.1, 0.0).total_cmp(&step(other.1, 0.0))),
+            Choice::Steepest => {
+                let least = falling().map(|(_, slack)| step(slack, MISSED)).fold(f64::INFINITY, f64::min);
+                falling()
+                    .filter(|(_, slack)| step(slack, 0.0) <= least)
+                    .max_by(|one, other| falls(one.1).total_cmp(&falls(other.1)))
             }
         }
-        first.map(|(row, _)| row)
+        .map(|(row, _)| row)
     }
 
     /// Makes a slack a column, in place of what the column stood for.
@@ -146,10 +165,7 @@ impl<'a> Table<'a> {
                 *value -= unknown.coefficients.iter().zip(&rests).map(|(a, rest)| a * rest).sum::<f64>();
             }
         }
-        let holds = |slack: &Affine| {
-            let terms = slack.coefficients.iter().zip(&point).map(|(a, x)| (a * x).abs());
-            slack.at(&point) >= -MISSED * terms.fold(slack.constant.abs().max(1.0), f64::max)
-        };
+        let holds = |slack: &Affine| slack.at(&point) >= -MISSED * slack.greatest_term(&point).max(1.0);
         if self.slacks.iter().all(holds) { Ok(point) } else { Err(Unsolved) }
     }
 }

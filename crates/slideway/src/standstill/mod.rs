@@ -147,8 +147,8 @@ pub fn hold_with(
 ///
 /// # Errors
 /// As [`hold`] without a load.
-pub(crate) fn can_hold(model: &Model) -> Result<(), Faults> {
-    let setup = undisturbed(|work| Setup::new(model, &HoldOptions::default(), work))?;
+pub(crate) fn can_hold(model: &Model, work: Work<'_>) -> Result<(), Faults> {
+    let setup = Setup::new(model, &HoldOptions::default(), work)?;
     check_states(&setup, MOST_STATES).map(|_| ())
 }
 
@@ -307,7 +307,10 @@ fn check_states(setup: &Setup, most: u64) -> Result<usize, Faults> {
     let options = side_options(setup);
     let sides = options.iter().fold(1_u64, |sides, options| sides.saturating_mul(options.len() as u64));
     let joints = setup.sliders.len() + setup.mechanism.friction_circles.len();
-    let states = most_directions(held_motions(setup).ncols(), joints).saturating_mul(sides);
+    let of_motions = |motions: usize| most_directions(motions, joints).saturating_mul(sides);
+    // More motions than joints make no more states, which spares most mechanisms the search for their motions.
+    let at_most = of_motions(joints);
+    let states = if at_most <= most { at_most } else { of_motions(held_motions(setup).ncols()) };
     match usize::try_from(sides) {
         Ok(sides) if states <= most => Ok(sides),
         _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: most }).into()),

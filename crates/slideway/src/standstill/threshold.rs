@@ -10,7 +10,8 @@
 //! without weights, other loads and preloads, which are negligible beside a load that is great enough. More
 //! static friction only widens this cone, so that there is one threshold, found by bisection of the linear
 //! programs' feasibility and polished by a secant: self-locking from there on, free below. The accuracy is
-//! about 1e-12, and 1e-11 where a block wedges in its guide, as the reactions grow without bound there.
+//! about 1e-12. Where a block wedges in its guide the reactions grow without bound as the inverse of the distance from
+//! the threshold: there it is 1e-11, and 1e-9 beside hinges with friction.
 //!
 //! Redundant guides *wedge* where the cone without any load holds normal forces that do not vanish: friction then
 //! keeps them pressed against each other, however hard. Play and misalignment are negligible beside the deflections of
@@ -28,17 +29,19 @@ use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
 use crate::progress::{Progress, Work};
 
-/// Feasible within rounding: what the programs leave over at the exact threshold.
+/// Feasible within rounding, as a part of the greatest term: what the programs leave over at the exact threshold.
 const ROUNDING: f64 = 1e-13;
-/// The bisection ends at this relative width.
+/// The bisection ends at this relative width, ...
 const WIDTH: f64 = 1e-14;
-/// Distances below the end of the bisection, relative to it, of the points of the last secant.
-const SECANT: [f64; 2] = [1e-6, 1e-8];
-/// The secant changes the end of the bisection by no more than this, relative to it; margins that are not decided nearer
-/// to the threshold end the bisection.
+/// ... and at this one where friction circles would decide the sign of what is missed nearer to the root, with ever more
+/// sectors. Roots of secants are no farther from the bracket.
 const NEAR: f64 = 1e-9;
+/// Distances from the bracket, relative to it, of the points of a secant below it, and of one above it.
+const BELOW: [f64; 2] = [1e-6, 1e-8];
+const ABOVE: [f64; 2] = [1e-4, 1e-6];
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
+
 /// Static friction as a function `constant + slope p` of what is varied.
 struct Law {
     varied: String,
@@ -168,60 +171,88 @@ fn least_in(
     work: Work<'_>,
 ) -> Result<Option<f64>, Unsolved> {
     let Some(state) = State::new(alone, pattern, question) else { return Ok(None) };
-    let missing = |value, enough: f64| {
+    let missed = |value, enough: f64| {
         let region = state.region(&law.friction(alone, value)).watched(work);
-        region.highest_from(-enough).map(|(slack, _)| -slack)
+        let (slack, point) = region.highest_from(-enough)?;
+        let greatest_term = region.greatest_term(&point);
+        Ok(Missed { part: -slack / greatest_term, greatest_term })
     };
-    least_of(found.unwrap_or(GREATEST), missing, work)
+    let width = if law.hinges.is_empty() { WIDTH } else { NEAR };
+    least_of((found.unwrap_or(GREATEST), width), missed, work)
 }
 
-/// The least value from 0 to `best` where a falling function is no more than zero; of a function that is greater than its
-/// second argument it is enough to know that. The progress of the work is that of the bisection, in digits.
+/// By how much the load is not held.
+#[derive(Clone, Copy)]
+struct Missed {
+    /// The greatest slack that is missed, as a part of the greatest term: positive where the load is not held.
+    part: f64,
+    /// The greatest term of any slack there, or 1: it grows without bound towards the friction from which a block wedges.
+    greatest_term: f64,
+}
+
+/// The least value from 0 to `best` where a load is held, to a relative width if no secant tells it; of what is missed by
+/// more than the second argument of `missed` it is enough to know that.
 fn least_of(
-    best: f64,
-    mut function: impl FnMut(f64, f64) -> Result<f64, Unsolved>,
+    (best, width): (f64, f64),
+    missed: impl Fn(f64, f64) -> Result<Missed, Unsolved>,
     work: Work<'_>,
 ) -> Result<Option<f64>, Unsolved> {
-    let mut margin = |value| function(value, ROUNDING);
-    if margin(0.0)? <= ROUNDING {
+    let is_held = |value| Ok(missed(value, ROUNDING)?.part <= ROUNDING);
+    if is_held(0.0)? {
         return Ok(Some(0.0));
     }
     let (mut below, mut above) = (0.0, 1.0_f64.min(best));
-    while margin(above)? > ROUNDING {
+    while !is_held(above)? {
         if above >= best {
             return Ok(None);
         }
         below = above;
         above = (4.0 * above).min(best);
     }
-    while above - below > WIDTH * above {
+    while above - below > width * above {
         let middle = f64::midpoint(below, above);
         if middle <= below || middle >= above {
             break;
         }
-        let digits = ((above - below) / above).ln() / WIDTH.ln();
+        let digits = ((above - below) / above).ln() / width.ln();
         let progress = Progress { fraction: Some(digits), ..Progress::of("states", 0, 1) };
         if work.tell(&progress).is_break() {
             return Err(Unsolved);
         }
-        match margin(middle) {
-            Ok(margin) if margin > ROUNDING => below = middle,
-            Ok(_) => above = middle,
-            // Friction circles decide the sign of a margin near zero with ever more sectors.
-            Err(Unsolved) if above - below <= NEAR * above => break,
-            Err(Unsolved) => return Err(Unsolved),
+        match is_held(middle) {
+            Ok(true) => above = middle,
+            Ok(false) => below = middle,
+            // Beside the friction from which a block wedges, forces may be too great for a linear program.
+            Err(Unsolved) => {
+                let root = missed_at([below, above], &missed).or_else(|| wedged_at([below, above], &missed));
+                return root.map(Some).ok_or(Unsolved);
+            }
         }
     }
-    Ok(Some(polished(above, |value| function(value, f64::INFINITY)).unwrap_or(above)))
+    Ok(Some(missed_at([below, above], &missed).unwrap_or(above)))
 }
 
-/// The root near `value` from the secant through two points below it, where the margin is well above
-/// rounding. The bisection ends where the margin falls below [`ROUNDING`], not at its root.
-fn polished(value: f64, mut margin: impl FnMut(f64) -> Result<f64, Unsolved>) -> Result<f64, Unsolved> {
-    let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
-    let (at_first, at_second) = (margin(first)?, margin(second)?);
+/// The root in a bracket, or near it, from the secant through two points below it, where what is missed is well above
+/// rounding: the bisection ends where that falls below [`ROUNDING`], not at its root.
+fn missed_at(bracket: [f64; 2], missed: &impl Fn(f64, f64) -> Result<Missed, Unsolved>) -> Option<f64> {
+    let points = BELOW.map(|distance| bracket[0] * (1.0 - distance));
+    secant(bracket, points, |value| Some(missed(value, f64::INFINITY).ok()?.part))
+}
+
+/// The same from two points above it, where forces are well below their infinity at the root.
+fn wedged_at(bracket: [f64; 2], missed: &impl Fn(f64, f64) -> Result<Missed, Unsolved>) -> Option<f64> {
+    let points = ABOVE.map(|distance| bracket[1] * (1.0 + distance));
+    secant(bracket, points, |value| Some(missed(value, ROUNDING).ok()?.greatest_term.recip()))
+}
+
+fn secant(
+    [below, above]: [f64; 2],
+    [first, second]: [f64; 2],
+    function: impl Fn(f64) -> Option<f64>,
+) -> Option<f64> {
+    let (at_first, at_second) = (function(first)?, function(second)?);
     let root = second + at_second * (second - first) / (at_first - at_second);
-    Ok(if (root - value).abs() <= NEAR * value { root } else { value })
+    (below * (1.0 - NEAR)..=above * (1.0 + NEAR)).contains(&root).then_some(root)
 }
 
 /// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is

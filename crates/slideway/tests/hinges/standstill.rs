@@ -133,6 +133,34 @@ fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     assert!(both.contains("mu_static of the sliding joints = 0.060759."), "{both}");
 }
 
+/// A block that a couple presses against both faces wedges in its guide from `mu_static = length / height` on, here 60 mm /
+/// 80 mm = 7.5 times 0.1, whatever the hinge does: beside it the reactions grow without bound.
+#[test]
+fn a_block_beside_hinges_wedges_from_its_own_friction_on() {
+    let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
+    for phi in ["60 deg", "100 deg", "-35 deg"] {
+        let at = Settings::default().position("phi", phi);
+        let report = hold(&model.with(&at).unwrap(), &HoldOptions::default().load("gas")).unwrap();
+        let value = report.load.unwrap().threshold.value.unwrap();
+        assert!((value - 7.5).abs() <= 1e-8, "{value} at {phi}");
+    }
+}
+
+/// The sign of what is missed is sought no nearer to the threshold than the secant needs: nearer to it friction circles are
+/// divided into ever more sectors, up to 100,000 for one sign.
+#[test]
+fn a_threshold_takes_few_sectors() {
+    let model = Model::parse(gallery::find("quick-return").unwrap().text).unwrap();
+    let mut asked = 0;
+    let report = hold_with(&model, &HoldOptions::default().load("cut"), &mut |_| {
+        asked += 1;
+        ControlFlow::Continue(())
+    });
+    let value = report.unwrap().unwrap().load.unwrap().threshold.value.unwrap();
+    // By the bisection to machine precision that this replaces: 10.295405848991.
+    assert!((value - 10.295_405_848_991).abs() <= 1e-9 && asked < 20_000, "{value}, {asked}");
+}
+
 /// Two links and a block (reference `toggle_hold_0.1`): the knee is pressed down with a factor times 1 N against 500 N.
 #[test]
 fn a_toggle_is_held_in_a_range_of_forces() {
