@@ -118,6 +118,23 @@ test("the strip is dragged with the mouse", { skip }, async () => {
   await close(page);
 });
 
+test("the editor hears of selections in it, and not of those of fields that follow a slider", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
+  await limits(page);
+  await page.evaluate(() => {
+    globalThis.heard = 0;
+    document.addEventListener("selectionchange", () => (globalThis.heard += 1));
+  });
+  const heard = () => page.evaluate(() => globalThis.heard);
+  await dragWithMouse(page, page.locator(".strip-slider"), 0.9);
+  await verdict(page, "none");
+  assert.equal(await heard(), 0);
+  await page.locator("#editor .cm-line").first().click();
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => globalThis.heard > 0);
+  await close(page);
+});
+
 test("every model of the gallery is shown, and nothing is complained of", { skip }, async () => {
   const page = await set.open();
   for (const name of gallery) {
