@@ -624,8 +624,7 @@ impl FaultKind {
     fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
         Some(match self {
             Self::SharedLoad { .. } => format!(
-                "`{}` cannot yet follow guides that share a load: ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
-                face.question("simulate"),
+                "ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
                 face.question("solve")
             ),
             Self::PressFit { .. } => format!(

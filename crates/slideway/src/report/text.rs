@@ -625,7 +625,7 @@ fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
     }
 }
 
-/// "guide touches at lower right and upper left; wall flat on the right guide"
+/// "guide touching at lower right and upper left; wall flat on the right guide"
 pub(crate) fn joints_in_words(joints: &[JointMode]) -> String {
     let words: Vec<String> = joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
     words.join("; ")

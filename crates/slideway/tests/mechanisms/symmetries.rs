@@ -147,12 +147,12 @@ fn check_attainability(one: &Solution, other: &Solution) -> Result<(), TestCaseE
     Ok(())
 }
 
-/// "touches at a and b" is the same as "touches at b and a".
+/// "touching at a and b" is the same as "touching at b and a".
 fn corners_sorted(mode: &str) -> String {
-    let Some(corners) = mode.strip_prefix("touches at ") else { return mode.to_owned() };
+    let Some(corners) = mode.strip_prefix("touching at ") else { return mode.to_owned() };
     let mut corners: Vec<&str> = corners.split(" and ").collect();
     corners.sort_unstable();
-    format!("touches at {}", corners.join(" and "))
+    format!("touching at {}", corners.join(" and "))
 }
 
 fn exchanged(text: &str, one: &str, other: &str) -> String {
