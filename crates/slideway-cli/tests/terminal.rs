@@ -299,7 +299,7 @@ fn a_new_model_is_asked_for() {
         "a, distance of the push from the middle [150 mm]: 300 mm? [Enter: yes] mu, ",
         "mu, friction coefficient of the guide [0.3]: \n",
         "File [drawer.toml]: taken.toml exists. Overwrite it? [y/N] File [drawer.toml]: ",
-        "Wrote mine.toml. Kept from the template: L = 400 mm, mu = 0.3, width = 0 mm,",
+        "Wrote mine.toml. Kept from the template: L = 400 mm, mu = 0.3, width = 400 mm,",
         "$ slideway drive mine.toml",
         // P = Q/(1 - 2 mu a/L)
         "36.36",

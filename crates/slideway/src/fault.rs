@@ -277,7 +277,7 @@ pub enum FaultKind {
     #[error("parameters refer to each other circularly: {}", cycle.join(" -> "))]
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
-    OutOfRange { what: String, wanted: &'static str, value: f64 },
+    OutOfRange { what: String, wanted: &'static str, value: String },
     #[error("{relation} is needed: {meaning}")]
     NeedUnmet { relation: String, meaning: String },
     #[error("the parts do not meet with {name} = {value} ({meaning})")]
@@ -624,8 +624,7 @@ impl FaultKind {
     fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
         Some(match self {
             Self::SharedLoad { .. } => format!(
-                "`{}` cannot yet follow guides that share a load: ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
-                face.question("simulate"),
+                "ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
                 face.question("solve")
             ),
             Self::PressFit { .. } => format!(

@@ -221,13 +221,14 @@ impl Template {
             let setting = settings.entries().get(index)?;
             let TemplateParameter { name, meaning, .. } =
                 self.parameters().find(|parameter| parameter.name == setting.name)?;
+            let typed = || printable::line(&setting.value.to_string()).into_owned();
             let kind = match fault.kind {
-                FaultKind::OutOfRange { wanted, value, .. } => {
-                    FaultKind::OutOfRange { what: format!("{name} ({meaning})"), wanted, value }
+                FaultKind::OutOfRange { wanted, .. } => {
+                    FaultKind::OutOfRange { what: format!("{name} ({meaning})"), wanted, value: typed() }
                 }
                 ref kind if kind.is_without_value() => FaultKind::PartsApart {
                     name: name.to_owned(),
-                    value: printable::line(&setting.value.to_string()).into_owned(),
+                    value: typed(),
                     meaning: meaning.to_owned(),
                 },
                 _ => return None,

@@ -40,7 +40,7 @@ fn drive_answers() {
         // P = Q / (1 - 2 mu a / L), which has no limit at mu = L / (2 a) = 2/3.
         (
             driven("drawer", &[]),
-            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam from mu = 0.6667 (2.222 times this friction). Backwards push needs 13.79 N (20 N without friction); the load pushes, and 68.97 % of its power arrives. Backwards it does not jam at any friction.",
+            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam from mu = 0.6667 (2.222 times this friction). Backwards push needs 13.79 N (20 N without friction) to brake the load: efficiency 68.97 %. Backwards it does not jam at any friction while it moves.",
         ),
         (
             driven("drawer", &[("mu", "0.8")]),
@@ -48,11 +48,11 @@ fn drive_answers() {
         ),
         (
             driven("drawer", &[("mu", "2/3")]),
-            "It is not decided whether it moves. Backwards push needs 10 N (20 N without friction); the load pushes, and 50 % of its power arrives. Backwards it does not jam at any friction.",
+            "It is not decided whether it moves. Backwards push needs 10 N (20 N without friction) to brake the load: efficiency 50 %. Backwards it does not jam at any friction while it moves.",
         ),
         (
             driven("wedge", &[]),
-            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards P needs -0.1239 kN (0.1763 kN without friction): friction holds the load, so it must be driven. Backwards floor would tip from mu = 4 (26.67 times this friction); model it as a block slider to go on.",
+            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards floor would tip from mu = 4 (26.67 times this friction); model it as a block slider to go on.",
         ),
         (
             driven("stick-slip", &[]),
@@ -60,7 +60,7 @@ fn drive_answers() {
         ),
         (
             driven("bell-crank", &[]),
-            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. Backwards push needs 0.5549 kN (0.625 kN without friction); the load pushes, and 88.79 % of its power arrives.",
+            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. Backwards push needs 0.5549 kN (0.625 kN without friction) to brake the load: efficiency 88.79 %.",
         ),
         (
             driven(EQUAL_PLAY, &[]),

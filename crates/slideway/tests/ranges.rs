@@ -40,3 +40,27 @@ fn both_orders_of_a_range_have_one_answer() {
     };
     assert_eq!(known("0.3..0.2"), known("0.2..0.3"));
 }
+
+/// The drawer jams at mu = L/(2 a), wherever that lies; a length has the range that `size` gives it.
+#[test]
+fn a_range_that_is_not_given_contains_the_jam_that_is_known() {
+    let desk = Settings::default().parameter("L", "0.45 m").parameter("a", "0.2 m");
+    let over = |name: &str, settings: &Settings| {
+        let model = model("drawer").with(settings).unwrap();
+        let report = limits(&model, &LimitsOptions::new(Vary::usual(name))).unwrap();
+        ([report.vary.from, report.vary.to], report.answer())
+    };
+    let rough = desk.clone().parameter("mu", "0.01");
+    for (name, settings, [from, to], jams) in [
+        ("mu", &desk, [0.0, 2.25], "mu = 1.125"),
+        ("mu", &Settings::default(), [0.0, 1.0], "mu = 0.6667"),
+        // 0.45 m/(2 0.2 m 0.01) times the friction of the model.
+        ("friction", &rough, [0.0, 225.0], "friction = 112.5"),
+        // L/(2 mu) = 0.4 m/0.6
+        ("a", &Settings::default(), [0.06, 1.5], "a = 0.6667 m"),
+    ] {
+        let (range, answer) = over(name, settings);
+        assert!((range[0] - from).abs() + (range[1] - to).abs() < 1e-9, "{name}: {range:?}");
+        assert!(answer.starts_with(&format!("It jams from {jams} on")), "{answer}");
+    }
+}

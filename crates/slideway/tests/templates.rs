@@ -356,7 +356,7 @@ fn faults_name_the_template_s_parameters() {
     assert_eq!(
         told,
         [
-            "L (length over which it is guided) must be greater than zero, but is -0.1",
+            "L (length over which it is guided) must be greater than zero, but is -100 mm",
             "mu (friction coefficient of the guide) must be at least zero, but is -0.1"
         ]
     );

@@ -20,6 +20,7 @@ use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
+use slideway::printable;
 use slideway::progress::{Callback, Progress};
 use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, animation_with, motion_figure, portrait_figure};
@@ -164,11 +165,11 @@ impl Question<'_> {
 
     fn positive_time(&self, name: &str, text: Option<&str>) -> Result<Option<f64>, Failure> {
         let Some(text) = text else { return Ok(None) };
-        let value = self.time(name, text)?;
-        if value > 0.0 {
-            return Ok(Some(value));
+        let time = self.time(name, text)?;
+        if time > 0.0 {
+            return Ok(Some(time));
         }
-        let wanted = "greater than zero";
+        let (wanted, value) = ("greater than zero", printable::line(text).into_owned());
         Err(self.refused(FaultKind::OutOfRange { what: format!("--{name}"), wanted, value }))
     }
 

@@ -51,7 +51,7 @@ fn pins(solution: &Solution, mechanism: &Mechanism) -> Vec<[String; 4]> {
     heading.into_iter().chain(pins).collect()
 }
 
-/// "guide tipped: lower right, upper left"
+/// "guide touching at lower right and upper left"
 fn joint_modes(joints: &[JointMode]) -> impl Iterator<Item = String> {
     joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode))
 }

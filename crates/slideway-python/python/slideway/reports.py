@@ -1801,7 +1801,7 @@ class JointMode(Record):
     name: str
     """Its name."""
     mode: str
-    """The mode in words: "tipped: lower right, upper left"."""
+    """The mode in words: "touching at lower right and upper left"."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

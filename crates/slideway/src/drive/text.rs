@@ -217,13 +217,13 @@ fn range_cells(range: &EffortRange, units: &[Unit]) -> Vec<String> {
     range.undetermined.efforts.iter().zip(units).map(one).collect()
 }
 
-/// "25 to 50", "from 25", "up to 50", "any".
+/// "25 to 50", "25 or more", "50 or less", "any".
 fn ends_in_words(ends: [Option<String>; 2]) -> String {
     match ends {
         [Some(from), Some(to)] if from == to => from,
         [Some(from), Some(to)] => format!("{from} to {to}"),
-        [Some(from), None] => format!("from {from}"),
-        [None, Some(to)] => format!("up to {to}"),
+        [Some(from), None] => format!("{from} or more"),
+        [None, Some(to)] => format!("{to} or less"),
         [None, None] => "any".to_owned(),
     }
 }

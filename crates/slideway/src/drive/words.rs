@@ -34,7 +34,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
     let whole = |clause: String| match direction.direction {
         Sense::Reversed => format!("Backwards {clause}"),
         // All but names of drives and joints.
-        Sense::Model if ["it ", "infinitely "].iter().any(|word| clause.starts_with(word)) => {
+        Sense::Model if ["it ", "infinitely ", "friction holds "].iter().any(|word| clause.starts_with(word)) => {
             clause[..1].to_uppercase() + &clause[1..]
         }
         Sense::Model => clause,
@@ -120,7 +120,7 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
             format!(" to brake the load: efficiency {}", percent(value))
         }
         (EfficiencyKind::HeldByFriction, _) => {
-            return format!("it is self-locking: to move, {}", needs.join(", "));
+            return format!("friction holds the load: to move it, {}", needs.join(", "));
         }
         (EfficiencyKind::NoPower, _) => "; without friction the motion needs no power".to_owned(),
         _ => "; without friction the drives push, with it they brake".to_owned(),

@@ -197,7 +197,7 @@ impl LimitsReport {
 
 /// The sentence on what scans can miss: whatever begins and ends within this width.
 pub(crate) fn could_be_missed(width: &str) -> String {
-    format!("Sampled: ranges narrower than {width} could be missed.")
+    format!("Checked every {width}; a narrower range could be missed.")
 }
 
 /// Where there is no mode problem, and why.

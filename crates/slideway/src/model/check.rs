@@ -9,6 +9,7 @@ use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
 use crate::interval::{Interval, Real};
+use crate::units::precise;
 use std::sync::Arc;
 
 impl Model {
@@ -400,7 +401,7 @@ impl Model {
                 let formula = self.formula(restitution);
                 if let Some(value) = value(restitution).filter(|value| *value > 1.0) {
                     let what = formula.what.to_string();
-                    let kind = FaultKind::OutOfRange { what, wanted: "at most one", value };
+                    let kind = FaultKind::OutOfRange { what, wanted: "at most one", value: precise(value) };
                     faults.push(Fault::new(kind, formula.origin.place()));
                 }
             }

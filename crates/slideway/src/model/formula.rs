@@ -5,6 +5,7 @@ use super::quantity::{Quantity, Span};
 use crate::expression::{Dimension, Expression, ExpressionFault, Inferred, Piece, Symbol, Values};
 use crate::fault::{Fault, FaultKind, Place, Source};
 use crate::interval::Real;
+use crate::units::Unit;
 
 /// Where a formula stands.
 #[derive(Debug, Clone)]
@@ -123,7 +124,9 @@ impl Formula {
         if allowed {
             return Ok(value);
         }
-        let kind = FaultKind::OutOfRange { what: self.what.to_string(), wanted, value: value.lower() };
+        let unit = Unit::si_unit(&self.wanted.map_or_else(String::new, Dimension::unit));
+        let kind =
+            FaultKind::OutOfRange { what: self.what.to_string(), wanted, value: unit.precise(value.lower()) };
         Err(Fault::new(kind, self.origin.place()))
     }
 

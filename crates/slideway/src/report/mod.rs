@@ -583,7 +583,7 @@ pub struct Contact {
 pub struct JointMode {
     /// Its name.
     pub name: String,
-    /// The mode in words: "tipped: lower right, upper left".
+    /// The mode in words: "touching at lower right and upper left".
     pub mode: String,
 }
 

@@ -418,7 +418,7 @@ impl Text<'_> {
             return;
         }
         if let Some(locking) = self.report.margins.as_ref().and_then(|margins| margins.locking.as_ref()) {
-            self.line("It is wedged in this contact mode:");
+            self.line("It jams in this contact mode:");
             self.modes(&locking.joints);
         }
     }
@@ -625,7 +625,7 @@ fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
     }
 }
 
-/// "guide tipped: lower right, upper left; wall flat on the right guide"
+/// "guide touching at lower right and upper left; wall flat on the right guide"
 pub(crate) fn joints_in_words(joints: &[JointMode]) -> String {
     let words: Vec<String> = joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
     words.join("; ")

@@ -103,7 +103,7 @@ impl Words<'_> {
             (MetEnd::NoPosition, MetEnd::NoPosition) => {
                 format!("from {bare} to {to}, beyond which there is no answer")
             }
-            (MetEnd::NoPosition, _) => format!("from {bare}, below which there is no answer, to {to}"),
+            (MetEnd::NoPosition, _) => format!("from {from}, below which there is no answer, to {to}"),
             (_, MetEnd::NoPosition) => format!("from {bare} to {to}, above which there is no answer"),
             _ => format!("from {bare} to {to}"),
         }

@@ -23,7 +23,7 @@ pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> St
             (sign, 0) => format!("on the {} corner only", guide.corner(*sign, 1.0)),
             (front, rear) if front == rear => guide.flat(*front),
             (front, rear) => {
-                format!("tipped: {}, {}", guide.corner(*front, 1.0), guide.corner(*rear, -1.0))
+                format!("touching at {} and {}", guide.corner(*front, 1.0), guide.corner(*rear, -1.0))
             }
         },
         (_, [sign, ..]) => guide.flat(*sign),

@@ -196,5 +196,5 @@ fn threshold(threshold: &Threshold, value: f64) -> String {
 pub(super) fn without_inertia(report: &HoldReport) -> Option<String> {
     let start = if report.holds { "Whether it could also start to move" } else { "How it starts to move" };
     let is_open = !report.motions_without_inertia.is_empty();
-    is_open.then(|| format!("{start} is not computed: what moves has no mass."))
+    is_open.then(|| format!("{start} is not computed: the moving parts have no mass."))
 }

@@ -316,7 +316,7 @@ fn is_one_value(range: Range, scale: f64) -> bool {
     range.least.zip(range.greatest).is_some_and(|(least, greatest)| greatest - least <= 1e-10 * scale)
 }
 
-/// "3", "1 to 3", "from 1 on", "up to 3" or "any".
+/// "3", "1 to 3", "1 or more", "3 or less" or "any".
 pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
     // What is left over by the linear programs is no range.
     let noise = 1e3 * scale;
@@ -326,8 +326,8 @@ pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
             number(f64::midpoint(least, greatest))
         }
         (Some(least), Some(greatest)) => format!("{} to {}", number(least), number(greatest)),
-        (Some(least), None) => format!("from {} on", number(least)),
-        (None, Some(greatest)) => format!("up to {}", number(greatest)),
+        (Some(least), None) => format!("{} or more", number(least)),
+        (None, Some(greatest)) => format!("{} or less", number(greatest)),
         (None, None) => "any".to_owned(),
     }
 }

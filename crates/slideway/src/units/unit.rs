@@ -77,17 +77,17 @@ impl Unit {
 
     /// An SI value in this unit, with five significant digits: "400 mm".
     pub fn show(&self, value: f64) -> String {
-        self.with(&self.number(value))
+        self.worded(value, number)
     }
 
     /// An SI value in this unit, with eight significant digits.
     pub fn precise(&self, value: f64) -> String {
-        self.with(&precise(self.number_of(value)))
+        self.worded(value, precise)
     }
 
     /// An SI value in this unit, with at most four significant digits: for sentences.
     pub(crate) fn brief(&self, value: f64) -> String {
-        self.with(&self.brief_number(value))
+        self.worded(value, brief)
     }
 
     /// [`Unit::brief`] without the name.
@@ -118,6 +118,15 @@ impl Unit {
     /// Returns the range between two SI values of a quantity, in words: "L from 200 to 500 mm".
     pub(crate) fn range(&self, what: &str, [from, to]: [f64; 2]) -> String {
         format!("{what} from {} to {}", self.precise_number(from), self.precise(to))
+    }
+
+    /// An SI value with its unit, in that of the SI if this one makes it too great for a number.
+    fn worded(&self, value: f64, digits: fn(f64) -> String) -> String {
+        let number = self.number_of(value);
+        if number.is_infinite() && value.is_finite() {
+            return Self::si_unit(&self.si).worded(value, digits);
+        }
+        self.with(&digits(number))
     }
 
     /// A number with the name of the unit behind it.

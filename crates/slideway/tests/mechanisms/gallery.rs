@@ -160,7 +160,7 @@ fn cam_follower_jams_as_its_comment_says() {
     assert_eq!(report("cam-follower", &[("mu", "0.7698"), ("d", "0")]).status, Status::One);
     assert_eq!(report("cam-follower", &[("mu", "0.7699"), ("d", "0")]).status, Status::None);
     // The lower edge of the bushing bears on the side to which the cam pushes.
-    assert_eq!(mode(only(&report("cam-follower", &[])), "bushing"), "tipped: upper left, lower right");
+    assert_eq!(mode(only(&report("cam-follower", &[])), "bushing"), "touching at upper left and lower right");
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn the_piston_lies_flat_or_tips() {
     for mu in ["0.1", "0.749"] {
         assert_eq!(Vec::from_iter(modes(mu)), ["flat on the lower guide", "flat on the upper guide"]);
     }
-    let tipped = ["tipped: lower right, upper left", "tipped: upper right, lower left"];
+    let tipped = ["touching at lower right and upper left", "touching at upper right and lower left"];
     assert_eq!(Vec::from_iter(modes("0.751")), tipped);
 }
 
@@ -237,7 +237,7 @@ fn the_booms_patterns_grow_as_four_to_the_stages() {
     let report = report("telescopic-boom", &[]);
     assert_eq!(report.model.contacts, 6);
     assert_eq!(report.patterns.unwrap().total, 4_u64.pow(3));
-    assert!(only(&report).joints.iter().all(|joint| joint.mode.starts_with("tipped: ")));
+    assert!(only(&report).joints.iter().all(|joint| joint.mode.starts_with("touching at ")));
     let retracting = report_with(&model("telescopic-boom"), &parameters(&[("mu", "0.4"), ("v", "-0.1 m/s")]));
     assert_eq!(retracting.complete, Proof::Proven);
 }

@@ -324,8 +324,8 @@ fn the_words_of_section_7() {
         let found = report.solutions.iter().find(|solution| signs(solution) == pattern);
         modes(found.expect("a solution of this pattern"))
     };
-    assert_eq!(word_of("+++"), ["on the lower side of the slot", "tipped: lower right, upper left"]);
-    assert_eq!(word_of("+--"), ["on the lower side of the slot", "tipped: upper right, lower left"]);
+    assert_eq!(word_of("+++"), ["on the lower side of the slot", "touching at lower right and upper left"]);
+    assert_eq!(word_of("+--"), ["on the lower side of the slot", "touching at upper right and lower left"]);
     assert_eq!(word_of("-+-"), ["on the upper side of the slot", "flat on the lower guide"]);
 }
 

@@ -147,12 +147,12 @@ fn check_attainability(one: &Solution, other: &Solution) -> Result<(), TestCaseE
     Ok(())
 }
 
-/// "tipped: a, b" is the same as "tipped: b, a".
+/// "touching at a and b" is the same as "touching at b and a".
 fn corners_sorted(mode: &str) -> String {
-    let Some(corners) = mode.strip_prefix("tipped: ") else { return mode.to_owned() };
-    let mut corners: Vec<&str> = corners.split(", ").collect();
+    let Some(corners) = mode.strip_prefix("touching at ") else { return mode.to_owned() };
+    let mut corners: Vec<&str> = corners.split(" and ").collect();
     corners.sort_unstable();
-    format!("tipped: {}", corners.join(", "))
+    format!("touching at {}", corners.join(" and "))
 }
 
 fn exchanged(text: &str, one: &str, other: &str) -> String {

@@ -29,30 +29,30 @@ fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
 // Inside a horizontal guide, u to the right: N > 0 pushes the block up, so the lower guide touches.
 #[case(0.0, &[1, 1], "flat on the lower guide")]
 #[case(0.0, &[-1, -1], "flat on the upper guide")]
-#[case(0.0, &[1, -1], "tipped: lower right, upper left")]
-#[case(0.0, &[-1, 1], "tipped: upper right, lower left")]
+#[case(0.0, &[1, -1], "touching at lower right and upper left")]
+#[case(0.0, &[-1, 1], "touching at upper right and lower left")]
 #[case(0.0, &[1, 0], "on the lower right corner only")]
 #[case(0.0, &[0, -1], "on the upper left corner only")]
 #[case(0.0, &[0, 0], "no contact force")]
 // u to the left: n points down, the front is on the left.
 #[case(180.0, &[1, 1], "flat on the upper guide")]
 #[case(180.0, &[-1, -1], "flat on the lower guide")]
-#[case(180.0, &[1, -1], "tipped: upper left, lower right")]
+#[case(180.0, &[1, -1], "touching at upper left and lower right")]
 #[case(180.0, &[0, 1], "on the upper right corner only")]
 // u upwards: n points to the left, N > 0 pushes the block to the left, so the right guide touches.
 #[case(90.0, &[1, 1], "flat on the right guide")]
 #[case(90.0, &[-1, -1], "flat on the left guide")]
-#[case(90.0, &[1, -1], "tipped: upper right, lower left")]
+#[case(90.0, &[1, -1], "touching at upper right and lower left")]
 #[case(90.0, &[-1, 0], "on the upper left corner only")]
 // u downwards: n points to the right.
 #[case(-90.0, &[1, 1], "flat on the left guide")]
-#[case(-90.0, &[1, -1], "tipped: lower left, upper right")]
+#[case(-90.0, &[1, -1], "touching at lower left and upper right")]
 // Inclined guides are called by what they are nearer to.
 #[case(30.0, &[1, 1], "flat on the lower guide")]
-#[case(-30.0, &[1, -1], "tipped: lower right, upper left")]
+#[case(-30.0, &[1, -1], "touching at lower right and upper left")]
 #[case(60.0, &[1, 1], "flat on the right guide")]
 #[case(120.0, &[1, 1], "flat on the right guide")]
-#[case(120.0, &[1, -1], "tipped: upper right, lower left")]
+#[case(120.0, &[1, -1], "touching at upper right and lower left")]
 #[case(150.0, &[1, 1], "flat on the upper guide")]
 #[case(45.0, &[1, 1], "flat on the lower guide")]
 #[case(-45.0, &[-1, -1], "flat on the upper guide")]
@@ -67,10 +67,10 @@ fn block_inside_its_guide(#[case] angle: f64, #[case] signs: &[i8], #[case] expe
 // A sleeve pushed up by its rod sits on the rod's upper face.
 #[case(0.0, &[1, 1], "flat on the upper face of the guide")]
 #[case(0.0, &[-1, -1], "flat on the lower face of the guide")]
-#[case(0.0, &[1, -1], "tipped: upper right, lower left")]
+#[case(0.0, &[1, -1], "touching at upper right and lower left")]
 #[case(180.0, &[1, 1], "flat on the lower face of the guide")]
 #[case(90.0, &[1, 1], "flat on the left face of the guide")]
-#[case(90.0, &[1, -1], "tipped: upper left, lower right")]
+#[case(90.0, &[1, -1], "touching at upper left and lower right")]
 #[case(-90.0, &[1, 1], "flat on the right face of the guide")]
 #[case(90.0, &[0, 1], "on the lower left corner only")]
 fn block_around_its_guide(#[case] angle: f64, #[case] signs: &[i8], #[case] expected: &str) {
@@ -112,7 +112,7 @@ fn corners_are_named_by_where_they_lie() {
             let vertical = angle.to_radians().sin().abs() > angle.to_radians().cos().abs();
             for (front, rear) in [(1, -1), (-1, 1)] {
                 let text = words(SliderKind::Block, height, angle, &[front, rear]);
-                let corners: Vec<&str> = text.strip_prefix("tipped: ").unwrap().split(", ").collect();
+                let corners: Vec<&str> = text.strip_prefix("touching at ").unwrap().split(" and ").collect();
                 for (corner, (sign, end)) in corners.iter().zip([(front, 1.0), (rear, -1.0)]) {
                     let place = touching_place(angle, height, sign, end);
                     let middle = touching_place(angle, 0.0, sign, end);

@@ -15,6 +15,7 @@ use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::Model;
 use crate::progress::{Callback, Work, as_far_as_wanted};
 use crate::solve::never_turning;
+use crate::units::precise;
 use run::Run;
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -90,7 +91,7 @@ fn check(options: &SimulateOptions) -> Result<(), Faults> {
             faults.push(Fault::general(FaultKind::OutOfRange {
                 what: what.to_owned(),
                 wanted: "greater than zero",
-                value,
+                value: precise(value),
             }));
         }
     };
