@@ -10,10 +10,10 @@ Examples:
   slideway check drawer.toml --format json
 
 Exit codes:
-  0  at least one question can be answered in this state
-  2  invalid input, or no question can be answered
-  3  not done within --time-limit: nothing is written
-130  interrupted: nothing is written";
+  0    at least one question can be answered in this state
+  2    invalid input, or no question can be answered
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway check`.
 #[derive(Debug, Args)]

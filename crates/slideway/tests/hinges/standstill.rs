@@ -133,17 +133,24 @@ fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
     assert!(both.contains("mu_static of the sliding joints = 0.060759."), "{both}");
 }
 
-/// A block that a couple presses against both faces wedges in its guide from `mu_static = length / height` on, here 60 mm /
-/// 80 mm = 7.5 times 0.1, whatever the hinge does: beside it the reactions grow without bound.
-#[test]
-fn a_block_beside_hinges_wedges_from_its_own_friction_on() {
-    let model = Model::parse(gallery::find("slider-crank-with-pins").unwrap().text).unwrap();
-    for phi in ["60 deg", "100 deg", "-35 deg"] {
-        let at = Settings::default().position("phi", phi);
-        let report = hold(&model.with(&at).unwrap(), &HoldOptions::default().load("gas")).unwrap();
-        let value = report.load.unwrap().threshold.value.unwrap();
-        assert!((value - 7.5).abs() <= 1e-8, "{value} at {phi}");
-    }
+/// A block that a couple presses against both faces wedges in its guide from `mu_static = length / height` on, whatever the
+/// hinges do: 60 mm / 80 mm = 7.5 times 0.1, and 80 mm / 40 mm = 20 times 0.1. Beside it the reactions grow without bound.
+#[rstest]
+#[case("slider-crank-with-pins", ["phi", "60 deg"], "gas", 7.5)]
+#[case("slider-crank-with-pins", ["phi", "100 deg"], "gas", 7.5)]
+#[case("slider-crank-with-pins", ["phi", "60 deg"], "torque", 7.5)]
+#[case("toggle-press", ["alpha", "5 deg"], "knee", 20.0)]
+fn a_block_beside_hinges_wedges_from_its_own_friction_on(
+    #[case] name: &str,
+    #[case] [coordinate, position]: [&str; 2],
+    #[case] load: &str,
+    #[case] expected: f64,
+) {
+    let model = Model::parse(gallery::find(name).unwrap().text).unwrap();
+    let model = model.with(&Settings::default().position(coordinate, position)).unwrap();
+    let report = hold(&model, &HoldOptions::default().load(load)).unwrap();
+    let value = report.load.unwrap().threshold.value.unwrap();
+    assert!((value / expected - 1.0).abs() <= 1e-8 && report.undecided == 0, "{value}");
 }
 
 /// The sign of what is missed is sought no nearer to the threshold than the secant needs: nearer to it friction circles are
