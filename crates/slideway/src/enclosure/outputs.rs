@@ -2,15 +2,14 @@
 //! tip, accelerations and power.
 
 use crate::interval::Interval;
-use crate::modes::certificate::IntervalInfluence;
-use crate::modes::{BySide, ContactState, Side};
+use crate::modes::{BySide, ContactState, InfluenceCoefficients, Side};
 
 /// Bounds of what follows from the forces of a state of the mode problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnclosedOutputs {
     /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a
     /// column have the same bounds where theory says that they are equal.
-    pub influence: IntervalInfluence,
+    pub influence: InfluenceCoefficients<Interval>,
     /// Bounds of the couples of guided sliders, in the order of the joints.
     pub couples: Vec<EnclosedCouple>,
     /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
@@ -114,10 +113,9 @@ impl EnclosedOutputs {
     /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.
     fn of_friction(&self, output: &EnclosedOutput, k: usize, state: ContactState, y: Interval) -> Interval {
         let influence = &self.influence;
-        let preload =
-            |side: Side| output.influence_preload.get(side)[k] * influence.preload.get(side).entry(k, 0);
+        let preload = |side: Side| output.influence_preload.get(side)[k] * influence.preload.get(side)[k];
         let force = if let Some(side) = state.side() {
-            output.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side)
+            output.influence.get(side)[k] * influence.mu.get(side)[k] * y + preload(side)
         } else {
             let [positive, negative] = Side::BOTH.map(preload);
             negative + y * (positive - negative)

@@ -42,7 +42,10 @@ fn all_states(
     work: Work<'_>,
 ) -> Result<States, Faults> {
     let mut goes_on = |_: &Progress| work.flow();
-    if !careful && let Some(found) = hinged_states(stages.hinged(), stages.accuracy, last, &mut goes_on)? {
+    if !careful
+        && let Some(found) =
+            hinged_states((stages.data(), &stages.configuration), stages.accuracy, last, &mut goes_on)?
+    {
         return Ok(of_found(&found));
     }
     let report = solve_in(&model()?, stages, &SolveOptions::default(), &mut goes_on)?;

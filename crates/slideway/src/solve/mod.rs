@@ -45,21 +45,20 @@ mod words;
 pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub use hinges::exact_block_problem;
-pub(crate) use hinges::{HingedData, HingedState, LastSolution, check_hinges, hinged_states, never_turning};
+pub(crate) use hinges::{HingedState, LastSolution, check_hinges, hinged_states, never_turning};
 pub(crate) use hinges::{
-    block_instance, directions, factors_with_one_solution, friction_of_contacts, locking_factor,
-    turning_hinges, unknowns_of,
+    block_instance, directions, factors_with_one_solution, locking_factor, turning_hinges, unknowns_of,
 };
 pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
+    NO_INFLUENCE, ProblemData, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::load_sharing;
+pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
-pub(crate) use stages::{ProblemData, Stages};
 pub(crate) use standing::check_standing;
 pub(crate) use state::{pattern, signs};
 pub(crate) use tolerant::StateWithinTolerances;

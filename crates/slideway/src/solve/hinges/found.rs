@@ -5,13 +5,14 @@ use super::super::attainability::not_computed;
 use super::super::state::{State, pattern, signs};
 use super::margins::Growth;
 use crate::attainability::ElasticHinges;
-use crate::enclosure::{NotEnclosed, TurningHinge};
+use crate::enclosure::NotEnclosed;
 use crate::ids::JointId;
 use crate::influence::HingeState;
 use crate::interval::{Interval, Real};
 use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState, Side};
+use crate::problem::TurningHinge;
 use crate::report::{Proof, SolveReport};
 use nalgebra::{DMatrix, DVector};
 

@@ -1,17 +1,19 @@
 //! All states of one point after another, without the proof for the exact mechanism: for sweeps, maps and tables.
 
-use super::block_problem;
-use super::spin::{HingedData, Spins, spins};
-use crate::enclosure::TurningHinge;
+use super::super::mode_problem::ProblemData;
+use super::spin::{Spins, spins};
+use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::influence::HingeState;
 use crate::kinetics::Accuracy;
+use crate::mechanism::Mechanism;
 use crate::modes::blocks::{
     BlockProblem, BlockSolution, only_solution, search_all_or_nothing, unique_for_every_load,
 };
 use crate::modes::certificate::Sign;
 use crate::modes::screen::SLACK;
 use crate::modes::{ContactState, Proof, SearchOptions, Side};
+use crate::problem::TurningHinge;
 use crate::progress::Callback;
 
 /// A solution with friction in hinges, inside of its contact mode.
@@ -38,7 +40,7 @@ pub(crate) struct LastSolution(Vec<f64>);
 /// # Errors
 /// Hinges with friction that do not turn; numbers beyond the range of floating point.
 pub(crate) fn hinged_states(
-    data: HingedData<'_>,
+    (data, configuration): (ProblemData<'_>, &Configuration),
     accuracy: Accuracy,
     last: &mut LastSolution,
     progress: &mut Callback<'_>,
@@ -46,13 +48,13 @@ pub(crate) fn hinged_states(
     if !data.mechanism.excess.is_empty() {
         return Ok(None);
     }
-    let Spins { turning, standing } = spins(data.mechanism, data.configuration, data.influence)?;
+    let Spins { turning, standing } = spins(data.mechanism, configuration, data.influence)?;
     if !standing.is_empty() {
         return Ok(None);
     }
-    let problem = block_problem(data, &turning)?;
+    let problem = data.block_problem(&turning)?;
     let slack = SLACK.max(accuracy.part);
-    let telling = Telling { data, problem: &problem, turning: &turning, slack };
+    let telling = Telling { mechanism: data.mechanism, problem: &problem, turning: &turning, slack };
     if let Some(only) = only_solution(&problem, Some(&last.0)) {
         let state = telling.only(&only.point, &only.errors);
         last.0 = only.point;
@@ -68,7 +70,7 @@ pub(crate) fn hinged_states(
 
 /// From the numbers of a block problem to states.
 struct Telling<'t> {
-    data: HingedData<'t>,
+    mechanism: &'t Mechanism,
     problem: &'t BlockProblem,
     turning: &'t [TurningHinge],
     /// Forces below this part of the terms that they are made of are in doubt.
@@ -127,7 +129,7 @@ impl Telling<'_> {
         let negative = pattern.iter().filter(|state| **state == ContactState::Negative).count();
         HingedState {
             normal_forces: forces.to_vec(),
-            hinges: super::found::hinge_states(self.data.mechanism, self.turning, reactions),
+            hinges: super::found::hinge_states(self.mechanism, self.turning, reactions),
             negative_determinant: oriented_negative ^ (negative % 2 == 1),
             pattern,
         }
