@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use slideway_modes::certificate::{
-    Decision, DecisionCounts, ExactOutcome, ExactSet, Interval, IntervalMatrix, IntervalModeProblem,
+    Decision, DecisionCounts, ExactOutcome, ExactSet, Interval, IntervalModeProblem,
     IntervalModeProblemError, Precision, Sign, decide, solve_exactly,
 };
 use slideway_modes::{

@@ -32,7 +32,8 @@ mod coefficients;
 mod motion;
 mod outputs;
 
-pub use outputs::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, Tipping};
+use outputs::{EnclosedCouple, EnclosedOutput};
+pub use outputs::{EnclosedOutputs, Tipping};
 
 use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};

@@ -11,38 +11,38 @@ pub struct EnclosedOutputs {
     /// column have the same bounds where theory says that they are equal.
     pub influence: InfluenceCoefficients<Interval>,
     /// Bounds of the couples of guided sliders, in the order of the joints.
-    pub couples: Vec<EnclosedCouple>,
+    pub(crate) couples: Vec<EnclosedCouple>,
     /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
-    pub accelerations: Vec<EnclosedOutput>,
+    pub(crate) accelerations: Vec<EnclosedOutput>,
     /// Bounds of the power of all loads and weights, and with friction, of both together (W).
-    pub power: EnclosedOutput,
+    pub(crate) power: EnclosedOutput,
 }
 
 /// Bounds of what an output is made of that is affine in the friction forces and couples:
 /// `C = C(0) + sum_k gamma_k F_k + sum_j gamma_j |R_j|`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EnclosedOutput {
+pub(crate) struct EnclosedOutput {
     /// `C(0)`, its value without friction.
-    pub frictionless: Interval,
+    pub(crate) frictionless: Interval,
     /// `gamma_k`, what a unit friction force of each contact adds, at either of its faces.
-    pub influence: BySide<Vec<Interval>>,
+    pub(crate) influence: BySide<Vec<Interval>>,
     /// The same for the friction of the preload.
-    pub influence_preload: BySide<Vec<Interval>>,
+    pub(crate) influence_preload: BySide<Vec<Interval>>,
     /// What a unit normal force of each cut contact adds, with the contact: of redundant guides.
-    pub self_stress: Vec<(usize, Interval)>,
+    pub(crate) self_stress: Vec<(usize, Interval)>,
     /// What a unit force of each hinge that turns with friction adds by its couple.
-    pub hinges: Vec<Interval>,
+    pub(crate) hinges: Vec<Interval>,
 }
 
 /// Bounds of the couple of a guided slider.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EnclosedCouple {
+pub(crate) struct EnclosedCouple {
     /// The slider's only contact, from 0.
-    pub contact: usize,
+    pub(crate) contact: usize,
     /// Half of the length of its pressed face (m).
-    pub half_length: Interval,
+    pub(crate) half_length: Interval,
     /// The couple (N m); friction at either face of a contact adds the same but for the slider's own contact.
-    pub couple: EnclosedOutput,
+    pub(crate) couple: EnclosedOutput,
 }
 
 impl EnclosedOutput {
@@ -100,7 +100,7 @@ impl EnclosedOutputs {
     ///
     /// # Panics
     /// As [`Self::tipping`].
-    pub fn output(&self, output: &EnclosedOutput, pattern: &[ContactState], y: &[Interval]) -> Interval {
+    pub(crate) fn output(&self, output: &EnclosedOutput, pattern: &[ContactState], y: &[Interval]) -> Interval {
         let terms = (0..pattern.len()).map(|k| self.of_friction(output, k, pattern[k], y[k]));
         let of_normal_force = |&(k, stress): &(usize, Interval)| {
             pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))

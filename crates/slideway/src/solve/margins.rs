@@ -7,7 +7,7 @@ use crate::interval::Interval;
 use crate::mechanism::Mechanism;
 use crate::modes::certificate::{IntervalModeProblem, proven_determinant_sign};
 use crate::modes::existence::{
-    CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts, is_same_end,
+    CountInterval, EndCause, Existence, ExistenceOptions, ModeEnd, ModeInterval, ModeProblemLine, counts, is_same_end,
     nothing_is_left,
 };
 use crate::modes::{ContactState, ModeProblem};
@@ -62,7 +62,7 @@ pub(super) fn add(
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {
         let margin = |mode: &ModeInterval| {
             let nothing_is_left = nothing_is_left(&all.counts, mode.to.at, false, is_same_end);
-            mode_margin(mechanism, mode, nothing_is_left)
+            mode_margin(mechanism, &mode.to, nothing_is_left)
         };
         solution.margin = all.end_of(&solution.pattern).map(margin);
     }
@@ -231,11 +231,12 @@ impl Growth {
     }
 }
 
-fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval, nothing_is_left: bool) -> report::ModeMargin {
+/// The factor of friction at which a mode ends, and what ends it.
+pub(super) fn mode_margin(mechanism: &Mechanism, end: &ModeEnd, nothing_is_left: bool) -> report::ModeMargin {
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
-    let cause = &mode.to.cause;
+    let cause = &end.cause;
     let ends_with = match cause {
         EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
         cause => report::ModeEndCause::new(cause, nothing_is_left),
@@ -246,5 +247,5 @@ fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval, nothing_is_left: bool
         | EndCause::GreatestNormalForce(contacts) => names(contacts),
         _ => Vec::new(),
     };
-    report::ModeMargin { factor: mode.to.at.is_finite().then_some(mode.to.at), ends_with, contacts }
+    report::ModeMargin { factor: end.at.is_finite().then_some(end.at), ends_with, contacts }
 }

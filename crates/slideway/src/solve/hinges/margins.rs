@@ -1,5 +1,6 @@
 //! How far friction may grow before a solution with friction in hinges ends.
 
+use super::super::margins::mode_margin;
 use super::super::stages::Stages;
 use super::branches::GrowingFriction;
 use super::spin::{Spins, spins};
@@ -13,7 +14,7 @@ use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_
 use crate::modes::existence::{EndCause, ModeEnd};
 use crate::problem::TurningHinge;
 use crate::progress::Work;
-use crate::report::{ModeEndCause, ModeMargin, Proof};
+use crate::report::{ModeMargin, Proof};
 
 /// Friction that is greater than this many times that of the model counts as infinite.
 const INFINITY: f64 = 1e6;
@@ -73,19 +74,12 @@ impl<'a> Growth<'a> {
         if end.cause == EndCause::NotFollowed {
             return None;
         }
-        let ends_with = match end.cause {
-            EndCause::Range | EndCause::NoProblem => ModeEndCause::Nothing,
-            ref cause => ModeEndCause::new(cause, *cause == EndCause::Singular && self.nothing_is_left(&end)),
+        let nothing_is_left = end.cause == EndCause::Singular && self.nothing_is_left(&end);
+        let at = match end.cause {
+            EndCause::Range | EndCause::NoProblem => f64::INFINITY,
+            _ => end.at.exp(),
         };
-        let names = |contacts: &[usize]| -> Vec<String> {
-            contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
-        };
-        let contacts = match &end.cause {
-            EndCause::SideChange(contacts) | EndCause::GapCloses(contacts) => names(contacts),
-            _ => Vec::new(),
-        };
-        let factor = (ends_with != ModeEndCause::Nothing).then(|| end.at.exp());
-        Some(ModeMargin { factor, ends_with, contacts })
+        Some(mode_margin(self.mechanism, &ModeEnd { at, ..end }, nothing_is_left))
     }
 
     /// Whether it is proven that there is no solution just beyond an end.
