@@ -100,7 +100,12 @@ impl EnclosedOutputs {
     ///
     /// # Panics
     /// As [`Self::tipping`].
-    pub(crate) fn output(&self, output: &EnclosedOutput, pattern: &[ContactState], y: &[Interval]) -> Interval {
+    pub(crate) fn output(
+        &self,
+        output: &EnclosedOutput,
+        pattern: &[ContactState],
+        y: &[Interval],
+    ) -> Interval {
         let terms = (0..pattern.len()).map(|k| self.of_friction(output, k, pattern[k], y[k]));
         let of_normal_force = |&(k, stress): &(usize, Interval)| {
             pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))

@@ -7,8 +7,8 @@ use crate::interval::Interval;
 use crate::mechanism::Mechanism;
 use crate::modes::certificate::{IntervalModeProblem, proven_determinant_sign};
 use crate::modes::existence::{
-    CountInterval, EndCause, Existence, ExistenceOptions, ModeEnd, ModeInterval, ModeProblemLine, counts, is_same_end,
-    nothing_is_left,
+    CountInterval, EndCause, Existence, ExistenceOptions, ModeEnd, ModeInterval, ModeProblemLine, counts,
+    is_same_end, nothing_is_left,
 };
 use crate::modes::{ContactState, ModeProblem};
 use crate::problem::ProblemCoefficients;

@@ -69,11 +69,7 @@ impl Parts {
     /// The line of problems from this one at `t = 0` to another one at `t = 1`.
     pub(crate) fn line_to(&self, end: &Self) -> ModeProblemLine {
         let between = |one: &BySide<DMatrix<f64>>, other: &BySide<DMatrix<f64>>| {
-            let slope = BySide {
-                positive: &other.positive - &one.positive,
-                negative: &other.negative - &one.negative,
-            };
-            [one.clone(), slope]
+            [one.clone(), BySide::of(|side| other.get(side) - one.get(side))]
         };
         let load = &end.right_hand_side - &self.right_hand_side;
         let slope = if load.amax() <= SAME * self.right_hand_side.amax() { load * 0.0 } else { load };

@@ -1,4 +1,4 @@
-//! The states of a point with friction in hinges.
+//! The states of a point, each solved by itself: where hinges rub, or contacts stand still while the rest moves.
 
 use super::ColourBy;
 use super::class::{MARGINS, States, margin_up_to};
@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{Solution, SolveReport, SpeedChange, Status};
 use crate::solve::{
-    HingedState, LastSolution, SolveOptions, Stages, factors_with_one_solution, hinged_states, pattern,
+    BlockState, LastSolution, SolveOptions, Stages, block_states, factors_with_one_solution, pattern,
     solve_in,
 };
 
@@ -44,7 +44,7 @@ fn all_states(
     let mut goes_on = |_: &Progress| work.flow();
     if !careful
         && let Some(found) =
-            hinged_states((stages.data(), &stages.configuration), stages.accuracy, last, &mut goes_on)?
+            block_states((stages.data(), &stages.configuration), stages.accuracy, last, &mut goes_on)?
     {
         return Ok(of_found(&found));
     }
@@ -52,7 +52,7 @@ fn all_states(
     Ok(of_report(&report, stages))
 }
 
-fn of_found(found: &[HingedState]) -> States {
+fn of_found(found: &[BlockState]) -> States {
     let patterns = found.iter().map(|state| pattern(&state.pattern));
     States { solutions: patterns.collect(), ..States::default() }
 }

@@ -18,7 +18,7 @@ use crate::progress::Callback;
 
 /// A solution with friction in hinges, inside of its contact mode.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HingedState {
+pub(crate) struct BlockState {
     pub(crate) pattern: Vec<ContactState>,
     /// With their signs (N).
     pub(crate) normal_forces: Vec<f64>,
@@ -39,12 +39,12 @@ pub(crate) struct LastSolution(Vec<f64>);
 ///
 /// # Errors
 /// Hinges with friction that do not turn; numbers beyond the range of floating point.
-pub(crate) fn hinged_states(
+pub(crate) fn block_states(
     (data, configuration): (ProblemData<'_>, &Configuration),
     accuracy: Accuracy,
     last: &mut LastSolution,
     progress: &mut Callback<'_>,
-) -> Result<Option<Vec<HingedState>>, Faults> {
+) -> Result<Option<Vec<BlockState>>, Faults> {
     if !data.mechanism.excess.is_empty() {
         return Ok(None);
     }
@@ -79,7 +79,7 @@ struct Telling<'t> {
 
 impl Telling<'_> {
     /// The only solution; none if a side is in doubt. `det(I - H D)` is positive.
-    fn only(&self, point: &[f64], errors: &[f64]) -> Option<HingedState> {
+    fn only(&self, point: &[f64], errors: &[f64]) -> Option<BlockState> {
         let contacts = self.problem.contacts();
         let (forces, reactions) = point.split_at(contacts);
         let reactions: Vec<[f64; 2]> = reactions.as_chunks().0.to_vec();
@@ -92,7 +92,7 @@ impl Telling<'_> {
     }
 
     /// One of the solutions that a search has found; none if something about it is in doubt.
-    fn one_of_several(&self, solution: &BlockSolution) -> Option<HingedState> {
+    fn one_of_several(&self, solution: &BlockSolution) -> Option<BlockState> {
         let certain =
             solution.gaps.is_empty() && solution.on_boundary.is_empty() && solution.unloaded.is_empty();
         let large =
@@ -125,9 +125,9 @@ impl Telling<'_> {
         forces: &[f64],
         reactions: &[[f64; 2]],
         oriented_negative: bool,
-    ) -> HingedState {
+    ) -> BlockState {
         let negative = pattern.iter().filter(|state| **state == ContactState::Negative).count();
-        HingedState {
+        BlockState {
             normal_forces: forces.to_vec(),
             hinges: super::found::hinge_states(self.mechanism, self.turning, reactions),
             negative_determinant: oriented_negative ^ (negative % 2 == 1),

@@ -62,7 +62,7 @@ fn region_in_words(region: &OpenRegion) -> String {
 }
 
 /// An answer with friction in hinges.
-pub(super) struct HingedAnswer<'a> {
+pub(super) struct BlockAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
     /// The problem without friction; none unless guides share a load.
@@ -70,7 +70,7 @@ pub(super) struct HingedAnswer<'a> {
     pub(super) hinges: &'a [TurningHinge],
 }
 
-impl HingedAnswer<'_> {
+impl BlockAnswer<'_> {
     /// The report on all solutions, with their margins of friction if what grows is given.
     pub(super) fn report(&self, found: &BlocksFound<'_>, growth: Option<&Growth<'_>>) -> SolveReport {
         let joints: Vec<JointId> = self.hinges.iter().map(|hinge| hinge.joint).collect();

@@ -1,5 +1,5 @@
-//! Solutions with friction in hinges: the block mode problem, and what its solutions are in the mechanism (theory of
-//! hinges).
+//! Solutions of the block mode problem, whose unknowns have one component (a contact) or two (a hinge with friction), and
+//! what they are in the mechanism (theory of hinges).
 
 mod branches;
 mod found;
@@ -8,7 +8,7 @@ mod spin;
 mod states;
 mod uncertainty;
 
-pub(crate) use states::{HingedState, LastSolution, hinged_states};
+pub(crate) use states::{BlockState, LastSolution, block_states};
 
 pub(crate) use branches::{block_instance, turning_hinges, unknowns_of};
 
@@ -29,7 +29,7 @@ use crate::progress::{Callback, as_far_as_wanted};
 use crate::report::{MarginsMissing, SolveReport};
 use branches::GrowingFriction;
 pub(crate) use found::directions;
-use found::{BlocksFound, HingedAnswer};
+use found::{BlockAnswer, BlocksFound};
 use margins::Growth;
 pub(crate) use margins::{factors_with_one_solution, locking_factor};
 pub(crate) use spin::never_turning;
@@ -71,7 +71,7 @@ pub(super) fn solve(
     let without_friction = || Ok::<_, Faults>(GrowingFriction::new(stages, &turning)?.at(0.0)?.problem);
     let frictionless = answer.shared.is_some().then(without_friction).transpose()?;
     let answer =
-        HingedAnswer { answer, problem: &problem, frictionless: frictionless.as_ref(), hinges: &turning };
+        BlockAnswer { answer, problem: &problem, frictionless: frictionless.as_ref(), hinges: &turning };
     let (report, _) = as_far_as_wanted(progress, |work| {
         let growth = options.margins.then(|| Growth::new(stages, &turning, work)).transpose()?;
         let unique_at_least = growth
