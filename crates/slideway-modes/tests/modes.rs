@@ -305,6 +305,7 @@ fn faulty_influence_coefficients_are_named() -> Result<(), Box<dyn Error>> {
         preload: BySide { positive: dvector![1.0, 0.0], negative: dvector![2.0, 0.0] },
         velocity_signs: dvector![1.0, -1.0],
         frictionless: dvector![1.0, 2.0],
+        shared: None,
     };
     let problem = ModeProblem::from_influence(&good)?;
     assert_close(&problem.columns(Side::Negative).column(1).into_owned(), &dvector![0.04, -0.92], 1e-15);

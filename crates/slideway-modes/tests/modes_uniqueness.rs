@@ -158,6 +158,7 @@ fn example(mu_1: f64, preload: f64) -> ModeProblem {
         preload: BySide::same(dvector![0.0, preload, 0.0]),
         velocity_signs: dvector![1.0, 1.0, 1.0],
         frictionless: dvector![0.5, 0.25, -0.25],
+        shared: None,
     })
     .expect("finite numbers")
 }

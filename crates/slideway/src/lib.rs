@@ -76,6 +76,7 @@ pub mod mechanism;
 pub mod model;
 pub mod motion;
 mod pattern;
+mod problem;
 pub mod raw_problem;
 pub mod report;
 pub mod sharing;

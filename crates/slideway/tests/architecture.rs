@@ -20,6 +20,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("influence", &["ids", "kinetics"]),
     ("law", &["interval", "mechanism", "model", "modes"]),
     ("report", &["choice", "fault", "ids", "printable", "units"]),
+    ("problem", &["ids", "interval", "mechanism", "modes"]),
     ("sharing", &["fault", "interval", "mechanism", "modes", "report"]),
     (
         "enclosure",
@@ -32,6 +33,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
             "mechanism",
             "model",
             "modes",
+            "problem",
             "progress",
             "sharing",
         ],

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::blocks::BlockProblem;
-use slideway_modes::{BySide, ModeProblem, SharedLoad};
+use slideway_modes::{BySide, InfluenceCoefficients, ModeProblem, SharedLoad};
 
 pub(crate) mod structured;
 
@@ -120,12 +120,8 @@ pub(crate) fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
     let kept = contacts - self_stresses;
     let mut matrix = |width: usize, factor: f64| DMatrix::from_fn(contacts, width, |_, _| factor * random());
     let (eta, stress) = (matrix(contacts, 0.3 / contacts as f64), matrix(self_stresses, 1.0));
-    let identity = DMatrix::identity(contacts, contacts);
     let eta = DMatrix::from_fn(contacts, contacts, |row, k| if row < kept { eta[(row, k)] } else { 0.0 });
     let load = DVector::from_fn(contacts, |row, _| if row < kept { 10.0 * random() } else { 0.0 });
-    let none = DMatrix::zeros(contacts, contacts);
-    let determinate =
-        ModeProblem::new(&identity - &eta, -identity - &eta, none.clone(), none, load).expect("shapes fit");
     let shared = SharedLoad {
         cut: (kept..contacts).collect(),
         self_stress: DMatrix::from_fn(contacts, self_stresses, |row, column| match row.checked_sub(kept) {
@@ -137,5 +133,14 @@ pub(crate) fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
         misalignment: DVector::from_fn(contacts, |_, _| 1e-4 * random()),
         press_fits: Vec::new(),
     };
-    determinate.with_shared_load(&shared).expect("shapes fit")
+    ModeProblem::from_influence(&InfluenceCoefficients {
+        eta: BySide::same(eta.clone()),
+        eta_preload: BySide::same(eta),
+        mu: BySide::same(DVector::from_element(contacts, 1.0)),
+        preload: BySide::same(DVector::zeros(contacts)),
+        velocity_signs: DVector::from_element(contacts, 1.0),
+        frictionless: load,
+        shared: Some(shared),
+    })
+    .expect("shapes fit")
 }

@@ -11,7 +11,7 @@ use super::zero::Zero;
 use crate::certificate::Sign;
 use crate::interval::Interval;
 use crate::interval_matrix::IntervalMatrix;
-use crate::problem::{BySide, Side};
+use crate::problem::BySide;
 
 /// The problem of some blocks alone.
 pub(super) fn part(problem: &BlockProblem, blocks: &[usize]) -> BlockProblem {
@@ -21,13 +21,9 @@ pub(super) fn part(problem: &BlockProblem, blocks: &[usize]) -> BlockProblem {
         let of = |part: &DMatrix<f64>| part.select_rows(&rows).select_columns(columns);
         IntervalMatrix::around(of(matrix.centre()), of(matrix.radius())).expect("a part of a valid matrix")
     };
-    let by_side = |part: &dyn Fn(Side) -> IntervalMatrix| BySide {
-        positive: part(Side::Positive),
-        negative: part(Side::Negative),
-    };
     BlockProblem::within_bounds(
-        by_side(&|side| select(problem.response(side), blocks)),
-        by_side(&|side| select(problem.jumps(side), &contacts)),
+        BySide::of(|side| select(problem.response(side), blocks)),
+        BySide::of(|side| select(problem.jumps(side), &contacts)),
         select(problem.load(), &[0]),
     )
     .expect("a part of a valid problem")

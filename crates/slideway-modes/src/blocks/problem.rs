@@ -53,10 +53,7 @@ impl BlockProblem {
         jumps: BySide<DMatrix<f64>>,
         load: DVector<f64>,
     ) -> Result<Self, ModeProblemError> {
-        let exact = |part: BySide<DMatrix<f64>>| BySide {
-            positive: IntervalMatrix::exact(part.positive),
-            negative: IntervalMatrix::exact(part.negative),
-        };
+        let exact = |part: BySide<DMatrix<f64>>| part.map(|side| IntervalMatrix::exact(side.clone()));
         let load = DMatrix::from_vec(load.len(), 1, load.data.into());
         Self::within_bounds(exact(response), exact(jumps), IntervalMatrix::exact(load))
     }
@@ -100,11 +97,10 @@ impl BlockProblem {
     /// # Errors
     /// Entries that are not finite then.
     pub fn with_response_times(&self, factors: &[f64]) -> Result<Self, ModeProblemError> {
-        let scaled = |side: Side| {
-            let matrix = IntervalMatrix::exact(times(self.response.get(side).centre().clone(), factors));
+        let response = self.response.try_map(|side, given| {
+            let matrix = IntervalMatrix::exact(times(given.centre().clone(), factors));
             check(ProblemPart::Columns(side), &matrix, matrix.shape()).map(|()| matrix)
-        };
-        let response = BySide { positive: scaled(Side::Positive)?, negative: scaled(Side::Negative)? };
+        })?;
         Ok(Self { response, ..self.clone() })
     }
 

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::blocks::{BlockProblem, times};
 use crate::existence::OutputBound;
-use crate::problem::{BySide, ModeProblemError, Side};
+use crate::problem::{BySide, ModeProblemError};
 
 /// The block problem at each value of a parameter, or why there is none. All of them have the same contacts and
 /// hinges.
@@ -35,14 +35,10 @@ impl Instance {
     /// # Errors
     /// Entries that are not finite then.
     pub fn with_response_times(&self, factors: &[f64]) -> Result<Self, ModeProblemError> {
-        let scaled = |side: Side| times(self.outputs.response.get(side).clone(), factors);
-        let response = BySide { positive: scaled(Side::Positive), negative: scaled(Side::Negative) };
-        Ok(Self {
-            problem: self.problem.with_response_times(factors)?,
-            outputs: Outputs { response, jumps: self.outputs.jumps.clone(), load: self.outputs.load.clone() },
-            bounds: self.bounds.clone(),
-            senses: self.senses.clone(),
-        })
+        let mut scaled = self.clone();
+        scaled.problem = self.problem.with_response_times(factors)?;
+        scaled.outputs.response = self.outputs.response.map(|given| times(given.clone(), factors));
+        Ok(scaled)
     }
 }
 

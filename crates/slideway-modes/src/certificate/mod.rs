@@ -35,7 +35,7 @@ mod system;
 
 pub use crate::interval::{Interval, Sign};
 pub use crate::interval_matrix::IntervalMatrix;
-pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModeProblemError, ProblemView};
+pub use crate::problem::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use cell::{Cell, CellPart};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};

@@ -176,9 +176,8 @@ impl ModeProblemLine {
     /// The line from one problem at `t = 0` to another at `t = 1`.
     pub fn between(start: &ModeProblem, end: &ModeProblem) -> Self {
         let by_side = |part: fn(&ModeProblem, Side) -> &DMatrix<f64>| {
-            let at = |side| [part(start, side).clone(), part(end, side) - part(start, side)];
-            let ([p0, p1], [n0, n1]) = (at(Side::Positive), at(Side::Negative));
-            [BySide { positive: p0, negative: n0 }, BySide { positive: p1, negative: n1 }]
+            let slope = BySide::of(|side| part(end, side) - part(start, side));
+            [BySide::of(|side| part(start, side).clone()), slope]
         };
         let contacts = 0..start.contacts();
         Self {

@@ -80,14 +80,8 @@ impl IntervalModeProblem {
             right_hand_side.centre().column(0).into_owned(),
         )?;
         let radii = Radii {
-            columns: BySide {
-                positive: columns.positive.radius().clone(),
-                negative: columns.negative.radius().clone(),
-            },
-            jumps: BySide {
-                positive: jumps.positive.radius().clone(),
-                negative: jumps.negative.radius().clone(),
-            },
+            columns: columns.map(|side| side.radius().clone()),
+            jumps: jumps.map(|side| side.radius().clone()),
             right_hand_side: right_hand_side.radius().column(0).into_owned(),
         };
         Ok(Self { centre, radii })
@@ -114,13 +108,9 @@ impl IntervalModeProblem {
                 }),
             }
         };
-        let by_side = |part: &dyn Fn(Side) -> DMatrix<f64>| BySide {
-            positive: part(Side::Positive),
-            negative: part(Side::Negative),
-        };
         let radii = Radii {
-            columns: by_side(&of_columns),
-            jumps: by_side(&|side| problem.jumps(side).map(radius)),
+            columns: BySide::of(of_columns),
+            jumps: BySide::of(|side| problem.jumps(side).map(radius)),
             right_hand_side: problem.right_hand_side().map(radius),
         };
         match radii.first_not_finite() {

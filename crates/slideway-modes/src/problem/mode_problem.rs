@@ -69,25 +69,6 @@ pub enum ModeProblemError {
     Blocks,
 }
 
-/// Influence coefficients and friction parameters of `r` contacts: what
-/// [`ModeProblem::from_influence`] needs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InfluenceCoefficients {
-    /// `eta_jk`, change of `N_j` per unit friction at contact `k` (r x r, dimensionless);
-    /// column `k` of a side is for contact `k` pressed on that side.
-    pub eta: BySide<DMatrix<f64>>,
-    /// The same for the line on which the preload friction acts (equal to `eta` in the paper).
-    pub eta_preload: BySide<DMatrix<f64>>,
-    /// Coefficients of friction `mu_k` (r).
-    pub mu: BySide<DVector<f64>>,
-    /// Preload friction `F_k0` (r, force).
-    pub preload: BySide<DVector<f64>>,
-    /// `s_k = sign(ds_k)` of the sliding velocities (r): -1, 0 or 1.
-    pub velocity_signs: DVector<f64>,
-    /// `N(0)`, normal forces without friction (r, force).
-    pub frictionless: DVector<f64>,
-}
-
 /// The mode problem of `r` contacts,
 ///
 /// ```text
@@ -116,10 +97,7 @@ pub(crate) struct Remainder {
 impl Remainder {
     /// `None` if nothing was rounded.
     fn new(columns: BySide<DMatrix<f64>>) -> Option<Box<Self>> {
-        let radii = Radii {
-            columns: BySide { positive: columns.positive.abs(), negative: columns.negative.abs() },
-            ..Radii::zero(columns.positive.nrows())
-        };
+        let radii = Radii { columns: columns.map(DMatrix::abs), ..Radii::zero(columns.positive.nrows()) };
         (!radii.are_zero()).then(|| Box::new(Self { columns, radii }))
     }
 }
@@ -159,70 +137,6 @@ impl ModeProblem {
             check_matrix(ProblemPart::Jumps(side), jumps.get(side), contacts)?;
         }
         Ok(Self::unchecked(columns, jumps, right_hand_side))
-    }
-
-    /// The problem of contacts with dry friction, from their influence coefficients:
-    ///
-    /// ```text
-    /// c_k^{sigma} = sigma e_k - mu_k^{sigma} s_k eta_k^{sigma},   d_k^{sigma} = s_k F_k0^{sigma} eta_preload_k^{sigma}
-    /// ```
-    ///
-    /// (Klepp (2002), eq. (6)).
-    ///
-    /// # Errors
-    /// [`ModeProblemError`] for shapes, for entries that are not finite, and for velocity signs other than
-    /// -1, 0, 1.
-    ///
-    /// ```
-    /// use nalgebra::{dmatrix, dvector};
-    /// use slideway_modes::{enumerate, BySide, InfluenceCoefficients, Limits, ModeProblem};
-    /// // A single slider with eta = 0.5, mu = 0.4, moving forwards: eq. (9) gives 4 / (1 - 0.2).
-    /// let eta = BySide::same(dmatrix![0.5]);
-    /// let problem = ModeProblem::from_influence(&InfluenceCoefficients {
-    ///     eta: eta.clone(),
-    ///     eta_preload: eta,
-    ///     mu: BySide::same(dvector![0.4]),
-    ///     preload: BySide::same(dvector![0.0]),
-    ///     velocity_signs: dvector![1.0],
-    ///     frictionless: dvector![4.0],
-    /// })?;
-    /// let solutions = enumerate(&problem, &Limits::default())?;
-    /// assert!((solutions.solutions[0].normal_force[0] - 5.0).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn from_influence(influence: &InfluenceCoefficients) -> Result<Self, ModeProblemError> {
-        let contacts = influence.frictionless.len();
-        let signs = &influence.velocity_signs;
-        check_vector(ProblemPart::VelocitySigns, signs, contacts)?;
-        if let Some((contact, &value)) =
-            signs.iter().enumerate().find(|&(_, &sign)| sign != 0.0 && sign.abs() != 1.0)
-        {
-            return Err(ModeProblemError::VelocitySign { contact, value });
-        }
-        for side in Side::BOTH {
-            check_matrix(ProblemPart::Columns(side), influence.eta.get(side), contacts)?;
-            check_matrix(ProblemPart::Jumps(side), influence.eta_preload.get(side), contacts)?;
-            check_vector(ProblemPart::Friction(side), influence.mu.get(side), contacts)?;
-            check_vector(ProblemPart::Preload(side), influence.preload.get(side), contacts)?;
-        }
-        // c_k^{sigma} = sigma e_k - mu_k s_k eta_k^{sigma}
-        let columns = |side: Side| {
-            let friction = DMatrix::from_diagonal(&influence.mu.get(side).component_mul(signs));
-            DMatrix::from_diagonal_element(contacts, contacts, side.sign())
-                - influence.eta.get(side) * friction
-        };
-        // d_k^{sigma} = s_k F_k0 eta_k^{sigma}
-        let jumps = |side: Side| {
-            influence.eta_preload.get(side)
-                * DMatrix::from_diagonal(&influence.preload.get(side).component_mul(signs))
-        };
-        Self::new(
-            columns(Side::Positive),
-            columns(Side::Negative),
-            jumps(Side::Positive),
-            jumps(Side::Negative),
-            influence.frictionless.clone(),
-        )
     }
 
     /// The problem whose signed solutions `N` are all solutions `x` of `A x + B |x| = b`:
@@ -328,10 +242,7 @@ impl ModeProblem {
         let of = |matrix: &DMatrix<f64>| {
             DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
         };
-        let by_side = |part: &BySide<DMatrix<f64>>| BySide {
-            positive: of(&part.positive),
-            negative: of(&part.negative),
-        };
+        let by_side = |part: &BySide<DMatrix<f64>>| part.map(of);
         let right_hand_side = DVector::from_fn(size, |row, _| right_hand_side[contacts[row]]);
         let remainder = self.remainder.as_ref().and_then(|lost| Remainder::new(by_side(&lost.columns)));
         Self { remainder, ..Self::unchecked(by_side(&self.columns), by_side(&self.jumps), right_hand_side) }
@@ -353,10 +264,7 @@ impl ModeProblem {
         };
         let limits = half_spaces.iter().map(|(_, limit)| *limit);
         let right: Vec<f64> = self.right_hand_side.iter().copied().chain(limits).collect();
-        let by_side = |part: &BySide<DMatrix<f64>>| BySide {
-            positive: widened(&part.positive),
-            negative: widened(&part.negative),
-        };
+        let by_side = |part: &BySide<DMatrix<f64>>| part.map(widened);
         let both = BySide {
             positive: columns(0, 1.0, &self.columns.positive),
             negative: columns(1, -1.0, &self.columns.negative),

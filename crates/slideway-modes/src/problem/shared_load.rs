@@ -3,13 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::combinations::{binomial, combinations};
-use crate::interval::{Interval, Real};
-use crate::interval_matrix::IntervalMatrix;
-use crate::problem::bounds::{Column, IntervalModeProblem, IntervalModeProblemError, ProblemView};
-use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
+use crate::interval::Real;
+use crate::problem::mode_problem::ModeProblemError;
 use crate::problem::pattern::ContactState;
 use crate::problem::scaling::power_of_two_above;
-use crate::problem::side::{BySide, ProblemPart, Side};
+use crate::problem::side::{ProblemPart, Side};
 
 /// How `r` contacts share a load that equilibrium alone leaves open.
 ///
@@ -80,7 +78,7 @@ impl<T: Real> SharedLoad<T> {
     /// `c_k^sigma` in a row, from the number that stands there without self-stresses: `-sigma Z_jl` more for a
     /// contact that is cut, and `sigma f_k Z_kl` in the row of a self-stress, to which an open face of a press fit
     /// adds `sigma f_k (Z_pl + Z_ml)`.
-    fn column(&self, side: Side, row: usize, contact: usize, given: T) -> T {
+    pub(crate) fn column(&self, side: Side, row: usize, contact: usize, given: T) -> T {
         let sign = T::exactly(side.sign());
         match (self.stress_of(row), self.stress_of(contact)) {
             (Some(stress), _) => {
@@ -125,7 +123,7 @@ impl<T: Real> SharedLoad<T> {
         terms.map(|(force, misalignment)| *force * *misalignment).sum::<T>() * self.scale(stress)
     }
 
-    fn check(&self, contacts: usize) -> Result<(), ModeProblemError> {
+    pub(crate) fn check(&self, contacts: usize) -> Result<(), ModeProblemError> {
         let lengths = [self.compliance.len(), self.clearance.len(), self.misalignment.len()];
         let expected = (contacts, self.cut.len());
         let fits = self.self_stress.shape() == expected
@@ -253,84 +251,6 @@ impl OpenContacts {
             }
         }
         true
-    }
-}
-
-impl ModeProblem {
-    /// The same contacts where some of them share a load that equilibrium leaves open: the rows of the cut
-    /// contacts become those of compatibility. The play is a jump of the right-hand side there, and what is
-    /// called a contact in its gap is one that is open.
-    ///
-    /// # Errors
-    /// [`ModeProblemError`] for shapes and numbers that are not finite.
-    ///
-    /// ```
-    /// use nalgebra::{dmatrix, dvector, DMatrix};
-    /// use slideway_modes::{enumerate, Limits, ModeProblem, SharedLoad};
-    /// // Two parallel pads of equal stiffness carry 10 N without friction, the first with 2 mm of play at each face.
-    /// let none = DMatrix::zeros(2, 2);
-    /// let plus = DMatrix::identity(2, 2);
-    /// let one = ModeProblem::new(plus.clone(), -plus, none.clone(), none, dvector![10.0, 0.0])?;
-    /// let shared = one.with_shared_load(&SharedLoad {
-    ///     cut: vec![1],
-    ///     self_stress: dmatrix![-1.0; 1.0],
-    ///     compliance: dvector![1e-3, 1e-3],
-    ///     clearance: dvector![2e-3, 0.0],
-    ///     misalignment: dvector![0.0, 0.0],
-    ///     press_fits: vec![],
-    /// })?;
-    /// let solutions = enumerate(&shared, &Limits::default())?;
-    /// assert!((&solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn with_shared_load(&self, shared: &SharedLoad) -> Result<Self, ModeProblemError> {
-        let contacts = self.contacts();
-        shared.check(contacts)?;
-        let matrix = |entry: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(contacts, contacts, entry);
-        let columns =
-            |side: Side| matrix(&|row, k| shared.column(side, row, k, self.columns(side)[(row, k)]));
-        let jumps = |side: Side| matrix(&|row, k| shared.jump(side, row, k, self.jumps(side)[(row, k)]));
-        Self::new(
-            columns(Side::Positive),
-            columns(Side::Negative),
-            jumps(Side::Positive),
-            jumps(Side::Negative),
-            DVector::from_fn(contacts, |row, _| shared.load(row, self.right_hand_side()[row])),
-        )
-    }
-}
-
-impl IntervalModeProblem {
-    /// [`ModeProblem::with_shared_load`] within bounds.
-    ///
-    /// # Errors
-    /// [`IntervalModeProblemError`] for shapes and numbers that overflow.
-    pub fn with_shared_load(&self, shared: &SharedLoad<Interval>) -> Result<Self, IntervalModeProblemError> {
-        let view = ProblemView::from(self);
-        let contacts = view.contacts();
-        shared.check(contacts)?;
-        let bounded = |part: ProblemPart, width: usize, entry: &dyn Fn(usize, usize) -> Interval| {
-            IntervalMatrix::from_intervals(&DMatrix::from_fn(contacts, width, entry))
-                .ok_or(IntervalModeProblemError::Radius { part, value: f64::INFINITY })
-        };
-        let given = |column: Column<'_>, row: usize| column.entry(row);
-        let columns = |side: Side| {
-            bounded(ProblemPart::Columns(side), contacts, &|row, k| {
-                shared.column(side, row, k, given(view.column(k, side), row))
-            })
-        };
-        let jumps = |side: Side| {
-            bounded(ProblemPart::Jumps(side), contacts, &|row, k| {
-                shared.jump(side, row, k, given(view.jump(k, side), row))
-            })
-        };
-        let load =
-            bounded(ProblemPart::RightHandSide, 1, &|row, _| shared.load(row, view.load().entry(row)))?;
-        Self::new(
-            &BySide { positive: columns(Side::Positive)?, negative: columns(Side::Negative)? },
-            &BySide { positive: jumps(Side::Positive)?, negative: jumps(Side::Negative)? },
-            &load,
-        )
     }
 }
 

@@ -47,6 +47,25 @@ impl<T> BySide<T> {
             Side::Negative => &self.negative,
         }
     }
+
+    /// The value of a function for each side.
+    pub fn of(mut value: impl FnMut(Side) -> T) -> Self {
+        Self { positive: value(Side::Positive), negative: value(Side::Negative) }
+    }
+
+    /// A function of the value for each side.
+    pub fn map<U>(&self, mut value: impl FnMut(&T) -> U) -> BySide<U> {
+        BySide::of(|side| value(self.get(side)))
+    }
+
+    /// A function of the value for each side, which may fail.
+    ///
+    /// # Errors
+    /// The first one of the function.
+    pub fn try_map<U, E>(&self, value: impl Fn(Side, &T) -> Result<U, E>) -> Result<BySide<U>, E> {
+        let [positive, negative] = Side::BOTH.map(|side| value(side, self.get(side)));
+        Ok(BySide { positive: positive?, negative: negative? })
+    }
 }
 
 impl<T: Clone> BySide<T> {

@@ -100,9 +100,9 @@ impl<'p> LoadedProblem<'p> {
         let size = contacts.len();
         let right_hand_side = DVector::from_fn(size, |row, _| load.radius[contacts[row]]);
         let by_side = |part: &dyn Fn(&Radii, Side) -> DMatrix<f64>| {
-            let matrix =
-                |side| whole.radii.map_or_else(|| DMatrix::zeros(size, size), |radii| part(radii, side));
-            BySide { positive: matrix(Side::Positive), negative: matrix(Side::Negative) }
+            BySide::of(|side| {
+                whole.radii.map_or_else(|| DMatrix::zeros(size, size), |radii| part(radii, side))
+            })
         };
         let radii = Radii {
             columns: by_side(&|radii, side| submatrix(radii.columns.get(side), contacts)),

@@ -4,7 +4,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::blocks::{BlockProblem, BlockResult, search};
-use slideway_modes::{BySide, ContactState, Limits, ModeProblem, SearchOptions, SharedLoad, Side, enumerate};
+use slideway_modes::{
+    BySide, ContactState, InfluenceCoefficients, Limits, ModeProblem, SearchOptions, SharedLoad, Side,
+    enumerate,
+};
 
 use crate::support::{Numbers, assert_proven};
 
@@ -40,11 +43,16 @@ fn friction(numbers: &mut Numbers) -> BySide<DMatrix<f64>> {
 }
 
 fn as_contacts(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &SharedLoad) -> ModeProblem {
-    let columns = |side: Side| DMatrix::identity(CONTACTS, CONTACTS) * side.sign() - friction.get(side);
-    let none = DMatrix::zeros(CONTACTS, CONTACTS);
-    ModeProblem::new(columns(Side::Positive), columns(Side::Negative), none.clone(), none, load.clone())
-        .and_then(|problem| problem.with_shared_load(shared))
-        .unwrap()
+    ModeProblem::from_influence(&InfluenceCoefficients {
+        eta: friction.clone(),
+        eta_preload: friction.clone(),
+        mu: BySide::same(DVector::from_element(CONTACTS, 1.0)),
+        preload: BySide::same(DVector::zeros(CONTACTS)),
+        velocity_signs: DVector::from_element(CONTACTS, 1.0),
+        frictionless: load.clone(),
+        shared: Some(shared.clone()),
+    })
+    .unwrap()
 }
 
 fn as_blocks(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &SharedLoad) -> BlockResult {

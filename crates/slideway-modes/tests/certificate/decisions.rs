@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use slideway_modes::certificate::{
-    Decision, DecisionCounts, ExactOutcome, ExactSet, Interval, IntervalInfluence, IntervalMatrix,
-    IntervalModeProblem, IntervalModeProblemError, Precision, Sign, decide, solve_exactly,
+    Decision, DecisionCounts, ExactOutcome, ExactSet, Interval, IntervalModeProblem,
+    IntervalModeProblemError, Precision, Sign, decide, solve_exactly,
 };
 use slideway_modes::{
     BySide, ContactState, InfluenceCoefficients, Limits, ModeProblem, ModeProblemError, Side, enumerate,
@@ -210,15 +210,16 @@ fn most_patterns_take_plain_arithmetic() {
 #[test]
 fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
     let (eta, mu) = (DMatrix::from_element(2, 2, 0.3), 0.1);
-    let exact = |matrix: &DMatrix<f64>| BySide::same(IntervalMatrix::exact(matrix.clone()));
-    let vector = |value: f64| DMatrix::from_element(2, 1, value);
-    let influence = IntervalInfluence {
+    let exact = |matrix: &DMatrix<f64>| BySide::same(matrix.map(Interval::point));
+    let vector = |value: f64| DVector::from_element(2, Interval::point(value));
+    let influence = InfluenceCoefficients {
         eta: exact(&eta),
         eta_preload: exact(&eta),
-        mu: exact(&vector(mu)),
-        preload: exact(&vector(0.7)),
+        mu: BySide::same(vector(mu)),
+        preload: BySide::same(vector(0.7)),
         velocity_signs: DVector::from_vec(vec![1.0, -1.0]),
-        frictionless: IntervalMatrix::exact(vector(1.0)),
+        frictionless: vector(1.0),
+        shared: None,
     };
     let problem = IntervalModeProblem::from_influence(&influence).expect("it fits");
     let rounded = ModeProblem::from_influence(&InfluenceCoefficients {
@@ -228,6 +229,7 @@ fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
         preload: BySide::same(DVector::from_element(2, 0.7)),
         velocity_signs: influence.velocity_signs.clone(),
         frictionless: DVector::from_element(2, 1.0),
+        shared: None,
     })
     .expect("it fits");
     for pattern in patterns(2, &STATES[..2]) {
@@ -241,18 +243,20 @@ fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
         assert!(wide.iter().zip(narrow).all(|(wide, narrow)| wide.intersection(*narrow).is_some()));
         assert!(wide.iter().all(|interval| interval.width() < 1e-13));
     }
-    let misfit = IntervalInfluence { mu: exact(&DMatrix::zeros(3, 1)), ..influence.clone() };
+    let misfit =
+        InfluenceCoefficients { mu: BySide::same(vector(0.0).push(Interval::ZERO)), ..influence.clone() };
     assert!(matches!(
         IntervalModeProblem::from_influence(&misfit),
         Err(IntervalModeProblemError::Problem(ModeProblemError::Shape { found: (3, 1), .. }))
     ));
-    let skew = IntervalInfluence { velocity_signs: DVector::from_vec(vec![1.0, 0.5]), ..influence.clone() };
+    let skew =
+        InfluenceCoefficients { velocity_signs: DVector::from_vec(vec![1.0, 0.5]), ..influence.clone() };
     assert!(matches!(
         IntervalModeProblem::from_influence(&skew),
         Err(IntervalModeProblemError::Problem(ModeProblemError::VelocitySign { contact: 1, .. }))
     ));
-    let huge = IntervalInfluence {
-        preload: exact(&vector(1e308)),
+    let huge = InfluenceCoefficients {
+        preload: BySide::same(vector(1e308)),
         eta_preload: exact(&DMatrix::from_element(2, 2, 1e9)),
         ..influence
     };

@@ -170,6 +170,7 @@ fn klepp_with_exact_numbers(mu_1: f64, velocity: f64) -> ModeProblem {
         preload: BySide::same(DVector::zeros(3)),
         velocity_signs: DVector::repeat(3, velocity),
         frictionless: dvector![0.5, 0.25, -0.25],
+        shared: None,
     })
     .expect("finite numbers")
 }

@@ -31,6 +31,7 @@ pub(crate) fn example(parameters: &Parameters, mu_1: f64, preload: [f64; 3], vel
         preload: BySide::same(DVector::from_row_slice(&preload)),
         velocity_signs: DVector::repeat(3, velocity),
         frictionless: dvector![0.5, 0.25, -0.25],
+        shared: None,
     })
     .expect("the example's data are finite and of one size")
 }

@@ -34,7 +34,7 @@ pub(crate) use mobility::{
 pub(crate) use standing::{NO_ACCELERATION, staying};
 
 use crate::fault::{Fault, Faults};
-use crate::ids::{ContactId, Frame};
+use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, rot90};
 use crate::model::{CarriedBy, SliderKind};
@@ -191,6 +191,14 @@ impl<T: Real> Configuration<T> {
     /// Angular velocity of a frame (rad/s).
     pub fn angular_velocity(&self, frame: Frame) -> T {
         frame.body().map_or(T::zero(), |body| self.velocities[body.index()].angular)
+    }
+
+    /// Angular velocity of the first body of a hinge against the second (rad/s).
+    pub(crate) fn spin(&self, mechanism: &Mechanism<T>, joint: JointId) -> T {
+        let turning = |[first, second]: &[Attachment<T>; 2]| {
+            self.angular_velocity(first.frame) - self.angular_velocity(second.frame)
+        };
+        mechanism.hinge(joint).map_or(T::zero(), turning)
     }
 
     /// Sets the values of the chosen coordinates and their rates to those of the poses and velocities.

@@ -30,13 +30,13 @@
 //! # Files
 //! `drive` adds the efforts of drives to the mode problem as outputs (`solve::Parts`), so that each branch,
 //! and its growth without bound, comes from the modes that `limits` finds. With friction in hinges each row is solved
-//! by itself (`hinges.rs`).
+//! by itself (`sampled.rs`).
 
 mod continuum;
 mod course;
 mod efforts;
-mod hinges;
 mod report;
+mod sampled;
 mod state;
 mod text;
 mod words;
@@ -152,7 +152,7 @@ fn course(
     let stands = Stages::of_any_model(model).is_ok_and(|stages| !stages.standing.is_empty());
     let one_by_one = stands || model.hinge_friction().next().is_some();
     let varied_in = |model: &Model| if one_by_one { vary.at_rest(model) } else { vary.of(model) };
-    let direction = if one_by_one { hinges::direction } else { course::direction };
+    let direction = if one_by_one { sampled::direction } else { course::direction };
     let varied = varied_in(model)?;
     let range = vary.ends(&varied, || range_around(model, &varied))?;
     let opposite = varied_in(reversed)?;

@@ -1,6 +1,5 @@
 //! From kinetic equations within intervals to bounds of the influence coefficients.
 
-use super::blocks::RubbingHinge;
 use super::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, NotEnclosed, solution};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, JointId};
@@ -8,16 +7,26 @@ use crate::interval::{Interval, Sign};
 use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled};
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::{self, JointKind, Model, SliderKind};
-use crate::modes::BySide;
-use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
+use crate::modes::{BySide, InfluenceCoefficients, Side};
+use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
 use crate::progress::Work;
-use crate::sharing::NO_STRESS;
+use crate::sharing::{NO_STRESS, shared_load};
 use nalgebra::{DMatrix, DVector};
 
 /// Where parameters are uncertain, forces below this multiple of the greatest are taken for nothing but
 /// rounding. It is a convention, which decides only what is called a solution in the middle of the bounds,
 /// not the bounds.
 const ROUNDING: f64 = 1e-12;
+
+/// A hinge that turns with friction, within bounds.
+pub(super) struct RubbingHinge {
+    /// The column of the answers to a unit couple on its first body among all unknowns.
+    column: usize,
+    /// The couple on its first body by its force: -r sgn(omega) (theory of hinges, section 1).
+    leverage: Interval,
+    /// The angular velocity of its first body against the second (rad/s).
+    spin: Interval,
+}
 
 /// A mechanism in its configuration, all within intervals.
 pub(super) struct Coefficients<'a> {
@@ -31,24 +40,56 @@ pub(super) struct Coefficients<'a> {
 }
 
 impl Coefficients<'_> {
-    /// Bounds of everything that the mode problem is made of.
-    pub(super) fn influence(&self, unknowns: &DMatrix<Interval>) -> Result<IntervalInfluence, NotEnclosed> {
-        let velocity_signs = self.velocity_signs()?;
-        let contacts = &self.mechanism.contacts;
-        let normal_forces = self.normal_forces(unknowns).ok_or(NotEnclosed::Equations)?;
-        let positive = normal_forces.columns(1, contacts.len()).into_owned();
-        let eta = [positive.clone(), self.negative_versions(positive, &self.self_stresses(unknowns))];
-        let preload = self.preload_columns(&eta);
-        let values = |of: &dyn Fn(&Contact<Interval>) -> Interval| {
-            bounded(&DMatrix::from_fn(contacts.len(), 1, |k, _| of(&contacts[k])))
+    /// What the problem of the contacts and of hinges that turn is made of; and the influence coefficients of the contacts
+    /// in its rows, with all jumps.
+    pub(super) fn problem(
+        &self,
+        unknowns: &DMatrix<Interval>,
+        hinges: &[TurningHinge],
+        rubbing: &[RubbingHinge],
+    ) -> Result<(ProblemCoefficients<Interval>, InfluenceCoefficients<Interval>), NotEnclosed> {
+        let layout = &self.equations.layout;
+        let normals = (0..self.mechanism.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
+        let forces = hinges.iter().flat_map(|hinge| [0, 1].map(|axis| Reaction::Hinge(hinge.joint, axis)));
+        let rows: Option<Vec<usize>> = normals.chain(forces).map(|force| layout.reaction(force)).collect();
+        let rows = rows.ok_or(NotEnclosed::Equations)?;
+        let influence = self.influence(unknowns, &rows)?;
+        let circle = |hinge: &TurningHinge| (*hinge, self.mechanism.friction_circles[hinge.circle]);
+        let coefficients = ProblemCoefficients {
+            contacts: self.without_shared_jumps(&influence),
+            couples: DMatrix::from_fn(rows.len(), rubbing.len(), |row, hinge| {
+                unknowns[(rows[row], rubbing[hinge].column)]
+            }),
+            hinges: hinges.iter().map(circle).collect(),
         };
-        Ok(IntervalInfluence {
-            eta: BySide { positive: bounded(&eta[0])?, negative: bounded(&eta[1])? },
-            eta_preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },
-            mu: BySide { positive: values(&|k| k.mu[0])?, negative: values(&|k| k.mu[1])? },
-            preload: BySide { positive: values(&|k| k.preload[0])?, negative: values(&|k| k.preload[1])? },
-            velocity_signs,
-            frictionless: bounded(&normal_forces.columns(0, 1).into_owned())?,
+        Ok((coefficients, influence))
+    }
+
+    /// Bounds of the influence coefficients of the contacts in these rows.
+    fn influence(
+        &self,
+        unknowns: &DMatrix<Interval>,
+        rows: &[usize],
+    ) -> Result<InfluenceCoefficients<Interval>, NotEnclosed> {
+        let contacts = self.mechanism.contacts.len();
+        let scale = self.greatest_force(&|row| unknowns[(row, 0)]);
+        let self_stress = self.self_stresses(unknowns, rows);
+        let positive = DMatrix::from_fn(rows.len(), contacts, |row, k| {
+            self.without_rounding(unknowns[(rows[row], 1 + k)], 1.0)
+        });
+        let negative = self.negative_versions(positive.clone(), &self_stress);
+        let eta = BySide { positive, negative };
+        let [mu, preload] = friction_of_contacts(self.mechanism, &|_| true);
+        Ok(InfluenceCoefficients {
+            eta_preload: self.preload_columns(&eta),
+            eta,
+            mu,
+            preload,
+            velocity_signs: self.velocity_signs()?,
+            frictionless: DVector::from_fn(rows.len(), |row, _| {
+                self.without_rounding(unknowns[(rows[row], 0)], scale)
+            }),
+            shared: shared_load(self.mechanism, self_stress).map_err(NotEnclosed::Values)?,
         })
     }
 
@@ -73,32 +114,15 @@ impl Coefficients<'_> {
         }))
     }
 
-    /// The normal forces of the self-stresses, a row for each contact. That nothing but rounding stands where a
-    /// contact takes no part is known from the rank of the joint equations, which is decided in the drawing.
-    pub(super) fn self_stresses(&self, unknowns: &DMatrix<Interval>) -> DMatrix<Interval> {
+    /// The forces of the self-stresses in these rows. That nothing but rounding stands where a contact takes no part is
+    /// known from the rank of the joint equations, which is decided in the drawing.
+    fn self_stresses(&self, unknowns: &DMatrix<Interval>, rows: &[usize]) -> DMatrix<Interval> {
         let first = 1 + self.mechanism.contacts.len();
-        let layout = &self.equations.layout;
-        let entry = |contact: usize, stress: usize| {
-            let value = layout
-                .reaction(Reaction::Normal(ContactId(contact)))
-                .map_or(Interval::ZERO, |row| unknowns[(row, first + stress)]);
+        DMatrix::from_fn(rows.len(), self.equations.layout.cut().len(), |row, stress| {
+            let value = unknowns[(rows[row], first + stress)];
             let is_rounding = value.contains(0.0) && (self.are_numbers || value.magnitude() <= NO_STRESS);
             if is_rounding { Interval::ZERO } else { value }
-        };
-        DMatrix::from_fn(self.mechanism.contacts.len(), layout.cut().len(), entry)
-    }
-
-    /// The rows of the normal forces among all unknowns.
-    fn normal_forces(&self, unknowns: &DMatrix<Interval>) -> Option<DMatrix<Interval>> {
-        let contacts = self.mechanism.contacts.len();
-        let row = |k| self.equations.layout.reaction(Reaction::Normal(ContactId(k)));
-        let rows: Option<Vec<usize>> = (0..contacts).map(row).collect();
-        let rows = rows?;
-        let greatest = self.greatest_force(&|row| unknowns[(row, 0)]);
-        Some(DMatrix::from_fn(contacts, 1 + contacts, |contact, column| {
-            let scale = if column == 0 { greatest } else { 1.0 };
-            self.without_rounding(unknowns[(rows[contact], column)], scale)
-        }))
+        })
     }
 
     /// Bounds that hold zero for rounding alone, with zero in their middle, so that what belongs on a
@@ -111,7 +135,7 @@ impl Coefficients<'_> {
     /// What follows from the forces.
     pub(super) fn outputs(
         &self,
-        influence: IntervalInfluence,
+        influence: InfluenceCoefficients<Interval>,
         unknowns: &DMatrix<Interval>,
         hinges: &[RubbingHinge],
     ) -> EnclosedOutputs {
@@ -225,7 +249,7 @@ impl Coefficients<'_> {
     /// ```
     ///
     /// A contact that is cut takes up nothing: what it would, a self-stress hands to the others.
-    pub(super) fn negative_versions(
+    fn negative_versions(
         &self,
         mut eta: DMatrix<Interval>,
         self_stress: &DMatrix<Interval>,
@@ -257,15 +281,15 @@ impl Coefficients<'_> {
     }
 
     /// The columns of the preload's friction: at the pressed face, or in the middle between both.
-    pub(super) fn preload_columns(&self, eta: &[DMatrix<Interval>; 2]) -> [DMatrix<Interval>; 2] {
+    fn preload_columns(&self, eta: &BySide<DMatrix<Interval>>) -> BySide<DMatrix<Interval>> {
         let mut preload = eta.clone();
         for (k, contact) in self.mechanism.contacts.iter().enumerate() {
             if !self.slider(k).is_some_and(has_two_faces) {
                 continue;
             }
-            for row in 0..eta[0].nrows() {
-                let faces = contact.preload_line.of_faces([eta[0][(row, k)], eta[1][(row, k)]]);
-                preload.iter_mut().zip(faces).for_each(|(side, face)| side[(row, k)] = face);
+            for at in (0..eta.positive.nrows()).map(|row| (row, k)) {
+                let faces = contact.preload_line.of_faces([eta.positive[at], eta.negative[at]]);
+                [preload.positive[at], preload.negative[at]] = faces;
             }
         }
         preload
@@ -288,37 +312,29 @@ impl Coefficients<'_> {
         Ok(DVector::from_vec(signs))
     }
 
-    /// The same mode problem with `d_k` on the right-hand side wherever it is the same on both sides, or all
+    /// The same problem with `d_k` on the right-hand side wherever it is the same on both sides, or all
     /// but the same: `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
-    pub(super) fn without_shared_jumps(
+    fn without_shared_jumps(
         &self,
-        influence: &IntervalInfluence,
-    ) -> Result<IntervalInfluence, NotEnclosed> {
+        influence: &InfluenceCoefficients<Interval>,
+    ) -> InfluenceCoefficients<Interval> {
         let contacts = self.mechanism.contacts.len();
-        let entries = |matrix: &IntervalMatrix| DMatrix::from_fn(contacts, 1, |row, _| matrix.entry(row, 0));
-        let mut preload = [&influence.preload.positive, &influence.preload.negative].map(entries);
-        let mut right = entries(&influence.frictionless);
+        let mut without = influence.clone();
         for k in 0..contacts {
-            let jump = |side: usize, row: usize| {
-                let eta =
-                    if side == 0 { &influence.eta_preload.positive } else { &influence.eta_preload.negative };
-                preload[side][k] * Interval::point(influence.velocity_signs[k]) * eta.entry(row, k)
+            let jump = |side: Side, row: usize| {
+                let force = influence.preload.get(side)[k] * Interval::point(influence.velocity_signs[k]);
+                force * influence.eta_preload.get(side)[(row, k)]
             };
-            let jumps: Vec<[Interval; 2]> = (0..contacts).map(|row| [jump(0, row), jump(1, row)]).collect();
-            if self.has_shared_jump(k) || self.may_be_shared(&jumps) {
-                for (right, [positive, negative]) in right.iter_mut().zip(jumps) {
+            let rows = 0..influence.frictionless.len();
+            let jumps: Vec<[Interval; 2]> = rows.map(|row| Side::BOTH.map(|side| jump(side, row))).collect();
+            if self.has_shared_jump(k) || self.may_be_shared(&jumps[..contacts]) {
+                for (right, [positive, negative]) in without.frictionless.iter_mut().zip(jumps) {
                     *right += positive.hull(negative);
                 }
-                for side in &mut preload {
-                    side[k] = Interval::ZERO;
-                }
+                (without.preload.positive[k], without.preload.negative[k]) = (Interval::ZERO, Interval::ZERO);
             }
         }
-        Ok(IntervalInfluence {
-            preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },
-            frictionless: bounded(&right)?,
-            ..influence.clone()
-        })
+        without
     }
 
     /// Whether `d_k^+` and `d_k^-` are the same number: one formula of the preload, and one line of its
@@ -346,6 +362,23 @@ impl Coefficients<'_> {
         })
     }
 
+    /// The hinges, with a certain sense of every one.
+    pub(super) fn rubbing(&self, hinges: &[TurningHinge]) -> Result<Vec<RubbingHinge>, NotEnclosed> {
+        let first_couple = 1 + self.mechanism.contacts.len() + self.equations.layout.cut().len();
+        let one = |hinge: &TurningHinge| {
+            let spin = self.configuration.spin(self.mechanism, hinge.joint);
+            let wanted = if hinge.sense > 0.0 { Sign::Positive } else { Sign::Negative };
+            if spin.sign() == Some(wanted) {
+                let leverage = hinge.leverage(&self.mechanism.friction_circles[hinge.circle]);
+                Ok(RubbingHinge { column: first_couple + hinge.circle, leverage, spin })
+            } else {
+                let hinge = self.mechanism.joints[hinge.joint.index()].name.to_string();
+                Err(NotEnclosed::SenseOfRotation { hinge, spin })
+            }
+        };
+        hinges.iter().map(one).collect()
+    }
+
     fn slider(&self, contact: usize) -> Option<&Slider<Interval>> {
         self.mechanism.slider(self.mechanism.contacts[contact].joint)
     }
@@ -354,8 +387,4 @@ impl Coefficients<'_> {
 /// Whether it makes a difference at which face friction acts.
 fn has_two_faces(slider: &Slider<Interval>) -> bool {
     slider.kind == SliderKind::Block && slider.height != Interval::ZERO
-}
-
-fn bounded(entries: &DMatrix<Interval>) -> Result<IntervalMatrix, NotEnclosed> {
-    IntervalMatrix::from_intervals(entries).ok_or(NotEnclosed::Equations)
 }

@@ -28,15 +28,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod blocks;
 mod coefficients;
 mod motion;
 mod outputs;
 
-pub(crate) use blocks::{
-    BlockCoefficients, BlockNumbers, EnclosedBlockProblem, TurningHinge, enclosed_block_problem, spin,
-};
-pub use outputs::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, Tipping};
+use outputs::{EnclosedCouple, EnclosedOutput};
+pub use outputs::{EnclosedOutputs, Tipping};
 
 use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
@@ -44,12 +41,13 @@ use crate::interval::Interval;
 use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
+use crate::modes::OpenContacts;
+use crate::modes::blocks::BlockProblem;
 use crate::modes::certificate::{
     IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution_while,
 };
-use crate::modes::{OpenContacts, SharedLoad};
+use crate::problem::{ProblemCoefficients, TurningHinge};
 use crate::progress::{Callback, Progress, Work, undisturbed, watched};
-use crate::sharing::shared_load;
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
 
@@ -143,19 +141,25 @@ impl UncertainParameters {
     }
 }
 
-/// What is known of the mode problem of an exact mechanism, or of one with uncertain parameters.
+/// What is known of the problem of an exact mechanism, or of one with uncertain parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EnclosedModeProblem {
+pub struct Enclosed<P> {
     /// Bounds of the influence coefficients, and of what follows from the forces.
     pub outputs: EnclosedOutputs,
-    /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are
+    /// The problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are
     /// moved to the right-hand side, so that they do not look like a jump.
-    pub problem: IntervalModeProblem,
+    pub problem: P,
     /// Which contacts may be open: others between their faces are in preload gaps.
     pub(crate) open: OpenContacts,
-    /// Bounds of how redundant guides share their load; none if nothing is in excess.
-    pub(crate) shared: Option<SharedLoad<Interval>>,
+    /// The coefficients of its numbers.
+    pub(crate) coefficients: ProblemCoefficients<Interval>,
 }
+
+/// The mode problem of contacts, within bounds.
+pub type EnclosedModeProblem = Enclosed<IntervalModeProblem>;
+
+/// The block mode problem of contacts and hinges that turn, within bounds.
+pub(crate) type EnclosedBlockProblem = Enclosed<BlockProblem>;
 
 /// Why the numbers of a mechanism could not be enclosed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -271,45 +275,58 @@ pub(crate) fn enclosure_within(
     state: (&Mechanism, &Configuration),
     work: Work<'_>,
 ) -> Result<EnclosedModeProblem, NotEnclosed> {
-    with_coefficients(model, uncertain, state, work, |coefficients| {
-        let unknowns = coefficients.unknowns(work).ok_or(NotEnclosed::Equations)?;
-        let influence = coefficients.influence(&unknowns)?;
-        let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
-        let stresses = coefficients.self_stresses(&unknowns);
-        let shared = shared_load(coefficients.mechanism, stresses).map_err(NotEnclosed::Values)?;
-        let problem = match &shared {
-            Some(shared) => problem.with_shared_load(shared)?,
-            None => problem,
-        };
-        Ok(EnclosedModeProblem {
-            open: coefficients.mechanism.excess.open.clone(),
-            shared,
-            outputs: coefficients.outputs(influence, &unknowns, &[]),
-            problem,
-        })
+    enclosed(model, uncertain, state, &[], work, |coefficients| {
+        Ok(IntervalModeProblem::from_influence(&coefficients.contacts)?)
     })
 }
 
-/// What is made of the kinetic equations within intervals.
-fn with_coefficients<T>(
+/// Bounds of the block mode problem of the mechanism that `model` describes, for all values of the parameters in
+/// `uncertain`; `hinges` are those with friction, with the sense in which they turn.
+///
+/// # Errors
+/// As [`enclosure`]; any once the work is to end.
+pub(crate) fn enclosed_block_problem(
+    model: &Model,
+    uncertain: &UncertainParameters,
+    state: (&Mechanism, &Configuration),
+    hinges: &[TurningHinge],
+    work: Work<'_>,
+) -> Result<EnclosedBlockProblem, NotEnclosed> {
+    enclosed(model, uncertain, state, hinges, work, |coefficients| {
+        coefficients.numbers().problem().ok_or(NotEnclosed::Equations)
+    })
+}
+
+/// The problem that is made of coefficients within intervals, with what follows from its solutions.
+fn enclosed<P>(
     model: &Model,
     uncertain: &UncertainParameters,
     (mechanism, configuration): (&Mechanism, &Configuration),
+    hinges: &[TurningHinge],
     work: Work<'_>,
-    make: impl FnOnce(&Coefficients<'_>) -> Result<T, NotEnclosed>,
-) -> Result<T, NotEnclosed> {
+    make: impl FnOnce(&ProblemCoefficients<Interval>) -> Result<P, NotEnclosed>,
+) -> Result<Enclosed<P>, NotEnclosed> {
     let given = uncertain.of(model)?;
     let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
     uncertain.put_coordinates(&mut mechanism)?;
     let configuration = motion::enclosed(&mechanism, configuration, work)?;
     uncertain.put_friction(&mut mechanism, &configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
-    make(&Coefficients {
+    let within = Coefficients {
         model,
         mechanism: &mechanism,
         configuration: &configuration,
         equations: &equations,
         are_numbers: uncertain.are_numbers(),
+    };
+    let rubbing = within.rubbing(hinges)?;
+    let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
+    let (coefficients, influence) = within.problem(&unknowns, hinges, &rubbing)?;
+    Ok(Enclosed {
+        problem: make(&coefficients)?,
+        outputs: within.outputs(influence, &unknowns, &rubbing),
+        open: mechanism.excess.open.clone(),
+        coefficients,
     })
 }
 

@@ -2,15 +2,14 @@
 //! tip, accelerations and power.
 
 use crate::interval::Interval;
-use crate::modes::certificate::IntervalInfluence;
-use crate::modes::{BySide, ContactState, Side};
+use crate::modes::{BySide, ContactState, InfluenceCoefficients, Side};
 
 /// Bounds of what follows from the forces of a state of the mode problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnclosedOutputs {
     /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a
     /// column have the same bounds where theory says that they are equal.
-    pub influence: IntervalInfluence,
+    pub influence: InfluenceCoefficients<Interval>,
     /// Bounds of the couples of guided sliders, in the order of the joints.
     pub(crate) couples: Vec<EnclosedCouple>,
     /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
@@ -22,7 +21,7 @@ pub struct EnclosedOutputs {
 /// Bounds of what an output is made of that is affine in the friction forces and couples:
 /// `C = C(0) + sum_k gamma_k F_k + sum_j gamma_j |R_j|`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EnclosedOutput {
+pub(crate) struct EnclosedOutput {
     /// `C(0)`, its value without friction.
     pub(crate) frictionless: Interval,
     /// `gamma_k`, what a unit friction force of each contact adds, at either of its faces.
@@ -37,7 +36,7 @@ pub struct EnclosedOutput {
 
 /// Bounds of the couple of a guided slider.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EnclosedCouple {
+pub(crate) struct EnclosedCouple {
     /// The slider's only contact, from 0.
     pub(crate) contact: usize,
     /// Half of the length of its pressed face (m).
@@ -101,7 +100,12 @@ impl EnclosedOutputs {
     ///
     /// # Panics
     /// As [`Self::tipping`].
-    pub fn output(&self, output: &EnclosedOutput, pattern: &[ContactState], y: &[Interval]) -> Interval {
+    pub(crate) fn output(
+        &self,
+        output: &EnclosedOutput,
+        pattern: &[ContactState],
+        y: &[Interval],
+    ) -> Interval {
         let terms = (0..pattern.len()).map(|k| self.of_friction(output, k, pattern[k], y[k]));
         let of_normal_force = |&(k, stress): &(usize, Interval)| {
             pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))
@@ -114,10 +118,9 @@ impl EnclosedOutputs {
     /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.
     fn of_friction(&self, output: &EnclosedOutput, k: usize, state: ContactState, y: Interval) -> Interval {
         let influence = &self.influence;
-        let preload =
-            |side: Side| output.influence_preload.get(side)[k] * influence.preload.get(side).entry(k, 0);
+        let preload = |side: Side| output.influence_preload.get(side)[k] * influence.preload.get(side)[k];
         let force = if let Some(side) = state.side() {
-            output.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side)
+            output.influence.get(side)[k] * influence.mu.get(side)[k] * y + preload(side)
         } else {
             let [positive, negative] = Side::BOTH.map(preload);
             negative + y * (positive - negative)

@@ -1,9 +1,7 @@
 //! Varied quantity: a parameter, a coordinate, or all coefficients of friction together.
 
 use crate::configuration::Follower;
-use crate::enclosure::{
-    EnclosedBlockProblem, TurningHinge, UncertainParameters, enclosed_block_problem, enclosure_within,
-};
+use crate::enclosure::{EnclosedBlockProblem, UncertainParameters, enclosed_block_problem, enclosure_within};
 use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
@@ -14,6 +12,7 @@ use crate::modes::blocks::{self, BlockProblem, BlockResult};
 use crate::modes::branches::{Branch, BranchForces, Instance, NoInstance};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{OpenContacts, search};
+use crate::problem::TurningHinge;
 use crate::progress::{Progress, Work};
 use crate::report::{Proof, Solution, SolveReport};
 use crate::solve::{

@@ -2,7 +2,7 @@
 //! else made anew.
 
 use super::class::{Answer, ClassKey, ClassMeaning, Point, class, reason};
-use super::{Axis, ColourBy, hinges};
+use super::{Axis, ColourBy, solved};
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
@@ -141,17 +141,13 @@ impl Source {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
             let stages = Stages::along(&mut before.trail, mechanism_with(&self.model, &[x, y])?)?;
             let model = || model_at(&self.model, axes, values);
-            if !stages.standing.is_empty() {
+            let stands = !stages.standing.is_empty();
+            if stands || stages.mechanism.rough_hinges().next().is_some() {
                 // Margins of what stands still are not computed.
-                let is_margin = self.colour_by == ColourBy::Margin;
-                let asked = (if is_margin { ColourBy::Modes } else { self.colour_by }, true);
-                let found = hinges::states(&stages, &model, asked, &mut before.last, work)?;
-                return Ok(Answer::States(found));
-            }
-            if stages.mechanism.rough_hinges().next().is_some() {
-                let careful = self.colour_by == ColourBy::Motion || self.model.has_guided_sliders();
-                let asked = (self.colour_by, careful);
-                let found = hinges::states(&stages, &model, asked, &mut before.last, work)?;
+                let is_margin = stands && self.colour_by == ColourBy::Margin;
+                let colour_by = if is_margin { ColourBy::Modes } else { self.colour_by };
+                let careful = stands || colour_by == ColourBy::Motion || self.model.has_guided_sliders();
+                let found = solved::states(&stages, &model, (colour_by, careful), &mut before.last, work)?;
                 return Ok(Answer::States(found));
             }
             let parts = parts(&stages, self.colour_by)?;

@@ -18,13 +18,13 @@
 //!
 //! # Files
 //! `map` colours a plane: `evaluate.rs` has the mode problem at a point and its states between faces,
-//! `hinges.rs` those with friction in hinges, `class.rs` what its solutions come to, `refine.rs` solves pixels only where neighbours differ.
+//! `solved.rs` those of a point that is solved by itself, `class.rs` what its solutions come to, `refine.rs` solves pixels only where neighbours differ.
 
 mod class;
 mod evaluate;
-mod hinges;
 mod refine;
 mod report;
+mod solved;
 
 pub use class::ClassMeaning;
 pub use report::{MapAxis, MapClass, MapReport, SCHEMA};

@@ -298,11 +298,6 @@ impl<T: Real> FrictionCircle<T> {
         let [radius, static_radius] = radii;
         Self { radius, static_radius, law, ..self }
     }
-
-    /// By how much its radius grows with this factor of friction: not linearly for a pin in a bore.
-    pub(crate) fn growth(&self, factor: T) -> T {
-        if self.radius == T::zero() { T::zero() } else { self.times(factor).radius / self.radius }
-    }
 }
 
 /// A number that may depend on the motion.

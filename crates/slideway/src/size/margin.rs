@@ -2,10 +2,10 @@
 
 use super::Against;
 use super::level::level;
-use crate::enclosure::TurningHinge;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
+use crate::problem::TurningHinge;
 use crate::progress::Work;
 use crate::report::{Status, Tipping};
 use crate::solve::{FALLING, GROWING, Stages, locking_factor};

@@ -11,7 +11,7 @@ use super::stages::Stages;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
-use crate::enclosure::{EnclosedOutputs, Tipping, spin};
+use crate::enclosure::{EnclosedOutputs, Tipping};
 use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
@@ -483,7 +483,7 @@ impl<'a> Answer<'a> {
                     report::HingeFriction {
                         couple: sign * hinge.couple + 0.0,
                         radius: self.mechanism.friction_circles[hinge.circle].radius,
-                        angular_velocity: sign * spin(self.mechanism, self.configuration, hinge.joint) + 0.0,
+                        angular_velocity: sign * self.configuration.spin(self.mechanism, hinge.joint) + 0.0,
                     }
                 }),
             })

@@ -4,7 +4,6 @@
 mod tests;
 
 use super::answer::Answer;
-use super::mode_problem::assembled_problem;
 use crate::attainability::{Candidate, ElasticGuides};
 use crate::fault::Faults;
 use crate::modes::ContactState;
@@ -31,7 +30,7 @@ impl Answer<'_> {
         if inside.is_empty() && self.shared.is_none() {
             return Ok(());
         }
-        let problem = assembled_problem(self.mechanism, self.influence, self.velocity_signs)?;
+        let problem = self.data().problem()?;
         let guides = ElasticGuides::new(self.mechanism, self.equations, &problem);
         for solution in solutions.iter_mut() {
             if let Some(mean) = guides.oriented_mean(&states(solution)) {

@@ -13,8 +13,7 @@
 //! and the ends of its range are two states.
 
 use super::answer::Answer;
-use super::mode_problem::SAME_COLUMN;
-use super::stages::ProblemData;
+use super::mode_problem::{ProblemData, SAME_COLUMN};
 use super::state::{State, pattern};
 use crate::ids::{ContactId, JointId};
 use crate::interval::Interval;
@@ -126,7 +125,7 @@ impl Faces {
 }
 
 impl Answer<'_> {
-    fn data(&self) -> ProblemData<'_> {
+    pub(super) fn data(&self) -> ProblemData<'_> {
         let Self { mechanism, influence, velocity_signs, .. } = *self;
         ProblemData { mechanism, influence, velocity_signs }
     }

@@ -3,8 +3,9 @@
 use super::answer::joint_modes;
 use super::friction::friction;
 use super::margins::{AT_ONCE, locking_mode};
+use super::mode_problem::ProblemData;
 use super::parts::contact_couples;
-use super::stages::{ProblemData, Stages};
+use super::stages::Stages;
 use super::state::{pattern, signs, states};
 use crate::configuration::Configuration;
 use crate::mechanism::Mechanism;

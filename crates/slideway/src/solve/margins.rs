@@ -1,22 +1,20 @@
 //! How far friction may grow before the answer changes.
 
-use super::mode_problem::determinate_problem;
-use super::stages::{ProblemData, Stages};
+use super::mode_problem::ProblemData;
+use super::stages::Stages;
 use super::state::{pattern, signs};
 use crate::enclosure::EnclosedModeProblem;
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::certificate::{
-    IntervalInfluence, IntervalMatrix, IntervalModeProblem, proven_determinant_sign,
-};
+use crate::modes::certificate::{IntervalModeProblem, proven_determinant_sign};
 use crate::modes::existence::{
-    CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts, is_same_end,
-    nothing_is_left,
+    CountInterval, EndCause, Existence, ExistenceOptions, ModeEnd, ModeInterval, ModeProblemLine, counts,
+    is_same_end, nothing_is_left,
 };
-use crate::modes::{BySide, ContactState, SharedLoad};
+use crate::modes::{ContactState, ModeProblem};
+use crate::problem::ProblemCoefficients;
 use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, Unlocking};
-use nalgebra::DMatrix;
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
@@ -66,7 +64,7 @@ pub(super) fn add(
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {
         let margin = |mode: &ModeInterval| {
             let nothing_is_left = nothing_is_left(&all.counts, mode.to.at, false, is_same_end);
-            mode_margin(mechanism, mode, nothing_is_left)
+            mode_margin(mechanism, &mode.to, nothing_is_left)
         };
         solution.margin = all.end_of(&solution.pattern).map(margin);
     }
@@ -93,45 +91,32 @@ pub(super) fn add(
 /// misalignment and stiffness: these decide which determinate part of the mechanism carries alone, and the
 /// determinants of all of these parts count, each with one face of a press fit at most.
 fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProblem) -> Option<f64> {
-    let Some(shared) = &enclosed.shared else {
+    let mut coefficients = enclosed.coefficients.clone();
+    let Some(shared) = &mut coefficients.contacts.shared else {
         let jumps = all.line.has_jump.contains(&true);
-        return (!jumps).then(|| first_locking(&all.line, enclosed, None)).flatten();
+        return (!jumps).then(|| first_locking(&all.line, &coefficients)).flatten();
     };
-    let ProblemData { mechanism, influence, velocity_signs } = data;
-    let determinate = determinate_problem(mechanism, influence, velocity_signs).ok()?;
-    if determinate.jumps_of_contacts().contains(&true) {
+    shared.clearance.fill(Interval::ONE);
+    shared.press_fits.clear();
+    let mut determinate = data.coefficients(&[], &[]).ok()?.contacts;
+    determinate.shared = None;
+    if ModeProblem::from_influence(&determinate).ok()?.jumps_of_contacts().contains(&true) {
         return None;
     }
-    let mut loose = mechanism.clone();
+    let mut loose = data.mechanism.clone();
     for contact in &mut loose.contacts {
         (contact.play, contact.misalignment, contact.stiffness) = (2.0, 0.0, Some(1.0));
         contact.face = None;
     }
-    let shared = SharedLoad {
-        clearance: shared.clearance.map(|_| Interval::point(1.0)),
-        press_fits: Vec::new(),
-        ..shared.clone()
-    };
-    first_locking(
-        &ProblemData { mechanism: &loose, ..data }.growing_friction(&|_| true).ok()?,
-        enclosed,
-        Some(&shared),
-    )
+    let line = ProblemData { mechanism: &loose, ..data }.growing_friction(&|_| true).ok()?;
+    first_locking(&line, &coefficients)
 }
 
 /// The factor at which a determinant along a line is proven to change its sign, with bounds of the same numbers.
-fn first_locking(
-    line: &ModeProblemLine,
-    enclosed: &EnclosedModeProblem,
-    shared: Option<&SharedLoad<Interval>>,
-) -> Option<f64> {
+fn first_locking(line: &ModeProblemLine, enclosed: &ProblemCoefficients<Interval>) -> Option<f64> {
     let sign_at = |factor: f64, pattern: &[ContactState]| {
-        let problem =
-            IntervalModeProblem::from_influence(&rougher(&enclosed.outputs.influence, factor)?).ok()?;
-        match shared {
-            Some(shared) => proven_determinant_sign(&problem.with_shared_load(shared).ok()?, pattern),
-            None => proven_determinant_sign(&problem, pattern),
-        }
+        let rougher = enclosed.rougher(Interval::point(factor));
+        proven_determinant_sign(&IntervalModeProblem::from_influence(&rougher.contacts).ok()?, pattern)
     };
     line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
 }
@@ -260,21 +245,12 @@ impl Growth {
     }
 }
 
-/// Bounds with every coefficient of friction multiplied by a factor; none if one overflows.
-fn rougher(influence: &IntervalInfluence, factor: f64) -> Option<IntervalInfluence> {
-    let times = |mu: &IntervalMatrix| {
-        let scaled = |row, column| mu.entry(row, column) * Interval::point(factor);
-        IntervalMatrix::from_intervals(&DMatrix::from_fn(mu.shape().0, 1, scaled))
-    };
-    let mu = BySide { positive: times(&influence.mu.positive)?, negative: times(&influence.mu.negative)? };
-    Some(IntervalInfluence { mu, ..influence.clone() })
-}
-
-fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval, nothing_is_left: bool) -> report::ModeMargin {
+/// The factor of friction at which a mode ends, and what ends it.
+pub(super) fn mode_margin(mechanism: &Mechanism, end: &ModeEnd, nothing_is_left: bool) -> report::ModeMargin {
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
-    let cause = &mode.to.cause;
+    let cause = &end.cause;
     let ends_with = match cause {
         EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
         cause => report::ModeEndCause::new(cause, nothing_is_left),
@@ -285,5 +261,5 @@ fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval, nothing_is_left: bool
         | EndCause::GreatestNormalForce(contacts) => names(contacts),
         _ => Vec::new(),
     };
-    report::ModeMargin { factor: mode.to.at.is_finite().then_some(mode.to.at), ends_with, contacts }
+    report::ModeMargin { factor: end.at.is_finite().then_some(end.at), ends_with, contacts }
 }

@@ -20,6 +20,7 @@
 mod answer;
 mod attainability;
 mod between_faces;
+mod blocks;
 mod continuum;
 mod distinct;
 mod equilibrium;
@@ -27,7 +28,6 @@ mod faces;
 mod found;
 mod friction;
 mod from_rest;
-mod hinges;
 mod locking;
 mod margins;
 mod mode_problem;
@@ -43,23 +43,22 @@ mod uncertainty;
 mod words;
 
 pub(crate) use between_faces::states_between_faces;
-pub(crate) use friction::friction;
-pub use hinges::exact_block_problem;
-pub(crate) use hinges::{HingedData, HingedState, LastSolution, check_hinges, hinged_states, never_turning};
-pub(crate) use hinges::{
-    block_instance, directions, factors_with_one_solution, friction_of_contacts, locking_factor,
-    turning_hinges, unknowns_of,
+pub use blocks::exact_block_problem;
+pub(crate) use blocks::{BlockState, LastSolution, block_states, check_hinges, never_turning};
+pub(crate) use blocks::{
+    block_instance, directions, factors_with_one_solution, locking_factor, turning_hinges, unknowns_of,
 };
+pub(crate) use friction::friction;
 pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_change};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
+    NO_INFLUENCE, ProblemData, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::load_sharing;
+pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
-pub(crate) use stages::{ProblemData, Stages};
 pub(crate) use standing::check_standing;
 pub(crate) use state::{pattern, signs};
 pub(crate) use tolerant::StateWithinTolerances;
@@ -181,7 +180,7 @@ fn answered(
     let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
     if has_rough_hinges || !stages.standing.is_empty() {
         let mut report = if has_rough_hinges {
-            hinges::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
+            blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
         } else {
             standing::of_contacts(stages, equations)?
         };

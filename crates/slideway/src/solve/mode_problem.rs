@@ -1,16 +1,22 @@
 //! From a mechanism's influence coefficients to the pure numbers of its mode problem.
 
 use super::no_sliding::why;
+use super::parts::Parts;
 use super::sharing::check_assembly;
 use crate::configuration::{Configuration, staying};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
+use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
+use crate::modes::blocks::BlockProblem;
+use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
+use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
 use crate::sharing::{NO_STRESS, shared_load};
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// Velocities of sliding and turning below this multiple of the greatest velocity count as zero.
 pub(super) const AT_REST: f64 = 1e-12;
@@ -102,39 +108,121 @@ pub fn mode_problem(
     influence: &Influence,
     velocity_signs: &DVector<f64>,
 ) -> Result<ModeProblem, Faults> {
-    if let Some(shared) = shared_load(mechanism, self_stresses(influence))? {
-        check_assembly(mechanism, &shared)?;
+    let data = ProblemData { mechanism, influence, velocity_signs };
+    let contacts = data.coefficients(&[], &[])?.contacts;
+    if let Some(shared) = &contacts.shared {
+        check_assembly(mechanism, shared)?;
     }
-    assembled_problem(mechanism, influence, velocity_signs)
+    ModeProblem::from_influence(&contacts).map_err(|_| overflow())
 }
 
-/// [`mode_problem`] of guides that are known to be assembled, as those of [`super::Stages`] are.
-///
-/// # Errors
-/// As [`mode_problem`].
-pub(super) fn assembled_problem(
-    mechanism: &Mechanism,
-    influence: &Influence,
-    velocity_signs: &DVector<f64>,
-) -> Result<ModeProblem, Faults> {
-    let problem = determinate_problem(mechanism, influence, velocity_signs)?;
-    match shared_load(mechanism, self_stresses(influence))? {
-        Some(shared) => problem.with_shared_load(&shared).map_err(|_| overflow()),
-        None => Ok(problem),
+/// What a problem is made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ProblemData<'a> {
+    /// Its contacts have their coefficients of friction and preloads.
+    pub(crate) mechanism: &'a Mechanism,
+    /// How forces answer to friction.
+    pub(crate) influence: &'a Influence,
+    /// The signs of the sliding velocities.
+    pub(crate) velocity_signs: &'a DVector<f64>,
+}
+
+impl ProblemData<'_> {
+    /// What the problem of the contacts and of these hinges is made of, in floating point, with these functions of the
+    /// unknowns as outputs.
+    ///
+    /// # Errors
+    /// Nothing says how redundant guides share their load.
+    pub(crate) fn coefficients(
+        self,
+        hinges: &[TurningHinge],
+        outputs: &[ConstraintRow],
+    ) -> Result<ProblemCoefficients, Faults> {
+        let Self { mechanism, influence, velocity_signs } = self;
+        let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
+        let own = influence.block_rows(&joints);
+        let rows = own.len() + outputs.len();
+        let entry = |row: usize, unknowns: &DVector<f64>| match row.checked_sub(own.len()) {
+            None => unknowns[own[row]],
+            Some(output) => outputs[output].times(unknowns),
+        };
+        let answers = |rows: Range<usize>, face: usize| {
+            let columns = &influence.columns;
+            DMatrix::from_fn(rows.len(), columns.len(), |row, k| entry(rows.start + row, &columns[k][face]))
+        };
+        let upper = without_rounding(mechanism, [0, 1].map(|face| answers(0..own.len(), face)));
+        let lower = BySide { positive: answers(own.len()..rows, 0), negative: answers(own.len()..rows, 1) };
+        let eta = BySide::of(|side| stacked(upper.get(side), lower.get(side)));
+        let [mu, preload] = friction_of_contacts(mechanism, &|_| true);
+        let stresses = &influence.self_stresses;
+        let self_stress = DMatrix::from_fn(rows, stresses.len(), |row, stress| {
+            let force = entry(row, &stresses[stress]);
+            if row < own.len() && force.abs() <= NO_STRESS { 0.0 } else { force }
+        });
+        let without_friction = |row: usize| {
+            let given = row.checked_sub(own.len()).map_or(0.0, |output| outputs[output].right_hand_side);
+            entry(row, &influence.frictionless) - given
+        };
+        Ok(ProblemCoefficients {
+            contacts: InfluenceCoefficients {
+                eta_preload: preload_columns(mechanism, &eta),
+                eta,
+                mu,
+                preload,
+                velocity_signs: velocity_signs.clone(),
+                frictionless: DVector::from_fn(rows, |row, _| without_friction(row)),
+                shared: shared_load(mechanism, self_stress)?,
+            },
+            couples: DMatrix::from_fn(rows, hinges.len(), |row, hinge| {
+                entry(row, &influence.couples[hinges[hinge].circle])
+            }),
+            hinges: hinges.iter().map(|hinge| (*hinge, mechanism.friction_circles[hinge.circle])).collect(),
+        })
+    }
+
+    /// The mode problem.
+    ///
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share their load.
+    pub(crate) fn problem(self) -> Result<ModeProblem, Faults> {
+        ModeProblem::from_influence(&self.coefficients(&[], &[])?.contacts).map_err(|_| overflow())
+    }
+
+    /// The block mode problem of the contacts and these hinges.
+    ///
+    /// # Errors
+    /// As [`Self::problem`].
+    pub(crate) fn block_problem(self, hinges: &[TurningHinge]) -> Result<BlockProblem, Faults> {
+        self.coefficients(hinges, &[])?.numbers().problem().map_err(|_| overflow())
+    }
+
+    /// The numbers of the mode problem with the couples of guided sliders and then these functions of the unknowns as
+    /// outputs.
+    ///
+    /// # Errors
+    /// As [`Self::problem`].
+    pub(crate) fn parts(self, others: Vec<ConstraintRow>) -> Result<Parts, Faults> {
+        Parts::new(self, others)
+    }
+
+    /// The line from no friction of these contacts (`t = 0`) to their present friction (`t = 1`), with the couples as
+    /// outputs.
+    ///
+    /// # Errors
+    /// As [`Self::problem`].
+    pub(crate) fn growing_friction(self, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
+        let mut smooth = self.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|k| if grows(k) { 0.0 } else { 1.0 });
+        let without = ProblemData { mechanism: &smooth, ..self }.parts(Vec::new())?;
+        Ok(without.line_to(&self.parts(Vec::new())?))
     }
 }
 
-/// The mode problem without the rows by which redundant guides share their load.
-///
-/// # Errors
-/// A fault if a number is beyond the range of floating point.
-pub(super) fn determinate_problem(
-    mechanism: &Mechanism,
-    influence: &Influence,
-    velocity_signs: &DVector<f64>,
-) -> Result<ModeProblem, Faults> {
-    let coefficients = influence_coefficients(mechanism, influence, velocity_signs);
-    ModeProblem::from_influence(&coefficients).map_err(|_| overflow())
+/// Two matrices of as many columns, one below the other.
+fn stacked(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut both = above.clone().resize_vertically(above.nrows() + below.nrows(), 0.0);
+    both.rows_mut(above.nrows(), below.nrows()).copy_from(below);
+    both
 }
 
 /// The normal forces of the self-stresses, without rounding: a row for each contact.
@@ -149,28 +237,6 @@ pub(crate) fn self_stresses(influence: &Influence) -> DMatrix<f64> {
         DMatrix::zeros(influence.columns.len(), 0)
     } else {
         DMatrix::from_columns(&columns)
-    }
-}
-
-/// What the mode problem is made of.
-fn influence_coefficients(
-    mechanism: &Mechanism,
-    influence: &Influence,
-    velocity_signs: &DVector<f64>,
-) -> InfluenceCoefficients {
-    let eta = sides(mechanism, influence);
-    let contacts = &mechanism.contacts;
-    let by_side = |value: &dyn Fn(usize, usize) -> f64| BySide {
-        positive: DVector::from_fn(contacts.len(), |k, _| value(k, 0)),
-        negative: DVector::from_fn(contacts.len(), |k, _| value(k, 1)),
-    };
-    InfluenceCoefficients {
-        eta_preload: preload_columns(mechanism, &eta),
-        mu: by_side(&|k, side| contacts[k].mu[side]),
-        preload: by_side(&|k, side| contacts[k].preload[side]),
-        velocity_signs: velocity_signs.clone(),
-        frictionless: influence.normal_forces(),
-        eta,
     }
 }
 

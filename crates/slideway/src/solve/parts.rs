@@ -2,9 +2,9 @@
 
 use super::distinct::agree;
 use super::faces::{FreeFace, with_either_side};
-use super::mode_problem::self_stresses;
-use super::stages::ProblemData;
+use super::mode_problem::{ProblemData, overflow};
 use super::tolerant::{StatesWithinTolerances, screened};
+use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Reaction};
@@ -12,8 +12,7 @@ use crate::law::{positive_share, tips};
 use crate::mechanism::{JointKind, Mechanism};
 use crate::model::SliderKind;
 use crate::modes::existence::{ModeProblemLine, OutputBound};
-use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts, Side};
-use crate::pattern::face;
+use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts};
 use crate::progress::Callback;
 use nalgebra::{DMatrix, DVector};
 
@@ -40,85 +39,37 @@ pub(crate) struct Parts {
 
 impl Parts {
     /// The numbers of a mode problem, with the couples and then these functions of the unknowns as outputs.
-    pub(super) fn new(data: ProblemData<'_>, problem: &ModeProblem, others: Vec<ConstraintRow>) -> Self {
-        let ProblemData { mechanism, influence, velocity_signs } = data;
-        let contacts = problem.contacts();
-        let couples = couples(mechanism, influence);
-        let of_couples = couples.iter().map(|(_, row)| ConstraintRow::unknown(*row));
-        let outputs: Vec<ConstraintRow> = of_couples.chain(others).collect();
-        let rows = contacts + outputs.len();
-        let extended = |upper: &DMatrix<f64>, below: &dyn Fn(&ConstraintRow, usize) -> f64| {
-            DMatrix::from_fn(rows, contacts, |row, k| {
-                if row < contacts { upper[(row, k)] } else { below(&outputs[row - contacts], k) }
-            })
-        };
-        // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
-        let cut = influence.layout().cut();
-        let stress_of = |k: usize| cut.iter().position(|contact| contact.index() == k);
-        let stresses = self_stresses(influence);
-        // c_k^sigma = sigma e_k - sigma Z_k of a cut contact; the rows of self-stresses know no friction.
-        let frictionless = |side: Side| {
-            let upper = DMatrix::from_fn(contacts, contacts, |row, k| match (stress_of(row), stress_of(k)) {
-                (Some(_), _) => problem.columns(side)[(row, k)],
-                (None, stress) => {
-                    let own = f64::from(u8::from(row == k));
-                    side.sign() * stress.map_or(own, |stress| own - stresses[(row, stress)])
-                }
-            });
-            extended(&upper, &|row, k| {
-                stress_of(k).map_or(0.0, |stress| -side.sign() * row.times(&influence.self_stresses[stress]))
-            })
-        };
-        let side = |side: Side| {
-            let face = face(side);
-            let gamma = |row: &ConstraintRow, k: usize| row.times(&influence.columns[k][face]);
-            let columns = extended(problem.columns(side), &|row, k| {
-                let friction = -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k];
-                stress_of(k).map_or(friction, |stress| {
-                    friction - side.sign() * row.times(&influence.self_stresses[stress])
-                })
-            });
-            let jumps = extended(problem.jumps(side), &|row, k| {
-                let contact = &mechanism.contacts[k];
-                let of_faces = influence.columns[k].each_ref().map(|column| row.times(column));
-                contact.preload_line.of_faces(of_faces)[face] * contact.preload[face] * velocity_signs[k]
-            });
-            (columns, jumps)
-        };
-        let ((cp, dp), (cn, dn)) = (side(Side::Positive), side(Side::Negative));
-        let right_hand_side = DVector::from_fn(rows, |row, _| {
-            if row < contacts {
-                problem.right_hand_side()[row]
-            } else {
-                let output = &outputs[row - contacts];
-                output.times(&influence.frictionless) - output.right_hand_side
-            }
-        });
-        let has_jump = problem.jumps_of_contacts();
-        Self {
-            columns: BySide { positive: cp, negative: cn },
-            frictionless: BySide {
-                positive: frictionless(Side::Positive),
-                negative: frictionless(Side::Negative),
-            },
-            jumps: BySide { positive: dp, negative: dn },
-            right_hand_side,
-            bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
-            free_faces: (0..contacts).map(|contact| data.free_face(&has_jump, contact)).collect(),
-            has_jump,
+    ///
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share their load.
+    pub(super) fn new(data: ProblemData<'_>, others: Vec<ConstraintRow>) -> Result<Self, Faults> {
+        let mechanism = data.mechanism;
+        let contacts = mechanism.contacts.len();
+        let (bounds, rows): (Vec<OutputBound>, Vec<usize>) =
+            couples(mechanism, data.influence).into_iter().unzip();
+        let outputs: Vec<ConstraintRow> =
+            rows.into_iter().map(ConstraintRow::unknown).chain(others).collect();
+        let coefficients = data.coefficients(&[], &outputs)?;
+        let mut parts = Self {
+            columns: coefficients.columns(),
+            frictionless: coefficients.rougher(0.0).columns(),
+            jumps: coefficients.jumps(),
+            right_hand_side: coefficients.load(),
+            bounds,
+            has_jump: Vec::new(),
+            free_faces: Vec::new(),
             preload_jumps: (0..contacts).map(|k| mechanism.preload_jumps(ContactId(k))).collect(),
             open: mechanism.excess.open.clone(),
-        }
+        };
+        parts.has_jump = parts.problem().map_err(|_| overflow())?.jumps_of_contacts();
+        parts.free_faces = (0..contacts).map(|contact| data.free_face(&parts.has_jump, contact)).collect();
+        Ok(parts)
     }
 
     /// The line of problems from this one at `t = 0` to another one at `t = 1`.
     pub(crate) fn line_to(&self, end: &Self) -> ModeProblemLine {
         let between = |one: &BySide<DMatrix<f64>>, other: &BySide<DMatrix<f64>>| {
-            let slope = BySide {
-                positive: &other.positive - &one.positive,
-                negative: &other.negative - &one.negative,
-            };
-            [one.clone(), slope]
+            [one.clone(), BySide::of(|side| other.get(side) - one.get(side))]
         };
         let load = &end.right_hand_side - &self.right_hand_side;
         let slope = if load.amax() <= SAME * self.right_hand_side.amax() { load * 0.0 } else { load };

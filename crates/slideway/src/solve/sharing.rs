@@ -1,6 +1,6 @@
 //! How redundant guides share their load, and whether other stiffnesses would change the answer.
 
-use super::mode_problem::{determinate_problem, self_stresses};
+use super::mode_problem::self_stresses;
 use super::stages::Stages;
 use super::tolerant::StatesWithinTolerances;
 use crate::attainability::ratios;
@@ -8,7 +8,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::{ModeProblem, OpenContacts, SharedLoad};
+use crate::modes::{InfluenceCoefficients, ModeProblem, OpenContacts, SharedLoad};
 use crate::report::{Elasticity, LoadSharing, SolveReport, StiffnessRatios};
 use crate::sharing;
 use nalgebra::DVector;
@@ -55,8 +55,11 @@ pub(super) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Resu
 /// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if they are not all
 /// found.
 fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
-    let problem = determinate_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)?;
-    let patterns = |shared: &SharedLoad| patterns(&problem, &stages.mechanism.excess.open, shared);
+    let contacts = stages.data().coefficients(&[], &[])?.contacts;
+    let patterns = |shared: &SharedLoad| {
+        let contacts = InfluenceCoefficients { shared: Some(shared.clone()), ..contacts.clone() };
+        patterns(&contacts, &stages.mechanism.excess.open)
+    };
     let Some(as_given) = patterns(shared) else { return Ok(None) };
     let places = stages.mechanism.places().map(ContactId::index);
     let sharing: Vec<usize> = places.filter(|&k| shared.shares(k)).collect();
@@ -76,9 +79,9 @@ fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<Stiff
     Ok(Some(StiffnessRatios { tried, same, others: others.into_iter().collect() }))
 }
 
-/// The patterns of all states with one shared load, in rounded numbers. Returns `None` if the search did not come to its end.
-fn patterns(problem: &ModeProblem, open: &OpenContacts, shared: &SharedLoad) -> Option<BTreeSet<String>> {
-    let problem = problem.with_shared_load(shared).ok()?;
+/// The patterns of all states, in rounded numbers. Returns `None` if the search did not come to its end.
+fn patterns(contacts: &InfluenceCoefficients, open: &OpenContacts) -> Option<BTreeSet<String>> {
+    let problem = ModeProblem::from_influence(contacts).ok()?;
     let found = StatesWithinTolerances::of(&problem, open, &mut |_| ControlFlow::Continue(()))?;
     Some(found.states.iter().map(|state| super::pattern(&state.sides)).collect())
 }

@@ -1,7 +1,6 @@
 //! The stages of a model up to the numbers of its mode problem.
 
-use super::hinges::HingedData;
-use super::mode_problem::{Sliding, assembled_problem, mode_problem, none_stands, self_stresses};
+use super::mode_problem::{ProblemData, Sliding, mode_problem, none_stands, self_stresses};
 use super::parts::Parts;
 use super::sharing::check_assembly;
 use super::trail::Trail;
@@ -12,7 +11,6 @@ use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coordinate_rows};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::existence::ModeProblemLine;
 use crate::modes::{ModeProblem, SharedLoad};
 use crate::report::Elasticity;
 use crate::sharing::{elasticity, shared_load};
@@ -184,16 +182,6 @@ impl Stages {
         }
     }
 
-    /// What its block mode problem is made of.
-    pub(crate) fn hinged(&self) -> HingedData<'_> {
-        HingedData {
-            mechanism: &self.mechanism,
-            configuration: &self.configuration,
-            influence: &self.influence,
-            velocity_signs: &self.velocity_signs,
-        }
-    }
-
     /// With all friction multiplied by a factor.
     pub(crate) fn with_friction(&self, factor: f64) -> Self {
         let mut stages = self.clone();
@@ -225,46 +213,5 @@ impl Stages {
     /// As [`Stages::parts`].
     pub(crate) fn parts_with_accelerations(&self) -> Result<Parts, Faults> {
         self.data().parts(coordinate_rows(&self.mechanism, &self.configuration))
-    }
-}
-
-/// What a mode problem is made of.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ProblemData<'a> {
-    /// Its contacts have their coefficients of friction and preloads.
-    pub(crate) mechanism: &'a Mechanism,
-    /// How forces answer to friction.
-    pub(crate) influence: &'a Influence,
-    /// The signs of the sliding velocities.
-    pub(crate) velocity_signs: &'a DVector<f64>,
-}
-
-impl ProblemData<'_> {
-    /// The mode problem.
-    ///
-    /// # Errors
-    /// A fault if a number is beyond the range of floating point.
-    pub(crate) fn problem(self) -> Result<ModeProblem, Faults> {
-        assembled_problem(self.mechanism, self.influence, self.velocity_signs)
-    }
-
-    /// Its numbers with the couples and then these functions of the unknowns as outputs.
-    ///
-    /// # Errors
-    /// As [`Self::problem`].
-    pub(crate) fn parts(self, others: Vec<ConstraintRow>) -> Result<Parts, Faults> {
-        Ok(Parts::new(self, &self.problem()?, others))
-    }
-
-    /// The line from no friction of these contacts (`t = 0`) to their present friction (`t = 1`), with the couples as
-    /// outputs.
-    ///
-    /// # Errors
-    /// As [`Self::problem`].
-    pub(crate) fn growing_friction(self, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
-        let mut smooth = self.mechanism.clone();
-        smooth.multiply_friction_of_contacts(|k| if grows(k) { 0.0 } else { 1.0 });
-        let without = ProblemData { mechanism: &smooth, ..self }.parts(Vec::new())?;
-        Ok(without.line_to(&self.parts(Vec::new())?))
     }
 }

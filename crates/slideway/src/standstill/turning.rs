@@ -5,14 +5,14 @@ use super::instant::MotionState;
 use super::setup::Setup;
 use super::state::Pattern;
 use crate::configuration::null_space;
-use crate::enclosure::{BlockCoefficients, BlockNumbers, TurningHinge};
 use crate::ids::ContactId;
 use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
-use crate::modes::{ContactState, SearchOptions, Side};
+use crate::modes::{ContactState, InfluenceCoefficients, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
+use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
 use crate::progress::Callback;
-use crate::solve::{friction_of_contacts, preload_columns, without_rounding};
+use crate::solve::{preload_columns, without_rounding};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Normal forces below this part of the greatest force may be on either side.
@@ -172,28 +172,25 @@ impl<'h, 's> Blocks<'h, 's> {
         let friction =
             |side: usize| answers(setup.assembled.friction.iter().map(|both| &both[side]).collect());
         let eta = without_rounding(&setup.mechanism, [friction(0)?, friction(1)?]);
-        let [mu, preload] = friction_of_contacts(contacts, &|k| self.sign(k) != 0.0);
+        let [mu, preload] = friction_of_contacts(&setup.mechanism, &|k| self.sign(k) != 0.0);
         let load = self.held.answers(std::slice::from_ref(&self.held.load))?;
-        let coefficients = BlockCoefficients {
-            eta_preload: preload_columns(&setup.mechanism, &eta),
-            eta,
-            mu,
-            preload,
-            velocity_signs: DVector::from_fn(contacts.len(), |k, _| self.sign(k)),
+        let circles = &setup.mechanism.friction_circles;
+        let coefficients = ProblemCoefficients {
+            contacts: InfluenceCoefficients {
+                eta_preload: preload_columns(&setup.mechanism, &eta),
+                eta,
+                mu,
+                preload,
+                velocity_signs: DVector::from_fn(contacts.len(), |k, _| self.sign(k)),
+                frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
+                shared: None,
+            },
             couples: answers(
                 self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect(),
             )?,
-            leverage: DVector::from_fn(self.hinges.len(), |hinge, _| self.leverage(hinge)),
-            frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
-            shared: None,
+            hinges: self.hinges.iter().map(|hinge| (*hinge, circles[hinge.circle])).collect(),
         };
-        let BlockNumbers { response, jumps, load } = coefficients.numbers();
-        BlockProblem::new(response, jumps, load).ok()
-    }
-
-    fn leverage(&self, hinge: usize) -> f64 {
-        let TurningHinge { circle, sense, .. } = self.hinges[hinge];
-        -self.held.setup.mechanism.friction_circles[circle].radius * sense
+        coefficients.numbers().problem().ok()
     }
 
     /// The states of a solution: contacts without a normal force may be on either side.
@@ -246,10 +243,9 @@ impl<'h, 's> Blocks<'h, 's> {
             let force = self.sign(k) * (contact.mu[side] * solution.magnitudes[k] + contact.preload[side]);
             load += self.held.forces(&friction[side]) * force;
         }
-        for (index, hinge) in self.hinges.iter().enumerate() {
-            let [x, y] = solution.reactions[index];
-            load += self.held.forces(&setup.assembled.couples[hinge.circle])
-                * (self.leverage(index) * x.hypot(y));
+        for (hinge, [x, y]) in self.hinges.iter().zip(&solution.reactions) {
+            let leverage = hinge.leverage(&setup.mechanism.friction_circles[hinge.circle]);
+            load += self.held.forces(&setup.assembled.couples[hinge.circle]) * (leverage * x.hypot(*y));
         }
         let answer = self.held.answers(&[load])?;
         let accelerations = answer[0].rows(0, setup.equations_of_motion()).iter().copied().collect();

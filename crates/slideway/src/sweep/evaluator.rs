@@ -16,7 +16,7 @@ use crate::modes::ContactState;
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::progress::{Callback, Progress};
 use crate::solve::{
-    HingedData, HingedState, LastSolution, Sliding, SolveOptions, Trail, hinged_states, mode_problem,
+    BlockState, LastSolution, ProblemData, Sliding, SolveOptions, Trail, block_states, mode_problem,
     solve_with,
 };
 use std::borrow::Cow;
@@ -203,20 +203,16 @@ fn write_with_hinges(
     if plan.attainability || mechanism.contacts.len() > MOST_CONTACTS {
         return Ok(false);
     }
-    let data = HingedData {
-        mechanism,
-        configuration: &stages.configuration,
-        influence: &stages.influence,
-        velocity_signs: &stages.signs,
-    };
-    let Some(found) = hinged_states(data, stages.accuracy, last, look)? else { return Ok(false) };
+    let data = ProblemData { mechanism, influence: &stages.influence, velocity_signs: &stages.signs };
+    let state = (data, &stages.configuration);
+    let Some(found) = block_states(state, stages.accuracy, last, look)? else { return Ok(false) };
     let states: Vec<SmallState> = found.iter().map(small).collect();
     let hinges: Vec<Vec<HingeState>> = found.into_iter().map(|state| state.hinges).collect();
     Ok(Writer { plan, mechanism, stages, guides: None, hinges: &hinges }.write(&states, point, rows))
 }
 
 /// A state of few contacts.
-fn small(state: &HingedState) -> SmallState {
+fn small(state: &BlockState) -> SmallState {
     let mut small = SmallState {
         pattern: [ContactState::Positive; MOST_CONTACTS],
         unknowns: [0.0; MOST_CONTACTS],

@@ -4,7 +4,7 @@ use crate::answers::{model, parameters, report};
 use crate::random_mechanisms::{cases, mechanisms};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use slideway::configuration::Configuration;
@@ -17,7 +17,6 @@ use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::modes::ContactState::{self, Negative, Positive};
-use slideway::modes::certificate::IntervalMatrix;
 use slideway::modes::certificate::{Decision, decide};
 use slideway::solve::{SolveOptions, solve_with};
 use std::cell::Cell;
@@ -53,12 +52,12 @@ fn influence(model: &Model) -> Result<Influence, Faults> {
 }
 
 /// How far the numbers are outside of the bounds, relative to the greatest of their column.
-fn outside(bounds: &IntervalMatrix, numbers: &DMatrix<f64>) -> f64 {
+fn outside(bounds: &DMatrix<Interval>, numbers: &DMatrix<f64>) -> f64 {
     let mut most: f64 = 0.0;
     for column in 0..numbers.ncols() {
         let scale = numbers.column(column).amax().max(1e-300);
         for row in 0..numbers.nrows() {
-            let (bounds, number) = (bounds.entry(row, column), numbers[(row, column)]);
+            let (bounds, number) = (bounds[(row, column)], numbers[(row, column)]);
             most = most.max((bounds.lower() - number).max(number - bounds.upper()) / scale);
         }
     }
@@ -66,22 +65,25 @@ fn outside(bounds: &IntervalMatrix, numbers: &DMatrix<f64>) -> f64 {
 }
 
 /// The greatest width of an entry, relative to the greatest of its column.
-fn relative_width(bounds: &IntervalMatrix) -> f64 {
+fn relative_width(bounds: &DMatrix<Interval>) -> f64 {
     let width = |column: usize| {
-        let greatest = bounds.centre().column(column).amax();
-        if greatest == 0.0 { 0.0 } else { 2.0 * bounds.radius().column(column).amax() / greatest }
+        let greatest = bounds.column(column).map(Interval::middle).amax();
+        if greatest == 0.0 { 0.0 } else { bounds.column(column).map(Interval::width).amax() / greatest }
     };
-    (0..bounds.shape().1).map(width).fold(0.0, f64::max)
+    (0..bounds.ncols()).map(width).fold(0.0, f64::max)
+}
+
+/// A vector as a matrix of one column.
+fn column<T: nalgebra::Scalar>(vector: &DVector<T>) -> DMatrix<T> {
+    DMatrix::from_column_slice(vector.len(), 1, vector.as_slice())
 }
 
 /// How far the rounded influence is outside of its enclosure.
 fn influence_outside(enclosed: &EnclosedModeProblem, rounded: &Influence) -> f64 {
-    let normal = rounded.normal_forces();
-    let normal = DMatrix::from_column_slice(normal.len(), 1, normal.as_slice());
     let found = &enclosed.outputs.influence;
     outside(&found.eta.positive, &rounded.eta(0))
         .max(outside(&found.eta.negative, &rounded.eta(1)))
-        .max(outside(&found.frictionless, &normal))
+        .max(outside(&column(&found.frictionless), &column(&rounded.normal_forces())))
 }
 
 /// A rational number from decimal digits, the last `places` of them behind the point.
@@ -104,7 +106,8 @@ fn the_gallery_is_enclosed_to_many_digits() {
         // differences.
         let narrow = if entry.name == "telescopic-boom" { 1e-10 } else { WIDTH };
         let influence = &found.outputs.influence;
-        for bounds in [&influence.eta.positive, &influence.eta.negative, &influence.frictionless] {
+        let loads = column(&influence.frictionless);
+        for bounds in [&influence.eta.positive, &influence.eta.negative, &loads] {
             assert!(relative_width(bounds) < narrow, "{}: {:e}", entry.name, relative_width(bounds));
         }
     }
@@ -123,21 +126,21 @@ fn the_example_of_the_paper_is_enclosed_exactly() {
         RBig::from(IBig::from(numerator)) / RBig::from(IBig::from(denominator))
     };
     for (contact, weight) in [(0, part(981, 200)), (1, part(981, 400)), (2, part(981, 400))] {
-        assert!(holds(found.frictionless.entry(contact, 0), &weight));
+        assert!(holds(found.frictionless[contact], &weight));
     }
     for (sign, eta) in [(1, &found.eta.positive), (-1, &found.eta.negative)] {
         for column in 0..3 {
             let push = if column == 0 { -part(1, 2) } else { part(1, 2) };
             let first = &push * &tangent;
             let couple = if column == 0 { RBig::ZERO } else { part(sign, 4) };
-            assert!(holds(eta.entry(0, column), &first));
-            assert!(holds(eta.entry(1, column), &(&couple - &first * part(1, 2))));
-            assert!(holds(eta.entry(2, column), &(-&couple - &first * part(1, 2))));
+            assert!(holds(eta[(0, column)], &first));
+            assert!(holds(eta[(1, column)], &(&couple - &first * part(1, 2))));
+            assert!(holds(eta[(2, column)], &(-&couple - &first * part(1, 2))));
         }
     }
     // What is written as a decimal is that decimal, and what is exactly a number is that alone.
-    assert!(holds(found.mu.positive.entry(1, 0), &part(1, 10)) && found.mu.positive.radius()[(1, 0)] > 0.0);
-    assert_eq!(found.mu.positive.entry(0, 0), Interval::point(0.5));
+    assert!(holds(found.mu.positive[(1, 0)], &part(1, 10)) && found.mu.positive[1].width() > 0.0);
+    assert_eq!(found.mu.positive[(0, 0)], Interval::point(0.5));
 }
 
 /// At mu_1 = cot(alpha), moving to the left, N_2 and N_3 vanish together.
@@ -200,8 +203,8 @@ fn versions_are_equal_where_theory_says_so() {
     let found = enclosed_within(&model, &[("F_10", 1.0, 2.0)]).unwrap();
     // The pin has no height; friction at the block changes no other contact than those of the block.
     let eta = &found.outputs.influence.eta;
-    assert!((0..3).all(|row| eta.positive.entry(row, 0) == eta.negative.entry(row, 0)));
-    assert!((0..3).all(|column| eta.positive.entry(0, column) == eta.negative.entry(0, column)));
+    assert!((0..3).all(|row| eta.positive[(row, 0)] == eta.negative[(row, 0)]));
+    assert!((0..3).all(|column| eta.positive[(0, column)] == eta.negative[(0, column)]));
     assert!(!found.problem.centre().has_jump(0), "its preload acts on both sides alike");
     let flat = model.with(&parameters(&[("h", "0 m"), ("F_20", "m*g")])).unwrap();
     let found = enclosed(&flat);

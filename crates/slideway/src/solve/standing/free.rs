@@ -1,13 +1,13 @@
 //! Friction forces and couples of what stands still.
 
 use super::super::state::Held;
-use crate::enclosure::TurningHinge;
 use crate::ids::ContactId;
 use crate::influence::{ContactFriction, HingeState, Influence};
 use crate::mechanism::{Contact, Mechanism};
 use crate::model::PreloadLine;
 use crate::modes::Side;
 use crate::pattern::face;
+use crate::problem::TurningHinge;
 use nalgebra::DVector;
 
 /// A friction force or couple that may be anything within a limit.

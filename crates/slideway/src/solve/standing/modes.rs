@@ -1,17 +1,17 @@
 //! The forces of each mode, affine in the friction that is free, and where it satisfies all inequalities.
 
-use super::super::hinges::block_coefficients;
 use super::super::mode_problem::{NO_INFLUENCE, overflow};
 use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::circle::within_circle;
 use super::free::Free;
 use super::polyhedron::{Extremes, Polyhedron};
-use crate::enclosure::{BlockNumbers, TurningHinge};
 use crate::fault::Faults;
+use crate::kinetics::ConstraintRow;
 use crate::law::COUPLE_TOLERANCE;
+use crate::modes::Side;
 use crate::modes::existence::OutputBound;
-use crate::modes::{BySide, Side};
+use crate::problem::{BlockNumbers, TurningHinge};
 use nalgebra::{DMatrix, DVector};
 
 /// Modes whose determinant is below this are singular within rounding.
@@ -22,9 +22,7 @@ const SINGULAR: f64 = 1e-12;
 pub(super) struct Modes<'a> {
     stages: &'a Stages,
     free: &'a [Free],
-    response: BySide<DMatrix<f64>>,
-    jumps: BySide<DMatrix<f64>>,
-    load: DVector<f64>,
+    numbers: BlockNumbers,
     /// Places of the rows among all unknowns.
     places: Vec<usize>,
     bounds: Vec<OutputBound>,
@@ -51,18 +49,14 @@ impl<'a> Modes<'a> {
             .filter_map(|free| if let Free::Hinge(hinge) = free { Some(*hinge) } else { None })
             .collect();
         let joints: Vec<_> = hinges.iter().map(|hinge| hinge.joint).collect();
-        let data = stages.hinged();
         let (bounds, below): (Vec<OutputBound>, Vec<usize>) =
             couples(&stages.mechanism, &stages.influence).into_iter().unzip();
-        let BlockNumbers { response, jumps, load } = block_coefficients(data, &hinges, &below)?.numbers();
+        let outputs: Vec<ConstraintRow> = below.iter().copied().map(ConstraintRow::unknown).collect();
+        let numbers = stages.data().coefficients(&hinges, &outputs)?.numbers();
         let mut places = stages.influence.block_rows(&joints);
         places.extend(below);
-        let modes = Self { stages, free, response, jumps, load, places, bounds };
-        let sides =
-            [&modes.response, &modes.jumps].into_iter().flat_map(|both| [&both.positive, &both.negative]);
-        let entries = sides.flat_map(|matrix| matrix.iter()).chain(&modes.load);
-        let is_finite = entries.into_iter().all(|entry| entry.is_finite());
-        is_finite.then_some(modes).ok_or_else(overflow)
+        let is_finite = numbers.are_finite();
+        is_finite.then_some(Self { stages, free, numbers, places, bounds }).ok_or_else(overflow)
     }
 
     /// A mode; none if it is singular.
@@ -72,7 +66,11 @@ impl<'a> Modes<'a> {
     pub(super) fn mode(&self, sides: Vec<Side>) -> Result<Option<Mode>, Faults> {
         let unknowns = self.places.len() - self.bounds.len();
         let response = |row: usize, k: usize| {
-            if k < sides.len() { self.response.get(sides[k])[(row, k)] * sides[k].sign() } else { 0.0 }
+            if k < sides.len() {
+                self.numbers.response.get(sides[k])[(row, k)] * sides[k].sign()
+            } else {
+                0.0
+            }
         };
         let matrix = DMatrix::from_fn(unknowns, unknowns, |row, k| {
             if row == k { 1.0 - response(row, k) } else { -response(row, k) }
@@ -81,8 +79,8 @@ impl<'a> Modes<'a> {
             return Ok(None);
         }
         let factors = matrix.lu();
-        let jumps = (0..sides.len()).map(|k| self.jumps.get(sides[k]).column(k).into_owned());
-        let load = jumps.fold(self.load.clone(), |load, jump| load + jump);
+        let jumps = (0..sides.len()).map(|k| self.numbers.jumps.get(sides[k]).column(k).into_owned());
+        let load = jumps.fold(self.numbers.load.clone(), |load, jump| load + jump);
         let added = |free: &Free| {
             let unit = free.unit(&self.stages.influence, &sides);
             DVector::from_iterator(self.places.len(), self.places.iter().map(|&place| unit[place]))

@@ -6,13 +6,13 @@ use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::found::hinge_states;
 use super::spin::{does_not_turn, sense};
-use super::{block_coefficients, exact_problem};
-use crate::enclosure::{BlockCoefficients, BlockNumbers, TurningHinge};
 use crate::fault::Faults;
+use crate::kinetics::ConstraintRow;
+use crate::modes::ContactState;
 use crate::modes::branches::{BranchForces, Instance, Outputs};
 use crate::modes::existence::OutputBound;
-use crate::modes::{BySide, ContactState};
-use nalgebra::{DMatrix, DVector};
+use crate::problem::{BlockNumbers, ProblemCoefficients, TurningHinge};
+use nalgebra::DVector;
 
 /// The hinges of these friction circles, with the sense in which each turns; one that has no friction here may stand.
 ///
@@ -43,26 +43,24 @@ pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result
 }
 
 /// The block problem of a mechanism, whose coefficients of friction may be multiplied by a factor.
-pub(crate) struct GrowingFriction<'a> {
-    stages: &'a Stages,
-    hinges: &'a [TurningHinge],
-    /// With the couples of guided sliders below.
-    coefficients: BlockCoefficients<f64>,
+pub(crate) struct GrowingFriction {
+    /// With the couples of guided sliders as outputs.
+    coefficients: ProblemCoefficients,
     bounds: Vec<OutputBound>,
     senses: Vec<i8>,
 }
 
-impl<'a> GrowingFriction<'a> {
+impl GrowingFriction {
     /// # Errors
     /// Nothing says how redundant guides share their load.
-    pub(crate) fn new(stages: &'a Stages, hinges: &'a [TurningHinge]) -> Result<Self, Faults> {
+    pub(crate) fn new(stages: &Stages, hinges: &[TurningHinge]) -> Result<Self, Faults> {
         let (bounds, rows): (Vec<OutputBound>, Vec<usize>) =
             couples(&stages.mechanism, &stages.influence).into_iter().unzip();
         let turning = hinges.iter().map(|hinge| hinge.sense);
         let sense = |sign: f64| i8::from(sign > 0.0) - i8::from(sign < 0.0);
         let senses = stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
-        let coefficients = block_coefficients(stages.hinged(), hinges, &rows)?;
-        Ok(Self { stages, hinges, coefficients, bounds, senses })
+        let rows: Vec<ConstraintRow> = rows.into_iter().map(ConstraintRow::unknown).collect();
+        Ok(Self { coefficients: stages.data().coefficients(hinges, &rows)?, bounds, senses })
     }
 
     /// With this factor.
@@ -70,37 +68,19 @@ impl<'a> GrowingFriction<'a> {
     /// # Errors
     /// Numbers beyond the range of floating point.
     pub(crate) fn at(&self, factor: f64) -> Result<Instance, Faults> {
-        let mut factors = vec![factor; self.stages.mechanism.contacts.len()];
-        let circle = |hinge: &TurningHinge| self.stages.mechanism.friction_circles[hinge.circle];
-        factors.extend(self.hinges.iter().map(|hinge| circle(hinge).growth(factor)));
-        let numbers = self.coefficients.rougher(&factors);
+        let numbers = self.coefficients.rougher(factor).numbers();
         let unknowns = numbers.load.len() - self.bounds.len();
-        let part = |matrix: &DMatrix<f64>, below: bool| {
-            if below { matrix.rows_range(unknowns..) } else { matrix.rows_range(..unknowns) }.into_owned()
-        };
-        let parts = |both: &BySide<DMatrix<f64>>, below: bool| BySide {
-            positive: part(&both.positive, below),
-            negative: part(&both.negative, below),
-        };
-        let outputs = Outputs {
-            response: parts(&numbers.response, true),
-            jumps: parts(&numbers.jumps, true),
-            load: numbers.load.rows_range(unknowns..).into_owned(),
-        };
-        let problem = exact_problem(BlockNumbers {
-            response: parts(&numbers.response, false),
-            jumps: parts(&numbers.jumps, false),
-            load: numbers.load.rows_range(..unknowns).into_owned(),
-        })?;
-        let (bounds, senses) = (self.bounds.clone(), self.senses.clone());
-        is_finite(&outputs).then_some(Instance { problem, outputs, bounds, senses }).ok_or_else(overflow)
+        if !numbers.are_finite() {
+            return Err(overflow());
+        }
+        let BlockNumbers { response, jumps, load } = numbers.rows(unknowns..numbers.load.len());
+        Ok(Instance {
+            problem: numbers.rows(0..unknowns).problem().map_err(|_| overflow())?,
+            outputs: Outputs { response, jumps, load },
+            bounds: self.bounds.clone(),
+            senses: self.senses.clone(),
+        })
     }
-}
-
-fn is_finite(outputs: &Outputs) -> bool {
-    let sides = [&outputs.response, &outputs.jumps];
-    let entries = sides.into_iter().flat_map(|both| both.positive.iter().chain(&both.negative));
-    entries.chain(&outputs.load).all(|entry| entry.is_finite())
 }
 
 /// All unknowns of a solution with these states of the contacts.

@@ -1,4 +1,4 @@
-//! The states of a point with friction in hinges.
+//! The states of a point, each solved by itself: where hinges rub, or contacts stand still while the rest moves.
 
 use super::ColourBy;
 use super::class::{MARGINS, States, margin_up_to};
@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{Solution, SolveReport, SpeedChange, Status};
 use crate::solve::{
-    HingedState, LastSolution, SolveOptions, Stages, factors_with_one_solution, hinged_states, pattern,
+    BlockState, LastSolution, SolveOptions, Stages, block_states, factors_with_one_solution, pattern,
     solve_in,
 };
 
@@ -42,14 +42,17 @@ fn all_states(
     work: Work<'_>,
 ) -> Result<States, Faults> {
     let mut goes_on = |_: &Progress| work.flow();
-    if !careful && let Some(found) = hinged_states(stages.hinged(), stages.accuracy, last, &mut goes_on)? {
+    if !careful
+        && let Some(found) =
+            block_states((stages.data(), &stages.configuration), stages.accuracy, last, &mut goes_on)?
+    {
         return Ok(of_found(&found));
     }
     let report = solve_in(&model()?, stages, &SolveOptions::default(), &mut goes_on)?;
     Ok(of_report(&report, stages))
 }
 
-fn of_found(found: &[HingedState]) -> States {
+fn of_found(found: &[BlockState]) -> States {
     let patterns = found.iter().map(|state| pattern(&state.pattern));
     States { solutions: patterns.collect(), ..States::default() }
 }

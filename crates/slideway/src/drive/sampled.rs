@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::report::{SolveReport, Status};
 use crate::scan::{bisect_until, evenly, samples};
-use crate::solve::{LastSolution, SolveOptions, Stages, Trail, hinged_states, solve_in};
+use crate::solve::{LastSolution, SolveOptions, Stages, Trail, block_states, solve_in};
 use std::ops::ControlFlow;
 
 /// How near to an end growth is judged, as fractions of the range.
@@ -97,7 +97,13 @@ impl Sampled<'_> {
         let stages = Stages::along(&mut before.0, Mechanism::new(&model).ok()?).ok()?;
         if stages.standing.is_empty() && !model.has_guided_sliders() {
             let mut goes_on = |_: &Progress| self.work.flow();
-            let found = hinged_states(stages.hinged(), stages.accuracy, &mut before.1, &mut goes_on).ok()?;
+            let found = block_states(
+                (stages.data(), &stages.configuration),
+                stages.accuracy,
+                &mut before.1,
+                &mut goes_on,
+            )
+            .ok()?;
             if let Some(states) = found {
                 return Some(states.len());
             }

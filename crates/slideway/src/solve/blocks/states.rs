@@ -1,22 +1,24 @@
 //! All states of one point after another, without the proof for the exact mechanism: for sweeps, maps and tables.
 
-use super::block_problem;
-use super::spin::{HingedData, Spins, spins};
-use crate::enclosure::TurningHinge;
+use super::super::mode_problem::ProblemData;
+use super::spin::{Spins, spins};
+use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::influence::HingeState;
 use crate::kinetics::Accuracy;
+use crate::mechanism::Mechanism;
 use crate::modes::blocks::{
     BlockProblem, BlockSolution, only_solution, search_all_or_nothing, unique_for_every_load,
 };
 use crate::modes::certificate::Sign;
 use crate::modes::screen::SLACK;
 use crate::modes::{ContactState, Proof, SearchOptions, Side};
+use crate::problem::TurningHinge;
 use crate::progress::Callback;
 
 /// A solution with friction in hinges, inside of its contact mode.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HingedState {
+pub(crate) struct BlockState {
     pub(crate) pattern: Vec<ContactState>,
     /// With their signs (N).
     pub(crate) normal_forces: Vec<f64>,
@@ -37,22 +39,22 @@ pub(crate) struct LastSolution(Vec<f64>);
 ///
 /// # Errors
 /// Hinges with friction that do not turn; numbers beyond the range of floating point.
-pub(crate) fn hinged_states(
-    data: HingedData<'_>,
+pub(crate) fn block_states(
+    (data, configuration): (ProblemData<'_>, &Configuration),
     accuracy: Accuracy,
     last: &mut LastSolution,
     progress: &mut Callback<'_>,
-) -> Result<Option<Vec<HingedState>>, Faults> {
+) -> Result<Option<Vec<BlockState>>, Faults> {
     if !data.mechanism.excess.is_empty() {
         return Ok(None);
     }
-    let Spins { turning, standing } = spins(data.mechanism, data.configuration, data.influence)?;
+    let Spins { turning, standing } = spins(data.mechanism, configuration, data.influence)?;
     if !standing.is_empty() {
         return Ok(None);
     }
-    let problem = block_problem(data, &turning)?;
+    let problem = data.block_problem(&turning)?;
     let slack = SLACK.max(accuracy.part);
-    let telling = Telling { data, problem: &problem, turning: &turning, slack };
+    let telling = Telling { mechanism: data.mechanism, problem: &problem, turning: &turning, slack };
     if let Some(only) = only_solution(&problem, Some(&last.0)) {
         let state = telling.only(&only.point, &only.errors);
         last.0 = only.point;
@@ -68,7 +70,7 @@ pub(crate) fn hinged_states(
 
 /// From the numbers of a block problem to states.
 struct Telling<'t> {
-    data: HingedData<'t>,
+    mechanism: &'t Mechanism,
     problem: &'t BlockProblem,
     turning: &'t [TurningHinge],
     /// Forces below this part of the terms that they are made of are in doubt.
@@ -77,7 +79,7 @@ struct Telling<'t> {
 
 impl Telling<'_> {
     /// The only solution; none if a side is in doubt. `det(I - H D)` is positive.
-    fn only(&self, point: &[f64], errors: &[f64]) -> Option<HingedState> {
+    fn only(&self, point: &[f64], errors: &[f64]) -> Option<BlockState> {
         let contacts = self.problem.contacts();
         let (forces, reactions) = point.split_at(contacts);
         let reactions: Vec<[f64; 2]> = reactions.as_chunks().0.to_vec();
@@ -90,7 +92,7 @@ impl Telling<'_> {
     }
 
     /// One of the solutions that a search has found; none if something about it is in doubt.
-    fn one_of_several(&self, solution: &BlockSolution) -> Option<HingedState> {
+    fn one_of_several(&self, solution: &BlockSolution) -> Option<BlockState> {
         let certain =
             solution.gaps.is_empty() && solution.on_boundary.is_empty() && solution.unloaded.is_empty();
         let large =
@@ -123,11 +125,11 @@ impl Telling<'_> {
         forces: &[f64],
         reactions: &[[f64; 2]],
         oriented_negative: bool,
-    ) -> HingedState {
+    ) -> BlockState {
         let negative = pattern.iter().filter(|state| **state == ContactState::Negative).count();
-        HingedState {
+        BlockState {
             normal_forces: forces.to_vec(),
-            hinges: super::found::hinge_states(self.data.mechanism, self.turning, reactions),
+            hinges: super::found::hinge_states(self.mechanism, self.turning, reactions),
             negative_determinant: oriented_negative ^ (negative % 2 == 1),
             pattern,
         }

@@ -5,13 +5,14 @@ use super::super::attainability::not_computed;
 use super::super::state::{State, pattern, signs};
 use super::margins::Growth;
 use crate::attainability::ElasticHinges;
-use crate::enclosure::{NotEnclosed, TurningHinge};
+use crate::enclosure::NotEnclosed;
 use crate::ids::JointId;
 use crate::influence::HingeState;
 use crate::interval::{Interval, Real};
 use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState, Side};
+use crate::problem::TurningHinge;
 use crate::report::{Proof, SolveReport};
 use nalgebra::{DMatrix, DVector};
 
@@ -61,7 +62,7 @@ fn region_in_words(region: &OpenRegion) -> String {
 }
 
 /// An answer with friction in hinges.
-pub(super) struct HingedAnswer<'a> {
+pub(super) struct BlockAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
     /// The problem without friction; none unless guides share a load.
@@ -69,7 +70,7 @@ pub(super) struct HingedAnswer<'a> {
     pub(super) hinges: &'a [TurningHinge],
 }
 
-impl HingedAnswer<'_> {
+impl BlockAnswer<'_> {
     /// The report on all solutions, with their margins of friction if what grows is given.
     pub(super) fn report(&self, found: &BlocksFound<'_>, growth: Option<&Growth<'_>>) -> SolveReport {
         let joints: Vec<JointId> = self.hinges.iter().map(|hinge| hinge.joint).collect();

@@ -3,21 +3,11 @@
 use super::super::mode_problem::AT_REST;
 use super::super::no_sliding::why;
 use crate::configuration::{Configuration, NO_ACCELERATION, free_motions};
-use crate::enclosure::{TurningHinge, spin};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
-use nalgebra::DVector;
-
-/// A mechanism in its state, as far as the block mode problem needs it.
-#[derive(Clone, Copy)]
-pub(crate) struct HingedData<'a> {
-    pub(crate) mechanism: &'a Mechanism,
-    pub(crate) configuration: &'a Configuration,
-    pub(crate) influence: &'a Influence,
-    pub(crate) velocity_signs: &'a DVector<f64>,
-}
+use crate::problem::TurningHinge;
 
 /// The hinges with friction.
 pub(super) struct Spins {
@@ -113,7 +103,7 @@ pub(super) fn sense(
 
 /// The sense in which a hinge turns: 1, -1, or 0 where it does not within rounding.
 fn turns(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) -> f64 {
-    let spin = spin(mechanism, configuration, joint);
+    let spin = configuration.spin(mechanism, joint);
     let speeds =
         configuration.velocities.iter().map(|v| v.angular.abs().max(v.linear.norm() / mechanism.size));
     let greatest = speeds.fold(0.0, f64::max);

@@ -2,7 +2,7 @@
 
 use super::super::SolveOptions;
 use super::super::uncertainty::{Presence, Searched};
-use super::found::HingedAnswer;
+use super::found::BlockAnswer;
 use crate::enclosure::{
     EnclosedBlockProblem, Tipping, UncertainParameters, enclosed_block_problem, enclosed_while,
 };
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 /// Of a solution with more contacts than this that may be on either side its modes are not told.
 const ON_BOUNDARY: usize = 6;
 
-impl HingedAnswer<'_> {
+impl BlockAnswer<'_> {
     /// Which modes exist for all values within the ranges, for some, or perhaps.
     pub(super) fn uncertainty(
         &self,

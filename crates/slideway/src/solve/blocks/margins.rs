@@ -1,17 +1,20 @@
 //! How far friction may grow before a solution with friction in hinges ends.
 
+use super::super::margins::mode_margin;
 use super::super::stages::Stages;
 use super::branches::GrowingFriction;
 use super::spin::{Spins, spins};
-use crate::enclosure::{EnclosedBlockProblem, TurningHinge};
+use crate::enclosure::EnclosedBlockProblem;
 use crate::fault::Faults;
+use crate::interval::Interval;
 use crate::mechanism::Mechanism;
 use crate::modes::SearchOptions;
 use crate::modes::blocks::{self, BlockProblem, BlockSolution, UniqueForEveryLoad, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
+use crate::problem::TurningHinge;
 use crate::progress::Work;
-use crate::report::{ModeEndCause, ModeMargin, Proof};
+use crate::report::{ModeMargin, Proof};
 
 /// Friction that is greater than this many times that of the model counts as infinite.
 const INFINITY: f64 = 1e6;
@@ -40,7 +43,7 @@ enum Number {
 
 /// The branches of a mechanism as all its friction grows.
 pub(super) struct Growth<'a> {
-    friction: GrowingFriction<'a>,
+    friction: GrowingFriction,
     mechanism: &'a Mechanism,
     /// Once it is over there are no more problems: nothing is found then.
     work: Work<'a>,
@@ -49,11 +52,7 @@ pub(super) struct Growth<'a> {
 impl<'a> Growth<'a> {
     /// # Errors
     /// Nothing says how redundant guides share their load.
-    pub(super) fn new(
-        stages: &'a Stages,
-        hinges: &'a [TurningHinge],
-        work: Work<'a>,
-    ) -> Result<Self, Faults> {
+    pub(super) fn new(stages: &'a Stages, hinges: &[TurningHinge], work: Work<'a>) -> Result<Self, Faults> {
         Ok(Self { friction: GrowingFriction::new(stages, hinges)?, mechanism: &stages.mechanism, work })
     }
 
@@ -75,19 +74,12 @@ impl<'a> Growth<'a> {
         if end.cause == EndCause::NotFollowed {
             return None;
         }
-        let ends_with = match end.cause {
-            EndCause::Range | EndCause::NoProblem => ModeEndCause::Nothing,
-            ref cause => ModeEndCause::new(cause, *cause == EndCause::Singular && self.nothing_is_left(&end)),
+        let nothing_is_left = end.cause == EndCause::Singular && self.nothing_is_left(&end);
+        let at = match end.cause {
+            EndCause::Range | EndCause::NoProblem => f64::INFINITY,
+            _ => end.at.exp(),
         };
-        let names = |contacts: &[usize]| -> Vec<String> {
-            contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
-        };
-        let contacts = match &end.cause {
-            EndCause::SideChange(contacts) | EndCause::GapCloses(contacts) => names(contacts),
-            _ => Vec::new(),
-        };
-        let factor = (ends_with != ModeEndCause::Nothing).then(|| end.at.exp());
-        Some(ModeMargin { factor, ends_with, contacts })
+        Some(mode_margin(self.mechanism, &ModeEnd { at, ..end }, nothing_is_left))
     }
 
     /// Whether it is proven that there is no solution just beyond an end.
@@ -158,7 +150,8 @@ impl<'a> Growth<'a> {
     /// mechanism; none if it is not proven. What proves it grows with friction, so that it holds below, too.
     pub(super) fn unique_at_least(&self, enclosed: &EnclosedBlockProblem) -> Option<f64> {
         let factor = self.unique_until()?;
-        self.unique_as_friction_grows(&enclosed.rougher(factor)?).then_some(factor)
+        let rougher = enclosed.coefficients.rougher(Interval::point(factor)).numbers().problem()?;
+        self.unique_as_friction_grows(&rougher).then_some(factor)
     }
 
     /// The number of solutions at the second of two logarithms of the factor, or in between if it is another one there,

@@ -1,5 +1,5 @@
-//! Solutions with friction in hinges: the block mode problem, and what its solutions are in the mechanism (theory of
-//! hinges).
+//! Solutions of the block mode problem, whose unknowns have one component (a contact) or two (a hinge with friction), and
+//! what they are in the mechanism (theory of hinges).
 
 mod branches;
 mod found;
@@ -8,38 +8,30 @@ mod spin;
 mod states;
 mod uncertainty;
 
-pub(crate) use spin::HingedData;
-pub(crate) use states::{HingedState, LastSolution, hinged_states};
+pub(crate) use states::{BlockState, LastSolution, block_states};
 
 pub(crate) use branches::{block_instance, turning_hinges, unknowns_of};
 
 use super::SolveOptions;
 use super::answer::Answer;
-use super::mode_problem::{none_stands, overflow, preload_columns, without_rounding};
+use super::mode_problem::none_stands;
 use super::stages::Stages;
 use super::{sharing, standing};
 use crate::configuration::Configuration;
-use crate::enclosure::{
-    BlockCoefficients, BlockNumbers, TurningHinge, UncertainParameters, enclosed_block_problem,
-    enclosed_while,
-};
+use crate::enclosure::{UncertainParameters, enclosed_block_problem, enclosed_while};
 use crate::fault::{Faults, MOST_CONTACTS};
-use crate::ids::JointId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
-use crate::modes::BySide;
 use crate::modes::blocks::{self, BlockProblem};
 use crate::progress::{Callback, as_far_as_wanted};
 use crate::report::{MarginsMissing, SolveReport};
-use crate::sharing::{NO_STRESS, shared_load};
 use branches::GrowingFriction;
 pub(crate) use found::directions;
-use found::{BlocksFound, HingedAnswer};
+use found::{BlockAnswer, BlocksFound};
 use margins::Growth;
 pub(crate) use margins::{factors_with_one_solution, locking_factor};
-use nalgebra::{DMatrix, DVector};
 pub(crate) use spin::never_turning;
 use spin::{Spins, never_turn, spins};
 
@@ -62,7 +54,7 @@ pub(super) fn solve(
         return standing::of_hinge(stages, equations, *hinge);
     }
     none_stands(mechanism, &stages.standing)?;
-    let problem = block_problem(stages.hinged(), &turning)?;
+    let problem = stages.data().block_problem(&turning)?;
     let enclosed = enclosed_while(progress, |work| {
         enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning, work)
     });
@@ -79,7 +71,7 @@ pub(super) fn solve(
     let without_friction = || Ok::<_, Faults>(GrowingFriction::new(stages, &turning)?.at(0.0)?.problem);
     let frictionless = answer.shared.is_some().then(without_friction).transpose()?;
     let answer =
-        HingedAnswer { answer, problem: &problem, frictionless: frictionless.as_ref(), hinges: &turning };
+        BlockAnswer { answer, problem: &problem, frictionless: frictionless.as_ref(), hinges: &turning };
     let (report, _) = as_far_as_wanted(progress, |work| {
         let growth = options.margins.then(|| Growth::new(stages, &turning, work)).transpose()?;
         let unique_at_least = growth
@@ -110,7 +102,7 @@ pub fn exact_block_problem(model: &Model) -> Result<BlockProblem, Faults> {
     let (stages, _) = Stages::with_equations(mechanism, configuration)?;
     let Spins { turning, standing } = spins(&stages.mechanism, &stages.configuration, &stages.influence)?;
     never_turn(&stages.mechanism, &standing)?;
-    block_problem(stages.hinged(), &turning)
+    stages.data().block_problem(&turning)
 }
 
 /// Refuses friction in hinges for which there is no mode problem in this state.
@@ -143,84 +135,4 @@ fn accepted_spins(
         never_turn(mechanism, &spins.standing)?;
     }
     Ok(spins)
-}
-
-fn block_problem(data: HingedData<'_>, hinges: &[TurningHinge]) -> Result<BlockProblem, Faults> {
-    exact_problem(block_coefficients(data, hinges, &[])?.numbers())
-}
-
-fn exact_problem(BlockNumbers { response, jumps, load }: BlockNumbers<f64>) -> Result<BlockProblem, Faults> {
-    BlockProblem::new(response, jumps, load).map_err(|_| overflow())
-}
-
-/// The coefficients of the block mode problem in floating point, with these unknowns below its rows.
-///
-/// # Errors
-/// Nothing says how redundant guides share their load.
-pub(super) fn block_coefficients(
-    data: HingedData<'_>,
-    hinges: &[TurningHinge],
-    below: &[usize],
-) -> Result<BlockCoefficients<f64>, Faults> {
-    let HingedData { mechanism, influence, velocity_signs, .. } = data;
-    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
-    let own = influence.block_rows(&joints);
-    let rows = [&own, below].concat();
-    let eta = without_rounding(mechanism, answers(influence, &own));
-    let [positive, negative] = answers(influence, below);
-    let eta =
-        BySide { positive: stacked(&eta.positive, &positive), negative: stacked(&eta.negative, &negative) };
-    let [mu, preload] = friction_of_contacts(&mechanism.contacts, &|_| true);
-    Ok(BlockCoefficients {
-        eta_preload: preload_columns(mechanism, &eta),
-        eta,
-        mu,
-        preload,
-        velocity_signs: velocity_signs.clone(),
-        couples: DMatrix::from_fn(rows.len(), hinges.len(), |row, hinge| {
-            influence.couples[hinges[hinge].circle][rows[row]]
-        }),
-        leverage: DVector::from_fn(hinges.len(), |hinge, _| {
-            let TurningHinge { circle, sense, .. } = hinges[hinge];
-            -mechanism.friction_circles[circle].radius * sense
-        }),
-        frictionless: DVector::from_fn(rows.len(), |row, _| influence.frictionless[rows[row]]),
-        shared: shared_load(mechanism, stresses_in(influence, &rows))?,
-    })
-}
-
-/// The contributions of a unit friction force of each contact to these unknowns, at either face.
-fn answers(influence: &Influence, rows: &[usize]) -> [DMatrix<f64>; 2] {
-    let columns = &influence.columns;
-    [0, 1].map(|side| DMatrix::from_fn(rows.len(), columns.len(), |row, k| columns[k][side][rows[row]]))
-}
-
-/// The self-stresses in these unknowns.
-fn stresses_in(influence: &Influence, rows: &[usize]) -> DMatrix<f64> {
-    let stresses = &influence.self_stresses;
-    DMatrix::from_fn(rows.len(), stresses.len(), |row, stress| {
-        let force = stresses[stress][rows[row]];
-        if force.abs() <= NO_STRESS { 0.0 } else { force }
-    })
-}
-
-/// Two matrices of as many columns, one below the other.
-fn stacked(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut both = above.clone().resize_vertically(above.nrows() + below.nrows(), 0.0);
-    both.rows_mut(above.nrows(), below.nrows()).copy_from(below);
-    both
-}
-
-/// The friction coefficients and the preloads of contacts, zero where they have no part.
-pub(crate) fn friction_of_contacts(
-    contacts: &[Contact],
-    has_part: &dyn Fn(usize) -> bool,
-) -> [BySide<DVector<f64>>; 2] {
-    let of = |value: fn(&Contact) -> [f64; 2]| {
-        let side = |side: usize| {
-            DVector::from_fn(contacts.len(), |k, _| if has_part(k) { value(&contacts[k])[side] } else { 0.0 })
-        };
-        BySide { positive: side(0), negative: side(1) }
-    };
-    [of(|contact| contact.mu), of(|contact| contact.preload)]
 }

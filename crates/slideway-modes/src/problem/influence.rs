@@ -1,0 +1,239 @@
+//! Mode problems of contacts with dry friction, from their influence coefficients: exact, or within bounds.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::interval::{Interval, Real};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::bounds::{IntervalModeProblem, IntervalModeProblemError};
+use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
+use crate::problem::shared_load::SharedLoad;
+use crate::problem::side::{BySide, ProblemPart, Side};
+
+/// Influence coefficients and friction parameters of `r` contacts, exact or within bounds.
+///
+/// ```text
+/// c_k^{sigma} = sigma e_k - mu_k^{sigma} s_k eta_k^{sigma},   d_k^{sigma} = s_k F_k0^{sigma} eta_preload_k^{sigma}
+/// ```
+///
+/// (Klepp (2002), eq. (6)). There may be further rows below those of the contacts, of other unknowns than their
+/// normal forces; a mode problem has none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InfluenceCoefficients<T: Real = f64> {
+    /// `eta_jk`, change of `N_j` per unit friction at contact `k` (r x r, dimensionless);
+    /// column `k` of a side is for contact `k` pressed on that side.
+    pub eta: BySide<DMatrix<T>>,
+    /// The same for the line on which the preload friction acts (equal to `eta` in the paper).
+    pub eta_preload: BySide<DMatrix<T>>,
+    /// Coefficients of friction `mu_k` (r).
+    pub mu: BySide<DVector<T>>,
+    /// Preload friction `F_k0` (r, force).
+    pub preload: BySide<DVector<T>>,
+    /// `s_k = sign(ds_k)` of the sliding velocities (r): -1, 0 or 1.
+    pub velocity_signs: DVector<f64>,
+    /// `N(0)`, normal forces without friction (r, force).
+    pub frictionless: DVector<T>,
+    /// How contacts share a load that equilibrium leaves open, with self-stresses in all rows; `None` if none do.
+    pub shared: Option<SharedLoad<T>>,
+}
+
+impl<T: Real> InfluenceCoefficients<T> {
+    /// The number `r` of contacts.
+    pub fn contacts(&self) -> usize {
+        self.velocity_signs.len()
+    }
+
+    /// `mu_k s_k eta_jk`, what a unit of `|N_k|` adds by friction in a row.
+    pub fn friction(&self, side: Side, row: usize, contact: usize) -> T {
+        let mu = self.mu.get(side)[contact];
+        self.eta.get(side)[(row, contact)] * mu * T::exactly(self.velocity_signs[contact])
+    }
+
+    /// `c_k^sigma` in a row; where contacts share a load, with their compatibility.
+    pub fn column(&self, side: Side, row: usize, contact: usize) -> T {
+        let unit = T::exactly(if row == contact { side.sign() } else { 0.0 });
+        let given = unit - self.friction(side, row, contact);
+        self.shared.as_ref().map_or(given, |shared| shared.column(side, row, contact, given))
+    }
+
+    /// `H_k^sigma` of `x = b + d^sigma + H^sigma |x|` in a row: `sigma e_k - c_k^sigma`.
+    pub fn response(&self, side: Side, row: usize, contact: usize) -> T {
+        let given = self.friction(side, row, contact);
+        self.shared.as_ref().map_or(given, |shared| shared.response(side, row, contact, given))
+    }
+
+    /// `d_k^sigma` in a row; in one of compatibility the play of a contact that shares a load.
+    pub fn jump(&self, side: Side, row: usize, contact: usize) -> T {
+        let force = self.preload.get(side)[contact] * T::exactly(self.velocity_signs[contact]);
+        let given = self.eta_preload.get(side)[(row, contact)] * force;
+        self.shared.as_ref().map_or(given, |shared| shared.jump(side, row, contact, given))
+    }
+
+    /// The right-hand side in a row.
+    pub fn load(&self, row: usize) -> T {
+        let given = self.frictionless[row];
+        self.shared.as_ref().map_or(given, |shared| shared.load(row, given))
+    }
+
+    /// Matrices of a mode problem: columns and jumps of a side.
+    fn sides(&self, entry: fn(&Self, Side, usize, usize) -> T) -> BySide<DMatrix<T>> {
+        let contacts = self.contacts();
+        BySide::of(|side| DMatrix::from_fn(contacts, contacts, |row, k| entry(self, side, row, k)))
+    }
+
+    fn check(&self) -> Result<(), ModeProblemError> {
+        let contacts = self.contacts();
+        let is_sign = |sign: f64| sign == 0.0 || sign.abs() == 1.0;
+        if let Some((contact, &value)) = self.velocity_signs.iter().enumerate().find(|&(_, &s)| !is_sign(s)) {
+            return Err(ModeProblemError::VelocitySign { contact, value });
+        }
+        check(
+            ProblemPart::RightHandSide,
+            (self.frictionless.shape(), self.frictionless.as_slice()),
+            contacts,
+            1,
+        )?;
+        for side in Side::BOTH {
+            for (part, matrix) in
+                [(ProblemPart::Columns(side), &self.eta), (ProblemPart::Jumps(side), &self.eta_preload)]
+            {
+                let matrix = matrix.get(side);
+                check(part, (matrix.shape(), matrix.as_slice()), contacts, contacts)?;
+            }
+            for (part, vector) in
+                [(ProblemPart::Friction(side), &self.mu), (ProblemPart::Preload(side), &self.preload)]
+            {
+                let vector = vector.get(side);
+                check(part, (vector.shape(), vector.as_slice()), contacts, 1)?;
+            }
+        }
+        self.shared.as_ref().map_or(Ok(()), |shared| shared.check(contacts))
+    }
+}
+
+/// Refuses a part of the wrong shape or with an entry that is not finite; entries are column by column.
+fn check<T: Real>(
+    part: ProblemPart,
+    (found, entries): ((usize, usize), &[T]),
+    rows: usize,
+    columns: usize,
+) -> Result<(), ModeProblemError> {
+    let expected = (rows, columns);
+    if found != expected {
+        return Err(ModeProblemError::Shape { part, expected, found });
+    }
+    match entries.iter().position(|entry| !entry.is_finite()) {
+        Some(at) => {
+            let value = entries[at].middle();
+            Err(ModeProblemError::NotFinite { part, row: at % rows, column: at / rows, value })
+        }
+        None => Ok(()),
+    }
+}
+
+impl ModeProblem {
+    /// The problem of contacts with dry friction, from their influence coefficients.
+    ///
+    /// # Errors
+    /// [`ModeProblemError`] for shapes, for entries that are not finite, and for velocity signs other than
+    /// -1, 0, 1.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::{enumerate, BySide, InfluenceCoefficients, Limits, ModeProblem};
+    /// // A single slider with eta = 0.5, mu = 0.4, moving forwards: eq. (9) gives 4 / (1 - 0.2).
+    /// let eta = BySide::same(dmatrix![0.5]);
+    /// let problem = ModeProblem::from_influence(&InfluenceCoefficients {
+    ///     eta: eta.clone(),
+    ///     eta_preload: eta,
+    ///     mu: BySide::same(dvector![0.4]),
+    ///     preload: BySide::same(dvector![0.0]),
+    ///     velocity_signs: dvector![1.0],
+    ///     frictionless: dvector![4.0],
+    ///     shared: None,
+    /// })?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert!((solutions.solutions[0].normal_force[0] - 5.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// Contacts that share a load have rows of compatibility in place of those of the cut contacts. The play is a jump of
+    /// the right-hand side there, and what is called a contact in its gap is one that is open.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector, DMatrix, DVector};
+    /// use slideway_modes::{enumerate, BySide, InfluenceCoefficients, Limits, ModeProblem, SharedLoad};
+    /// // Two parallel pads of equal stiffness carry 10 N without friction, the first with 2 mm of play at each face.
+    /// let none = BySide::same(DVector::zeros(2));
+    /// let problem = ModeProblem::from_influence(&InfluenceCoefficients {
+    ///     eta: BySide::same(DMatrix::zeros(2, 2)),
+    ///     eta_preload: BySide::same(DMatrix::zeros(2, 2)),
+    ///     mu: none.clone(),
+    ///     preload: none,
+    ///     velocity_signs: dvector![1.0, 1.0],
+    ///     frictionless: dvector![10.0, 0.0],
+    ///     shared: Some(SharedLoad {
+    ///         cut: vec![1],
+    ///         self_stress: dmatrix![-1.0; 1.0],
+    ///         compliance: dvector![1e-3, 1e-3],
+    ///         clearance: dvector![2e-3, 0.0],
+    ///         misalignment: dvector![0.0, 0.0],
+    ///         press_fits: vec![],
+    ///     }),
+    /// })?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert!((&solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_influence(influence: &InfluenceCoefficients) -> Result<Self, ModeProblemError> {
+        influence.check()?;
+        let columns = influence.sides(InfluenceCoefficients::column);
+        let jumps = influence.sides(InfluenceCoefficients::jump);
+        let load = DVector::from_fn(influence.contacts(), |row, _| influence.load(row));
+        Self::new(columns.positive, columns.negative, jumps.positive, jumps.negative, load)
+    }
+}
+
+impl IntervalModeProblem {
+    /// The problems of contacts with dry friction, from bounds of their influence coefficients, without loss by rounding.
+    /// All entries of the result may vary independently, so one `mu_k` with wide bounds counts as a different one in each
+    /// equation: what is proved holds, but more may be left undecided than necessary.
+    ///
+    /// # Errors
+    /// [`IntervalModeProblemError`] for shapes, for velocity signs other than -1, 0, 1, and for
+    /// numbers that overflow.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::certificate::{decide, Decision, Interval, IntervalModeProblem};
+    /// use slideway_modes::{BySide, ContactState, InfluenceCoefficients};
+    /// // A single slider with eta = 0.5, moving forwards, with mu between 0.1 and 0.15.
+    /// let eta = BySide::same(dmatrix![Interval::point(0.5)]);
+    /// let problem = IntervalModeProblem::from_influence(&InfluenceCoefficients {
+    ///     eta: eta.clone(),
+    ///     eta_preload: eta,
+    ///     mu: BySide::same(dvector![Interval::new(0.1, 0.15).expect("in order")]),
+    ///     preload: BySide::same(dvector![Interval::ZERO]),
+    ///     velocity_signs: dvector![1.0],
+    ///     frictionless: dvector![Interval::point(4.0)],
+    ///     shared: None,
+    /// })?;
+    /// let decision = decide(&problem, &[ContactState::Positive]).decision;
+    /// assert!(matches!(decision, Decision::Solution { .. }), "it persists for all mu");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_influence(
+        influence: &InfluenceCoefficients<Interval>,
+    ) -> Result<Self, IntervalModeProblemError> {
+        influence.check()?;
+        let bounded = |part: ProblemPart, entries: &DMatrix<Interval>| {
+            IntervalMatrix::from_intervals(entries)
+                .ok_or(IntervalModeProblemError::Radius { part, value: f64::INFINITY })
+        };
+        let columns = influence.sides(InfluenceCoefficients::column);
+        let columns = columns.try_map(|side, entries| bounded(ProblemPart::Columns(side), entries))?;
+        let jumps = influence.sides(InfluenceCoefficients::jump);
+        let jumps = jumps.try_map(|side, entries| bounded(ProblemPart::Jumps(side), entries))?;
+        let load = DMatrix::from_fn(influence.contacts(), 1, |row, _| influence.load(row));
+        Self::new(&columns, &jumps, &bounded(ProblemPart::RightHandSide, &load)?)
+    }
+}
