@@ -142,12 +142,12 @@ fn coefficients_of_hinges_are_not_taken_for_those_of_contacts() {
 #[case("toggle-press", ["alpha", "5 deg"], "knee", 20.0)]
 fn a_block_beside_hinges_wedges_from_its_own_friction_on(
     #[case] name: &str,
-    #[case] [coordinate, position]: [&str; 2],
+    #[case] at: [&str; 2],
     #[case] load: &str,
     #[case] expected: f64,
 ) {
     let model = Model::parse(gallery::find(name).unwrap().text).unwrap();
-    let model = model.with(&Settings::default().position(coordinate, position)).unwrap();
+    let model = model.with(&Settings::default().position(at[0], at[1])).unwrap();
     let report = hold(&model, &HoldOptions::default().load(load)).unwrap();
     let value = report.load.unwrap().threshold.value.unwrap();
     assert!((value / expected - 1.0).abs() <= 1e-8 && report.undecided == 0, "{value}");
