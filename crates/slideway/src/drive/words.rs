@@ -34,7 +34,9 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
     let whole = |clause: String| match direction.direction {
         Sense::Reversed => format!("Backwards {clause}"),
         // All but names of drives and joints.
-        Sense::Model if ["it ", "infinitely ", "friction holds "].iter().any(|word| clause.starts_with(word)) => {
+        Sense::Model
+            if ["it ", "infinitely ", "friction holds "].iter().any(|word| clause.starts_with(word)) =>
+        {
             clause[..1].to_uppercase() + &clause[1..]
         }
         Sense::Model => clause,
