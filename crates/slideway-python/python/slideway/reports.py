@@ -247,13 +247,13 @@ CertificateKind = Literal["proven", "on_boundary", "not_proven"]
 - `"not_proven"`: It was found within tolerances only."""
 
 ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "hold"]
-"""What the colours of a map tell.
+"""Property that the colours of a map show.
 
 - `"solutions"`: The number of solutions, and of states with the preload between the faces.
 - `"modes"`: The set of contact modes that have a solution.
 - `"margin"`: The factor by which all friction may grow before there are no or several solutions.
 - `"jam"`: Whether it moves as in the model, and the other way.
-- `"motion"`: What becomes of the speed of each coordinate that no drive moves, in each solution.
+- `"motion"`: The change of the speed of each coordinate that no drive moves, in each solution.
 - `"hold"`: Whether it can stay at rest, drives absent."""
 
 CoordinateForm = Literal["slide", "rotation", "displacement"]
@@ -555,12 +555,12 @@ RawUnknown = Literal["z", "w", "u", "x", "normal_forces", "y", "payoff_1", "payo
 - `"lambda"`: The share lambda of an unknown in its gap."""
 
 SampleKind = Literal["finite", "infinite", "no_solution", "without_bound", "no_position"]
-"""What a sample says.
+"""Kind of sample: whether its margin is a number, and if not, why.
 
 - `"finite"`: The margin is a number.
 - `"infinite"`: No friction reaches the limit.
-- `"no_solution"`: There is no solution, of which an effort, normal force, bearing pressure or efficiency
-could be told, or none has any efficiency: friction takes all that the load would give.
+- `"no_solution"`: There is no solution with an effort, normal force, bearing pressure or efficiency, or none
+has any efficiency: friction takes all that the load would give.
 - `"without_bound"`: There are infinitely many solutions, in which an effort, normal force or bearing pressure
 is without bound, or an efficiency as small as can be.
 - `"no_position"`: The mechanism cannot be assembled or solved there, or a guided slider is between its faces."""
@@ -568,7 +568,7 @@ is without bound, or an efficiency as small as can be.
 Sense = Literal["model", "reversed"]
 """A direction of motion.
 
-- `"model"`: That of the model's rates.
+- `"model"`: The direction of the model's rates.
 - `"reversed"`: The other one."""
 
 SpeedChange = Literal[
@@ -843,7 +843,7 @@ class CheckReport(_mixins.CheckReport, Report):
     mobility: MobilitySummary
     """Degrees of freedom and determinacy."""
     sharing: LoadSharing | None
-    """How redundant guides share their load; absent if no constraint is redundant, or it cannot be told."""
+    """How redundant guides share their load; absent if no constraint is redundant, or it is not known."""
     inertia: InertiaSummary
     """Inertia of the motions that the joints leave."""
     condition: float | None
@@ -1118,7 +1118,7 @@ class CountLimits(Record):
     known: Known
     """How these numbers are known."""
     tipping: Tipping | None = None
-    """What tips where there is no solution; absent where nothing does."""
+    """Guided sliders that tip where there is no solution; absent where none does."""
     proven: NDArray[np.float64]
     """The stretches for all values of which they are proven, both ends included. If `known` is `proven` nothing
     of the interval lies between them but what is next to ends of modes: `CountLimits::left_out`."""
@@ -1141,14 +1141,14 @@ class Course(Record):
     """The efforts over what is varied."""
 
     vary: VariedQuantity
-    """What is varied."""
+    """Varied quantity, with its range."""
     directions: tuple[CourseDirection, ...]
     """Motion as in the model, and with all rates reversed."""
     sampled: bool
     """Whether the values at which something changes were sought between sampled ones, so that some may be
     missed."""
     guarantee: str
-    """What can be missed, in words."""
+    """Account, in words, of what can be missed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1439,7 +1439,7 @@ class DriveReport(_mixins.DriveReport, Report):
     course: Course | None
     """The efforts over what is varied, if anything is."""
     conclusion: tuple[str, ...]
-    """What it comes to, in words."""
+    """Sentences that sum up the answer."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1506,7 +1506,8 @@ class EffortRange(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EndHingeForce(Record):
-    """What the force of a hinge with friction does towards both ends of an interval."""
+    """Limits of the force of a hinge with friction towards both ends of an interval, or its growth without
+    bound."""
 
     hinge: str
     """The hinge."""
@@ -1518,12 +1519,12 @@ class EndHingeForce(Record):
     from_grows: bool
     """Whether it grows without bound towards the beginning."""
     to_grows: bool
-    """The same towards the end."""
+    """Whether it grows without bound towards the end."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EndReaction(Record):
-    """What a normal force does towards both ends of an interval."""
+    """Limits of a normal force towards both ends of an interval, or its growth without bound."""
 
     contact: str
     """The contact."""
@@ -1534,7 +1535,7 @@ class EndReaction(Record):
     from_grows: int
     """1 or -1 where it grows without bound towards the beginning with this sign, else 0."""
     to_grows: int
-    """The same towards the end."""
+    """1 or -1 where it grows without bound towards the end with this sign, else 0."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1865,7 +1866,7 @@ class LimitsReport(_mixins.LimitsReport, Report):
     title: str | None
     """The title of the model."""
     vary: VariedQuantity
-    """What is varied."""
+    """Varied quantity, with its range."""
     state: tuple[CoordinateState, ...]
     """The coordinates for which it holds, but for one that is varied."""
     steps_from_drawing: int | None
@@ -1875,7 +1876,7 @@ class LimitsReport(_mixins.LimitsReport, Report):
     method: LimitsMethod
     """How the ends of modes were found."""
     guarantee: str
-    """What the method can miss, in words."""
+    """Account, in words, of what the method can miss."""
     modes: tuple[ModeLimits, ...]
     """The modes in the direction of the model's rates."""
     counts: tuple[CountLimits, ...]
@@ -1888,9 +1889,9 @@ class LimitsReport(_mixins.LimitsReport, Report):
     reversed: Direction | None
     """The opposite direction, if it was asked for."""
     conclusion: tuple[str, ...]
-    """What it comes to, in words: a sentence for each stretch."""
+    """Conclusion in words: a sentence for each stretch."""
     not_examined: tuple[str, ...]
-    """What was left out, in words; absent if nothing was."""
+    """Sentences on what was left out; absent if nothing was."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1968,7 +1969,7 @@ class MapAxis(Record):
     unit: str
     """The unit in which it is to be shown; empty for pure numbers."""
     scale: float
-    """That unit in SI units."""
+    """Size of that unit in SI units."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1976,9 +1977,9 @@ class MapClass(Record):
     """A class of points."""
 
     meaning: Mapping[str, Any]
-    """What its points have in common."""
+    """Property that its points have in common."""
     words: str
-    """The same in words."""
+    """Words for that property."""
     modes: tuple[str, ...]
     """For modes: each of them in words."""
     pixels: int
@@ -1996,7 +1997,7 @@ class MapReport(_mixins.MapReport, Report):
     title: str | None
     """The title of the model."""
     colour_by: ColourBy
-    """What the colours tell."""
+    """Property that the colours show."""
     x: MapAxis
     """From left to right."""
     y: MapAxis
@@ -2006,9 +2007,9 @@ class MapReport(_mixins.MapReport, Report):
     points: int
     """Number of points that were solved."""
     guarantee: str
-    """What can have been missed, in words."""
+    """Account, in words, of what can have been missed."""
     remark: str | None
-    """What its colours do not tell, in words; absent if there is nothing."""
+    """Remark on what its colours do not show; absent if there is nothing."""
     rows: tuple[tuple[tuple[int, int], ...], ...]
     """Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels it
     has on end."""
@@ -2082,7 +2083,7 @@ class MetInterval(Record):
     from_jumps_to: float | None
     """The margin outside of the beginning where it jumps; null where it is infinite, or does not jump."""
     to_jumps_to: float | None
-    """The same at the end."""
+    """The margin outside of the end where it jumps, likewise."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2114,7 +2115,7 @@ class ModeLimits(Record):
     pattern: str
     """Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap."""
     signs: tuple[int, ...]
-    """The same as numbers."""
+    """The pattern as numbers: 1 and -1 for the signs, 0 in a preload gap."""
     preload_gap: bool
     """Whether a contact rests in its preload gap."""
     joints: tuple[JointMode, ...]
@@ -2132,14 +2133,14 @@ class ModeLimits(Record):
     to_at: tuple[str, ...]
     """The contacts or guided sliders that end it."""
     reactions: tuple[EndReaction, ...]
-    """What the normal force of each contact does towards both ends."""
+    """Limits of the normal force of each contact towards both ends."""
     orientation: int | None = None
     """With friction in hinges the sign of `det(I - H D)`, 1 or -1: solutions of one mode that merge in a fold
     have opposite ones, and the mechanism never settles where it is negative. Absent without."""
     hinge_forces: tuple[EndHingeForce, ...] = ()
-    """What the force of each hinge with friction does towards both ends; absent without any."""
+    """Limits of the force of each hinge with friction towards both ends; absent without any."""
     speeds: tuple[SpeedLimits, ...]
-    """What becomes of the speed of each coordinate that no drive moves, from value to value."""
+    """Change of the speed of each coordinate that no drive moves, from value to value."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2525,7 +2526,7 @@ class RestLimitsReport(_mixins.RestLimitsReport, Report):
     title: str | None
     """The title of the model."""
     vary: VariedQuantity
-    """What is varied."""
+    """Varied quantity, with its range."""
     state: tuple[CoordinateValue, ...]
     """The coordinates for which it holds, but for one that is varied."""
     load: str | None
@@ -2533,7 +2534,7 @@ class RestLimitsReport(_mixins.RestLimitsReport, Report):
     spans: tuple[SpanOfRest, ...]
     """The stretches, one after another."""
     guarantee: str
-    """What may have been missed, in words."""
+    """Account, in words, of what may have been missed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2543,7 +2544,7 @@ class Sample(Record):
     at: float
     """The value."""
     is_: SampleKind
-    """What is known there."""
+    """Whether the margin is a number there, and if not, why."""
     margin: float | None
     """The margin; null unless it is a number."""
 
@@ -2629,7 +2630,7 @@ class SizeReport(_mixins.SizeReport, Report):
     title: str | None
     """The title of the model."""
     vary: VariedQuantity
-    """What is varied."""
+    """Varied quantity, with its range."""
     state: tuple[CoordinateState, ...]
     """The coordinates for which it holds, but for one that is varied; at rest their rates are taken as zero."""
     against: MarginKind
@@ -2646,7 +2647,7 @@ class SizeReport(_mixins.SizeReport, Report):
     present: Sample
     """The margin in the model."""
     tipping: Tipping | None
-    """What tips in the model, if there is no solution for that reason; absent otherwise."""
+    """Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise."""
     met: tuple[MetInterval, ...]
     """The intervals in which the wanted margin is met, in ascending order."""
     without_position: tuple[RangeWithoutPosition, ...]
@@ -2655,11 +2656,11 @@ class SizeReport(_mixins.SizeReport, Report):
     samples: tuple[Sample, ...]
     """The margin at evenly spaced values, and where the wanted one is just met."""
     guarantee: str
-    """What the search can miss, in words."""
+    """Account, in words, of what the search can miss."""
     narrowest: float
     """Two steps of what was tried: narrower ranges could be missed (unit of what is varied)."""
     conclusion: tuple[str, ...]
-    """What it comes to, in words."""
+    """Sentences that sum up the answer."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -2755,7 +2756,7 @@ class SolveReport(_mixins.SolveReport, Report):
     """Between which values the forces and the motion of these lie; absent if there are none, and where it is not
     known."""
     undecided_modes: tuple[UndecidedMode, ...]
-    """Modes on the boundary within rounding: whether they have a solution cannot be told."""
+    """Modes on the boundary within rounding: whether they have a solution cannot be decided."""
     locked_modes: tuple[LockedMode, ...]
     """Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern was
     tried."""
@@ -2812,7 +2813,7 @@ class SpeedLimits(Record):
     to: float
     """Where it ends: where the acceleration vanishes, or the mode ends."""
     speed: SpeedChange
-    """What becomes of the speed."""
+    """Change of its speed in the interval."""
     friction_exceeds_loads: bool
     """Whether it is proven somewhere in the interval that the loads push the motion and friction takes more
     power than they give; never with drives."""
@@ -3027,7 +3028,7 @@ class Unlocking(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class VariedQuantity(Record):
-    """What is varied, in SI units."""
+    """Varied quantity, in SI units."""
 
     name: str
     """Its name."""
@@ -3063,9 +3064,9 @@ class WarningReport(Record):
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""
     message: str
-    """What is perhaps not meant."""
+    """Message: what is perhaps not meant."""
     hint: str
-    """What to do about it."""
+    """Hint on what to do about it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
