@@ -53,9 +53,9 @@ fn faults(friction: &str) -> Vec<Fault> {
 #[case("mu_static = 0.1\nradius = 0.1", "pin has a `radius` without a `mu`")]
 #[case("static_friction_radius = 0.1", "pin has a `static_friction_radius` without a `friction_radius`")]
 #[case("mu = 0.1\nradius = 0.1\nfriction_radius = 0.1", "pin has both `mu` and `friction_radius`")]
-#[case("mu = 0.1\nradius = -0.1", "the radius of the pin of pin must be at least zero, but is -0.1")]
+#[case("mu = 0.1\nradius = -0.1", "the radius of the pin of pin must be at least zero, but is -0.1 m")]
 #[case("mu = -0.1\nradius = 0.1", "the friction coefficient of pin must be at least zero, but is -0.1")]
-#[case("friction_radius = -1", "the friction radius of pin must be at least zero, but is -1")]
+#[case("friction_radius = -1", "the friction radius of pin must be at least zero, but is -1 m")]
 #[case(
     "mu = 0.2\nmu_static = 0.1\nradius = 0.1",
     "the static friction coefficient 0.1 of pin is below its kinetic one, 0.2"
