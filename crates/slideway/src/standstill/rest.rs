@@ -55,7 +55,7 @@ pub(super) fn symbols(setup: &Setup, pattern: &Pattern, reactions: &Reactions) -
 }
 
 /// States one after another, each with its piece of the work, until it is to end.
-pub(super) fn until_over<'w, T>(states: Vec<T>, work: Work<'w>) -> impl Iterator<Item = (T, Work<'w>)> {
+pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Item = (T, Work<'_>)> {
     let all = states.len();
     let piece = move |(index, state): (usize, T)| {
         let piece = work.piece("states", index, all);
