@@ -32,8 +32,8 @@ fn answer(model: &Model) -> String {
 fn a_drawer_moves_or_jams() {
     assert_eq!(
         answer(&model("drawer")),
-        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). Safe \
-         for any load up to 2.222 times this friction."
+        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). \
+         While it moves, it is safe for any load up to 2.222 times this friction."
     );
     assert_eq!(
         answer(&with("drawer", &[("mu", "0.7")])),
