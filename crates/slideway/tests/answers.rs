@@ -190,7 +190,7 @@ fn hold_answers() {
             "It can neither stay at rest nor start to slide with finite accelerations.",
         ),
         (
-            held("slider-crank-with-pins", &[], Some("gas")),
+            held("slider-crank-with-pins", &[("mu_pin", "0.3")], Some("gas")),
             "Not decided: no state of rest was found, but some states could not be examined. Ask again with slightly more or less friction or load.",
         ),
         (

@@ -15,9 +15,9 @@ pub struct DrawnPanel {
     /// From where to where the horizontal axis goes.
     pub(crate) x: [f64; 2],
     /// From where to where the vertical axis goes.
-    pub(crate) y: [f64; 2],
+    pub y: [f64; 2],
     /// The curves; those that cannot be told apart are one line.
-    pub(crate) lines: Vec<DrawnLine>,
+    pub lines: Vec<DrawnLine>,
     /// The labels of marked values.
     pub(crate) flags: Vec<DrawnFlag>,
     /// Where curves go on above or below the frame.

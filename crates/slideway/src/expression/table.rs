@@ -18,9 +18,9 @@ pub enum Beyond {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// The number.
-    pub(crate) value: f64,
+    pub value: f64,
     /// Where it lies exactly.
-    pub(crate) enclosure: Interval,
+    pub enclosure: Interval,
 }
 
 /// A function of one argument, linear between the rows of a table.
