@@ -13,78 +13,78 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnPanel {
     /// From where to where the horizontal axis goes.
-    pub(crate) x: [f64; 2],
+    pub x: [f64; 2],
     /// From where to where the vertical axis goes.
     pub y: [f64; 2],
     /// The curves; those that cannot be told apart are one line.
     pub lines: Vec<DrawnLine>,
     /// The labels of marked values.
-    pub(crate) flags: Vec<DrawnFlag>,
+    pub flags: Vec<DrawnFlag>,
     /// Where curves go on above or below the frame.
-    pub(crate) exits: Vec<DrawnExit>,
+    pub exits: Vec<DrawnExit>,
     /// The legend.
-    pub(crate) legend: Vec<LegendEntry>,
+    pub legend: Vec<LegendEntry>,
 }
 
 /// A line for one curve or for several.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnLine {
     /// Points in the units of the axes, within the frame.
-    pub(crate) points: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 2]>,
     /// The branches that it stands for.
-    pub(crate) branches: Vec<usize>,
+    pub branches: Vec<usize>,
     /// Index into the quantities of the figure.
-    pub(crate) quantity: usize,
+    pub quantity: usize,
     /// Places of the markers of its quantity, if there are several quantities.
-    pub(crate) markers: Vec<[f64; 2]>,
+    pub markers: Vec<[f64; 2]>,
     /// Arrowheads that show the order of its points, if the panel has them.
-    pub(crate) arrows: Vec<DrawnArrow>,
+    pub arrows: Vec<DrawnArrow>,
 }
 
 /// An arrowhead.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DrawnArrow {
     /// Its tip, in the units of the axes.
-    pub(crate) at: [f64; 2],
+    pub at: [f64; 2],
     /// Its direction in the picture, from the right counterclockwise (deg).
-    pub(crate) angle: f64,
+    pub angle: f64,
 }
 
 /// The label of a marked value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnFlag {
     /// The value.
-    pub(crate) at: f64,
+    pub at: f64,
     /// Its label.
-    pub(crate) label: String,
+    pub label: String,
     /// Whether curves grow without bound there.
-    pub(crate) asymptote: bool,
+    pub asymptote: bool,
     /// Where the label begins, from the left edge of the frame (px).
-    pub(crate) left: f64,
+    pub left: f64,
     /// The row above the frame in which it stands, from 0.
-    pub(crate) row: usize,
+    pub row: usize,
     /// Whether it stands beside its line, not above it.
-    pub(crate) beside: bool,
+    pub beside: bool,
 }
 
 /// Where a curve leaves the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DrawnExit {
     /// Where, in the units of the axes.
-    pub(crate) at: [f64; 2],
+    pub at: [f64; 2],
     /// The branch of the curve.
-    pub(crate) branch: usize,
+    pub branch: usize,
     /// Whether it goes on above the frame, not below it.
-    pub(crate) upwards: bool,
+    pub upwards: bool,
 }
 
 /// An entry of a legend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LegendEntry {
     /// The sample beside the text.
-    pub(crate) sample: LegendSample,
+    pub sample: LegendSample,
     /// The text.
-    pub(crate) text: String,
+    pub text: String,
 }
 
 /// Returns the contents of the panels of a figure in frames of this width and height, in units of which the
