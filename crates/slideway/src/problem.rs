@@ -1,7 +1,9 @@
-//! The problem of a mechanism in numbers, from its influence coefficients: the same code for rounded ones and for bounds.
+//! The problem of a mechanism in numbers, from its influence coefficients: the same code for rounded ones and
+//! for bounds.
 //!
-//! [`ProblemCoefficients`] in; out come the columns of eq. (6), or the numbers of the block mode problem
-//! `x = b + d^sigma + H^sigma w`, of contacts and of hinges that turn with friction (theory of hinges, section 1).
+//! [`ProblemCoefficients`] in; out come those of the contacts, which eq. (6) needs, or the numbers of the
+//! block mode problem `x = b + d^sigma + H^sigma w`, of contacts and of hinges that turn with friction
+//! (theory of hinges, section 1).
 
 use crate::ids::JointId;
 use crate::interval::{Interval, Real};
@@ -30,13 +32,13 @@ impl TurningHinge {
     }
 }
 
-/// Influence coefficients and friction of the contacts and of the hinges that turn. Rows are the normal forces, then both
-/// components of the force of each hinge, then outputs.
+/// Influence coefficients and friction of the contacts and of the hinges that turn. Rows are the normal
+/// forces, then both components of the force of each hinge, then outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ProblemCoefficients<T: Real = f64> {
     /// Those of the contacts, in all rows.
     pub(crate) contacts: InfluenceCoefficients<T>,
-    /// What a unit couple on the first body of each hinge adds.
+    /// Changes of each row per unit couple on the first body of each hinge.
     pub(crate) couples: DMatrix<T>,
     /// The hinges, each with its friction circle.
     pub(crate) hinges: Vec<(TurningHinge, FrictionCircle<T>)>,
@@ -62,23 +64,6 @@ impl<T: Real> ProblemCoefficients<T> {
         rougher
     }
 
-    /// The columns `c_k^sigma` of the contacts, eq. (6), and in rows of outputs what a unit of `|N_k|` takes away.
-    pub(crate) fn columns(&self) -> BySide<DMatrix<T>> {
-        let (rows, contacts) = self.contacts.eta.positive.shape();
-        BySide::of(|side| DMatrix::from_fn(rows, contacts, |row, k| self.contacts.column(side, row, k)))
-    }
-
-    /// The jumps `d_k^sigma` of the contacts.
-    pub(crate) fn jumps(&self) -> BySide<DMatrix<T>> {
-        let (rows, contacts) = self.contacts.eta_preload.positive.shape();
-        BySide::of(|side| DMatrix::from_fn(rows, contacts, |row, k| self.contacts.jump(side, row, k)))
-    }
-
-    /// The right-hand side.
-    pub(crate) fn load(&self) -> DVector<T> {
-        DVector::from_fn(self.contacts.frictionless.len(), |row, _| self.contacts.load(row))
-    }
-
     /// The numbers of the block mode problem.
     pub(crate) fn numbers(&self) -> BlockNumbers<T> {
         let (rows, contacts) = self.contacts.eta.positive.shape();
@@ -90,7 +75,7 @@ impl<T: Real> ProblemCoefficients<T> {
                 }
             })
         });
-        BlockNumbers { response, jumps: self.jumps(), load: self.load() }
+        BlockNumbers { response, jumps: self.contacts.jumps(), load: self.contacts.right_hand_side() }
     }
 
     /// `-r_j sgn(omega_j)` times the answer to a unit couple; compatibility of deflections knows no couples.
@@ -134,7 +119,7 @@ impl BlockNumbers<Interval> {
     pub(crate) fn problem(&self) -> Option<BlockProblem> {
         let bounded = |matrix: &DMatrix<Interval>| IntervalMatrix::from_intervals(matrix).ok_or(());
         let both = |sides: &BySide<DMatrix<Interval>>| sides.try_map(|_, side| bounded(side)).ok();
-        let load = DMatrix::from_column_slice(self.load.len(), 1, self.load.as_slice());
+        let load = DMatrix::from_columns(std::slice::from_ref(&self.load));
         let load = bounded(&load).ok()?;
         BlockProblem::within_bounds(both(&self.response)?, both(&self.jumps)?, load).ok()
     }

@@ -15,14 +15,14 @@ use crate::problem::side::{BySide, ProblemPart, Side};
 /// c_k^{sigma} = sigma e_k - mu_k^{sigma} s_k eta_k^{sigma},   d_k^{sigma} = s_k F_k0^{sigma} eta_preload_k^{sigma}
 /// ```
 ///
-/// (Klepp (2002), eq. (6)). There may be further rows below those of the contacts, of other unknowns than their
-/// normal forces; a mode problem has none.
+/// (Klepp (2002), eq. (6)). There may be further rows below those of the contacts, of other unknowns than
+/// their normal forces; a mode problem has none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InfluenceCoefficients<T: Real = f64> {
     /// `eta_jk`, change of `N_j` per unit friction at contact `k` (r x r, dimensionless);
     /// column `k` of a side is for contact `k` pressed on that side.
     pub eta: BySide<DMatrix<T>>,
-    /// The same for the line on which the preload friction acts (equal to `eta` in the paper).
+    /// Changes of `N_j` per unit friction on the line of the preload (equal to `eta` in the paper).
     pub eta_preload: BySide<DMatrix<T>>,
     /// Coefficients of friction `mu_k` (r).
     pub mu: BySide<DVector<T>>,
@@ -32,7 +32,8 @@ pub struct InfluenceCoefficients<T: Real = f64> {
     pub velocity_signs: DVector<f64>,
     /// `N(0)`, normal forces without friction (r, force).
     pub frictionless: DVector<T>,
-    /// How contacts share a load that equilibrium leaves open, with self-stresses in all rows; `None` if none do.
+    /// How contacts share a load that equilibrium leaves open, with self-stresses in all rows; `None` if none
+    /// do.
     pub shared: Option<SharedLoad<T>>,
 }
 
@@ -42,14 +43,39 @@ impl<T: Real> InfluenceCoefficients<T> {
         self.velocity_signs.len()
     }
 
-    /// `mu_k s_k eta_jk`, what a unit of `|N_k|` adds by friction in a row.
-    pub fn friction(&self, side: Side, row: usize, contact: usize) -> T {
+    /// Returns the columns `c_k^sigma` of both sides in all rows; where contacts share a load, with their
+    /// compatibility.
+    pub fn columns(&self) -> BySide<DMatrix<T>> {
+        self.sides(Self::column)
+    }
+
+    /// Returns the jumps `d_k^sigma` of both sides in all rows; in those of compatibility the play of
+    /// contacts that share a load.
+    pub fn jumps(&self) -> BySide<DMatrix<T>> {
+        self.sides(Self::jump)
+    }
+
+    /// Returns the right-hand side in all rows.
+    pub fn right_hand_side(&self) -> DVector<T> {
+        let load = |row: usize| {
+            let given = self.frictionless[row];
+            self.shared.as_ref().map_or(given, |shared| shared.load(row, given))
+        };
+        DVector::from_fn(self.frictionless.len(), |row, _| load(row))
+    }
+
+    fn sides(&self, entry: fn(&Self, Side, usize, usize) -> T) -> BySide<DMatrix<T>> {
+        let (rows, contacts) = (self.frictionless.len(), self.contacts());
+        BySide::of(|side| DMatrix::from_fn(rows, contacts, |row, k| entry(self, side, row, k)))
+    }
+
+    /// `mu_k s_k eta_jk`, the force that a unit of `|N_k|` adds by friction in a row.
+    fn friction(&self, side: Side, row: usize, contact: usize) -> T {
         let mu = self.mu.get(side)[contact];
         self.eta.get(side)[(row, contact)] * mu * T::exactly(self.velocity_signs[contact])
     }
 
-    /// `c_k^sigma` in a row; where contacts share a load, with their compatibility.
-    pub fn column(&self, side: Side, row: usize, contact: usize) -> T {
+    fn column(&self, side: Side, row: usize, contact: usize) -> T {
         let unit = T::exactly(if row == contact { side.sign() } else { 0.0 });
         let given = unit - self.friction(side, row, contact);
         self.shared.as_ref().map_or(given, |shared| shared.column(side, row, contact, given))
@@ -61,23 +87,15 @@ impl<T: Real> InfluenceCoefficients<T> {
         self.shared.as_ref().map_or(given, |shared| shared.response(side, row, contact, given))
     }
 
-    /// `d_k^sigma` in a row; in one of compatibility the play of a contact that shares a load.
-    pub fn jump(&self, side: Side, row: usize, contact: usize) -> T {
+    /// `s_k F_k0 eta_preload_jk`, the force that the friction of the preload adds in a row.
+    pub fn preload_friction(&self, side: Side, row: usize, contact: usize) -> T {
         let force = self.preload.get(side)[contact] * T::exactly(self.velocity_signs[contact]);
-        let given = self.eta_preload.get(side)[(row, contact)] * force;
+        self.eta_preload.get(side)[(row, contact)] * force
+    }
+
+    fn jump(&self, side: Side, row: usize, contact: usize) -> T {
+        let given = self.preload_friction(side, row, contact);
         self.shared.as_ref().map_or(given, |shared| shared.jump(side, row, contact, given))
-    }
-
-    /// The right-hand side in a row.
-    pub fn load(&self, row: usize) -> T {
-        let given = self.frictionless[row];
-        self.shared.as_ref().map_or(given, |shared| shared.load(row, given))
-    }
-
-    /// Matrices of a mode problem: columns and jumps of a side.
-    fn sides(&self, entry: fn(&Self, Side, usize, usize) -> T) -> BySide<DMatrix<T>> {
-        let contacts = self.contacts();
-        BySide::of(|side| DMatrix::from_fn(contacts, contacts, |row, k| entry(self, side, row, k)))
     }
 
     fn check(&self) -> Result<(), ModeProblemError> {
@@ -156,8 +174,8 @@ impl ModeProblem {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// Contacts that share a load have rows of compatibility in place of those of the cut contacts. The play is a jump of
-    /// the right-hand side there, and what is called a contact in its gap is one that is open.
+    /// Contacts that share a load have rows of compatibility in place of those of the cut contacts. The play
+    /// is a jump of the right-hand side there, and what is called a contact in its gap is one that is open.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector, DMatrix, DVector};
@@ -186,17 +204,17 @@ impl ModeProblem {
     /// ```
     pub fn from_influence(influence: &InfluenceCoefficients) -> Result<Self, ModeProblemError> {
         influence.check()?;
-        let columns = influence.sides(InfluenceCoefficients::column);
-        let jumps = influence.sides(InfluenceCoefficients::jump);
-        let load = DVector::from_fn(influence.contacts(), |row, _| influence.load(row));
+        let (columns, jumps) = (influence.columns(), influence.jumps());
+        let load = influence.right_hand_side();
         Self::new(columns.positive, columns.negative, jumps.positive, jumps.negative, load)
     }
 }
 
 impl IntervalModeProblem {
-    /// The problems of contacts with dry friction, from bounds of their influence coefficients, without loss by rounding.
-    /// All entries of the result may vary independently, so one `mu_k` with wide bounds counts as a different one in each
-    /// equation: what is proved holds, but more may be left undecided than necessary.
+    /// The problems of contacts with dry friction, from bounds of their influence coefficients, without loss
+    /// by rounding. All entries of the result may vary independently, so one `mu_k` with wide bounds counts
+    /// as a different one in each equation: what is proved holds, but more may be left undecided than
+    /// necessary.
     ///
     /// # Errors
     /// [`IntervalModeProblemError`] for shapes, for velocity signs other than -1, 0, 1, and for
@@ -229,11 +247,10 @@ impl IntervalModeProblem {
             IntervalMatrix::from_intervals(entries)
                 .ok_or(IntervalModeProblemError::Radius { part, value: f64::INFINITY })
         };
-        let columns = influence.sides(InfluenceCoefficients::column);
-        let columns = columns.try_map(|side, entries| bounded(ProblemPart::Columns(side), entries))?;
-        let jumps = influence.sides(InfluenceCoefficients::jump);
-        let jumps = jumps.try_map(|side, entries| bounded(ProblemPart::Jumps(side), entries))?;
-        let load = DMatrix::from_fn(influence.contacts(), 1, |row, _| influence.load(row));
+        let columns =
+            influence.columns().try_map(|side, entries| bounded(ProblemPart::Columns(side), entries))?;
+        let jumps = influence.jumps().try_map(|side, entries| bounded(ProblemPart::Jumps(side), entries))?;
+        let load = DMatrix::from_columns(&[influence.right_hand_side()]);
         Self::new(&columns, &jumps, &bounded(ProblemPart::RightHandSide, &load)?)
     }
 }

@@ -40,8 +40,8 @@ pub(super) struct Coefficients<'a> {
 }
 
 impl Coefficients<'_> {
-    /// What the problem of the contacts and of hinges that turn is made of; and the influence coefficients of the contacts
-    /// in its rows, with all jumps.
+    /// Returns the coefficients of the problem of the contacts and of these hinges, and the influence
+    /// coefficients of the contacts in its rows with all jumps.
     pub(super) fn problem(
         &self,
         unknowns: &DMatrix<Interval>,
@@ -114,8 +114,8 @@ impl Coefficients<'_> {
         }))
     }
 
-    /// The forces of the self-stresses in these rows. That nothing but rounding stands where a contact takes no part is
-    /// known from the rank of the joint equations, which is decided in the drawing.
+    /// The forces of the self-stresses in these rows. That nothing but rounding stands where a contact takes
+    /// no part is known from the rank of the joint equations, which is decided in the drawing.
     fn self_stresses(&self, unknowns: &DMatrix<Interval>, rows: &[usize]) -> DMatrix<Interval> {
         let first = 1 + self.mechanism.contacts.len();
         DMatrix::from_fn(rows.len(), self.equations.layout.cut().len(), |row, stress| {
@@ -312,7 +312,7 @@ impl Coefficients<'_> {
         Ok(DVector::from_vec(signs))
     }
 
-    /// The same problem with `d_k` on the right-hand side wherever it is the same on both sides, or all
+    /// Moves `d_k` to the right-hand side wherever it is the same on both sides, or all
     /// but the same: `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
     fn without_shared_jumps(
         &self,
@@ -321,12 +321,8 @@ impl Coefficients<'_> {
         let contacts = self.mechanism.contacts.len();
         let mut without = influence.clone();
         for k in 0..contacts {
-            let jump = |side: Side, row: usize| {
-                let force = influence.preload.get(side)[k] * Interval::point(influence.velocity_signs[k]);
-                force * influence.eta_preload.get(side)[(row, k)]
-            };
-            let rows = 0..influence.frictionless.len();
-            let jumps: Vec<[Interval; 2]> = rows.map(|row| Side::BOTH.map(|side| jump(side, row))).collect();
+            let jumps = |row: usize| Side::BOTH.map(|side| influence.preload_friction(side, row, k));
+            let jumps: Vec<[Interval; 2]> = (0..influence.frictionless.len()).map(jumps).collect();
             if self.has_shared_jump(k) || self.may_be_shared(&jumps[..contacts]) {
                 for (right, [positive, negative]) in without.frictionless.iter_mut().zip(jumps) {
                     *right += positive.hull(negative);

@@ -41,7 +41,8 @@ impl Parts {
     /// The numbers of a mode problem, with the couples and then these functions of the unknowns as outputs.
     ///
     /// # Errors
-    /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share their load.
+    /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share
+    /// their load.
     pub(super) fn new(data: ProblemData<'_>, others: Vec<ConstraintRow>) -> Result<Self, Faults> {
         let mechanism = data.mechanism;
         let contacts = mechanism.contacts.len();
@@ -51,10 +52,10 @@ impl Parts {
             rows.into_iter().map(ConstraintRow::unknown).chain(others).collect();
         let coefficients = data.coefficients(&[], &outputs)?;
         let mut parts = Self {
-            columns: coefficients.columns(),
-            frictionless: coefficients.rougher(0.0).columns(),
-            jumps: coefficients.jumps(),
-            right_hand_side: coefficients.load(),
+            columns: coefficients.contacts.columns(),
+            frictionless: coefficients.rougher(0.0).contacts.columns(),
+            jumps: coefficients.contacts.jumps(),
+            right_hand_side: coefficients.contacts.right_hand_side(),
             bounds,
             has_jump: Vec::new(),
             free_faces: Vec::new(),
