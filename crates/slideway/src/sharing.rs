@@ -17,6 +17,11 @@ use nalgebra::{DMatrix, DVector};
 /// Normal forces of a self-stress below this are rounding.
 pub(crate) const NO_STRESS: f64 = 1e-13;
 
+/// Returns a force of a self-stress, or zero where it is only rounding.
+pub(crate) fn stress_force(force: f64) -> f64 {
+    if force.abs() <= NO_STRESS { 0.0 } else { force }
+}
+
 /// How contacts share their load, given their self-stresses (a row for each contact, a column for each cut
 /// one); none if nothing is in excess.
 ///

@@ -14,7 +14,7 @@ use crate::ids::{ContactId, JointId};
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
-use crate::sharing::{NO_STRESS, shared_load};
+use crate::sharing::{shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
 
 /// The gaps of redundant contacts.
@@ -55,8 +55,7 @@ impl SharedGaps {
         let all: Vec<Reaction> = normals.chain(of_hinges).collect();
         let stresses = equations.self_stresses();
         let stress = |force: usize, stress: usize| {
-            let force = equations.layout.reaction(all[force]).map_or(0.0, |row| stresses[stress][row]);
-            if force.abs() <= NO_STRESS { 0.0 } else { force }
+            stress_force(equations.layout.reaction(all[force]).map_or(0.0, |row| stresses[stress][row]))
         };
         let kept: Vec<usize> = (0..all.len()).filter(|force| !cut.contains(force)).collect();
         let position = |contact: usize| cut.iter().position(|other| *other == contact);

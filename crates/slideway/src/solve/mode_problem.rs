@@ -14,7 +14,7 @@ use crate::modes::blocks::BlockProblem;
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
 use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
-use crate::sharing::{NO_STRESS, shared_load};
+use crate::sharing::{shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -116,7 +116,7 @@ pub fn mode_problem(
     ModeProblem::from_influence(&contacts).map_err(|_| overflow())
 }
 
-/// What a problem is made of.
+/// The stages from which a problem is made.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ProblemData<'a> {
     /// Its contacts have their coefficients of friction and preloads.
@@ -128,8 +128,8 @@ pub(crate) struct ProblemData<'a> {
 }
 
 impl ProblemData<'_> {
-    /// What the problem of the contacts and of these hinges is made of, in floating point, with these functions of the
-    /// unknowns as outputs.
+    /// Returns the coefficients of the problem of the contacts and of these hinges, in floating point, with
+    /// these functions of the unknowns as outputs.
     ///
     /// # Errors
     /// Nothing says how redundant guides share their load.
@@ -155,9 +155,9 @@ impl ProblemData<'_> {
         let eta = BySide::of(|side| stacked(upper.get(side), lower.get(side)));
         let [mu, preload] = friction_of_contacts(mechanism, &|_| true);
         let stresses = &influence.self_stresses;
-        let self_stress = DMatrix::from_fn(rows, stresses.len(), |row, stress| {
-            let force = entry(row, &stresses[stress]);
-            if row < own.len() && force.abs() <= NO_STRESS { 0.0 } else { force }
+        let self_stress = DMatrix::from_fn(rows, stresses.len(), |row, column| {
+            let force = entry(row, &stresses[column]);
+            if row < own.len() { stress_force(force) } else { force }
         });
         let without_friction = |row: usize| {
             let given = row.checked_sub(own.len()).map_or(0.0, |output| outputs[output].right_hand_side);
@@ -183,7 +183,8 @@ impl ProblemData<'_> {
     /// The mode problem.
     ///
     /// # Errors
-    /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share their load.
+    /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share
+    /// their load.
     pub(crate) fn problem(self) -> Result<ModeProblem, Faults> {
         ModeProblem::from_influence(&self.coefficients(&[], &[])?.contacts).map_err(|_| overflow())
     }
@@ -196,8 +197,8 @@ impl ProblemData<'_> {
         self.coefficients(hinges, &[])?.numbers().problem().map_err(|_| overflow())
     }
 
-    /// The numbers of the mode problem with the couples of guided sliders and then these functions of the unknowns as
-    /// outputs.
+    /// The numbers of the mode problem with the couples of guided sliders and then these functions of the
+    /// unknowns as outputs.
     ///
     /// # Errors
     /// As [`Self::problem`].
@@ -205,8 +206,8 @@ impl ProblemData<'_> {
         Parts::new(self, others)
     }
 
-    /// The line from no friction of these contacts (`t = 0`) to their present friction (`t = 1`), with the couples as
-    /// outputs.
+    /// The line from no friction of these contacts (`t = 0`) to their present friction (`t = 1`), with the
+    /// couples as outputs.
     ///
     /// # Errors
     /// As [`Self::problem`].
@@ -227,12 +228,8 @@ fn stacked(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// The normal forces of the self-stresses, without rounding: a row for each contact.
 pub(crate) fn self_stresses(influence: &Influence) -> DMatrix<f64> {
-    let without_rounding = |force: f64| if force.abs() <= NO_STRESS { 0.0 } else { force };
-    let columns: Vec<DVector<f64>> = influence
-        .self_stresses
-        .iter()
-        .map(|stress| influence.normal_part(stress).map(without_rounding))
-        .collect();
+    let columns: Vec<DVector<f64>> =
+        influence.self_stresses.iter().map(|all| influence.normal_part(all).map(stress_force)).collect();
     if columns.is_empty() {
         DMatrix::zeros(influence.columns.len(), 0)
     } else {

@@ -14,7 +14,7 @@ use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
 use crate::progress::Work;
 use crate::report::Elasticity;
-use crate::sharing::{NO_STRESS, elasticity, shared_load};
+use crate::sharing::{elasticity, shared_load, stress_force};
 use nalgebra::{DVector, DVectorView, RowDVector, Vector2};
 
 /// Units of the linear programs.
@@ -272,8 +272,7 @@ fn shared(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Result<Option<Sh
     if mechanism.excess.is_empty() {
         return Ok(None);
     }
-    let without_rounding = |force: f64| if force.abs() <= NO_STRESS { 0.0 } else { force };
-    let self_stress = assembled.self_stresses(mechanism)?.map(without_rounding);
+    let self_stress = assembled.self_stresses(mechanism)?.map(stress_force);
     let elasticity = elasticity(mechanism, &self_stress)?;
     let shared = shared_load(mechanism, self_stress)?;
     match &shared {
