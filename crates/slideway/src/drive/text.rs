@@ -7,7 +7,9 @@ use super::report::{
 use super::words::{advice, is_stable, percents, sentences, share, without_limit};
 use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::page::Page;
-use crate::report::{OpenRange, Proof, Report, Style, Verdict, joints_in_words, precise, spaced};
+use crate::report::{
+    OpenRange, Proof, Report, Style, Verdict, ends_in_words, joints_in_words, precise, spaced,
+};
 use crate::units::Unit;
 
 impl Report for DriveReport {
@@ -215,17 +217,6 @@ fn range_cells(range: &EffortRange, units: &[Unit]) -> Vec<String> {
         ends_in_words([effort.from, effort.to].map(|end| end.map(|effort| unit.number(effort))))
     };
     range.undetermined.efforts.iter().zip(units).map(one).collect()
-}
-
-/// "25 to 50", "25 or more", "50 or less", "any".
-fn ends_in_words(ends: [Option<String>; 2]) -> String {
-    match ends {
-        [Some(from), Some(to)] if from == to => from,
-        [Some(from), Some(to)] => format!("{from} to {to}"),
-        [Some(from), None] => format!("{from} or more"),
-        [None, Some(to)] => format!("{to} or less"),
-        [None, None] => "any".to_owned(),
-    }
 }
 
 /// A row of the table over what is varied.

@@ -229,17 +229,14 @@ impl SolveReport {
                 "Not safe for {every}: from {times} on, some can jam it or leave it several ways to move."
             )
         } else {
-            format!("While it moves, it is safe for {any} up to {times}.")
+            safe_up_to(any, &times)
         })
     }
 
     fn without_margins(&self) -> Vec<String> {
-        let least = self.unique_at_least.map(|factor| {
-            format!(
-                "While it moves, it is safe for any load up to at least {} times this friction.",
-                brief(factor)
-            )
-        });
+        let least = self
+            .unique_at_least
+            .map(|factor| safe_up_to("any load", &format!("at least {} times this friction", brief(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()
@@ -264,4 +261,9 @@ fn end_in_words(margins: &Margins, at: &str) -> String {
         [] => format!("It would jam from {at}{again}."),
         joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
     }
+}
+
+/// "While it moves, it is safe for any load up to 2.222 times this friction."
+fn safe_up_to(any: &str, times: &str) -> String {
+    format!("While it moves, it is safe for {any} up to {times}.")
 }

@@ -31,7 +31,7 @@ pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
 pub use text::followed;
-pub(crate) use text::{count, joints_in_words, spaced};
+pub(crate) use text::{count, ends_in_words, joints_in_words, spaced};
 pub use tipping::Tipping;
 pub(crate) use tipping::without_solution;
 pub use undetermined::{OpenRange, Undetermined};

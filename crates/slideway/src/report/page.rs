@@ -115,8 +115,8 @@ impl<'r, R> Page<'r, R> {
     }
 }
 
-/// A line in pieces of a width at most, but for words that are longer; all but the first are indented. A value stays with
-/// its name, and a number with its unit.
+/// A line in pieces of a width at most, but for words that are longer; all but the first are indented. A
+/// value stays with its name, and a number with its unit.
 pub fn wrapped(line: &str, indent: &str, width: usize) -> Vec<String> {
     if line.is_empty() {
         return vec![String::new()];

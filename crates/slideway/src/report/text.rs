@@ -625,6 +625,17 @@ fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
     }
 }
 
+/// "25 to 50", "25", "25 or more", "50 or less", "any".
+pub(crate) fn ends_in_words(ends: [Option<String>; 2]) -> String {
+    match ends {
+        [Some(from), Some(to)] if from == to => from,
+        [Some(from), Some(to)] => format!("{from} to {to}"),
+        [Some(from), None] => format!("{from} or more"),
+        [None, Some(to)] => format!("{to} or less"),
+        [None, None] => "any".to_owned(),
+    }
+}
+
 /// "guide touching at lower right and upper left; wall flat on the right guide"
 pub(crate) fn joints_in_words(joints: &[JointMode]) -> String {
     let words: Vec<String> = joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();

@@ -4,7 +4,7 @@ use super::answer::{self, wedges, without_inertia};
 use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Report, Style, count, followed, spaced};
+use crate::report::{Report, Style, count, ends_in_words, followed, spaced};
 use crate::units::Unit;
 use anstyle::AnsiColor;
 use std::fmt::Write;
@@ -325,9 +325,6 @@ pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
         (Some(least), Some(greatest)) if number(least) == number(greatest) || is_one_value(range, scale) => {
             number(f64::midpoint(least, greatest))
         }
-        (Some(least), Some(greatest)) => format!("{} to {}", number(least), number(greatest)),
-        (Some(least), None) => format!("{} or more", number(least)),
-        (None, Some(greatest)) => format!("{} or less", number(greatest)),
-        (None, None) => "any".to_owned(),
+        ends => ends_in_words([ends.0, ends.1].map(|end| end.map(number))),
     }
 }
