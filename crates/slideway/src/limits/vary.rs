@@ -164,8 +164,8 @@ impl fmt::Display for Vary {
 }
 
 /// A range around the value in the model; coordinates and values of zero need one. Angles, which are known by
-/// their unit, have the quarter turn in which they stand: sines and cosines keep their signs there. Friction has one
-/// from zero on, with the friction in it at which the number of solutions is known to change.
+/// their unit, have the quarter turn in which they stand: sines and cosines keep their signs there. Friction
+/// has one from zero on, with the friction in it at which the number of solutions is known to change.
 ///
 /// # Errors
 /// A fault if a range is needed.
@@ -187,10 +187,16 @@ pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], F
     }
 }
 
-/// From zero to this value of friction, or to twice that of the last change that is known if that lies beyond.
+/// The range from zero to this value of friction, or to twice that of the last known change if that lies
+/// beyond.
 fn with_changes(model: &Model, varied: &Varied, present: f64, usual: f64) -> [f64; 2] {
-    let is_all_friction =
-        |mu: Option<f64>| varied.is_friction_factor() || varied.is_itself_friction() && mu == Some(present);
-    let known = last_change(model).filter(|(_, mu)| is_all_friction(*mu)).map(|(factor, _)| factor * present);
-    [0.0, known.filter(|known| *known >= usual).map_or(usual, |known| 2.0 * known)]
+    let last = if varied.is_friction_factor() {
+        last_change(model, None)
+    } else if varied.is_itself_friction() {
+        last_change(model, Some(present))
+    } else {
+        None
+    };
+    let known = last.map(|factor| factor * present).filter(|known| *known >= usual);
+    [0.0, known.map_or(usual, |known| 2.0 * known)]
 }

@@ -121,16 +121,19 @@ fn first_locking(line: &ModeProblemLine, enclosed: &ProblemCoefficients<Interval
     line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
 }
 
-/// The last factor on all friction, of those that margins name, at which the number of solutions changes, and the
-/// coefficient that it applies to if there is only one; none if nothing changes or that is not computed.
-pub(crate) fn last_change(model: &Model) -> Option<(f64, Option<f64>)> {
+/// Returns the last factor on all friction, of those that margins name, at which the number of solutions
+/// changes. Returns `None` if nothing changes, or that is not computed, or contacts have other coefficients
+/// than `only`, if that is given.
+pub(crate) fn last_change(model: &Model, only: Option<f64>) -> Option<f64> {
     let stages = Stages::of_any_model(model).ok()?;
-    if stages.mechanism.rough_hinges().next().is_some() || !stages.standing.is_empty() {
+    if stages.mechanism.rough_hinges().next().is_some()
+        || !stages.standing.is_empty()
+        || only.is_some() && common_coefficient(&stages.mechanism) != only
+    {
         return None;
     }
     let growth = Growth::along(stages.data(), &|_| true)?;
-    let last = growth.another_count().into_iter().chain(growth.no_solution()).reduce(f64::max)?;
-    Some((last, common_coefficient(&stages.mechanism)))
+    growth.another_count().into_iter().chain(growth.no_solution()).reduce(f64::max)
 }
 
 /// The modes as friction grows by a factor.
