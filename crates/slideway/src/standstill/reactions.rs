@@ -40,21 +40,25 @@ pub(super) fn reactions(
 ) -> Result<Reactions, Unsolved> {
     let Mechanism { contacts, joints, drives, .. } = &setup.mechanism;
     let all = contacts.len() + joints.len() + drives.len();
-    let next =
-        |index| region.work().piece("reactions", index, all).continue_value().map(drop).ok_or(Unsolved);
-    let before = [contacts.len(), contacts.len() + joints.len()];
-    let contacts = (0..contacts.len()).map(|k| next(k).and_then(|()| contact(setup, state, region, k)));
-    let hinges = (0..joints.len()).filter_map(|index| {
-        let range = || hinge(setup, JointId(index), state, region).transpose();
-        next(before[0] + index).and_then(|()| range()).transpose()
-    });
-    let drives = (0..drives.len())
-        .map(|index| next(before[1] + index).and_then(|()| drive(setup, DriveId(index), state, region)));
-    Ok(Reactions {
-        contacts: contacts.collect::<Result<_, _>>()?,
-        hinges: hinges.collect::<Result<_, _>>()?,
-        drives: drives.collect::<Result<_, _>>()?,
-    })
+    let mut begun = 0;
+    let mut begin = || {
+        begun += 1;
+        region.work().piece("reactions", begun - 1, all).continue_value().map(drop).ok_or(Unsolved)
+    };
+    let mut reactions = Reactions { contacts: Vec::new(), hinges: Vec::new(), drives: Vec::new() };
+    for k in 0..contacts.len() {
+        begin()?;
+        reactions.contacts.push(contact(setup, state, region, k)?);
+    }
+    for joint in (0..joints.len()).map(JointId) {
+        begin()?;
+        reactions.hinges.extend(hinge(setup, joint, state, region).transpose()?);
+    }
+    for drive_id in (0..drives.len()).map(DriveId) {
+        begin()?;
+        reactions.drives.push(drive(setup, drive_id, state, region)?);
+    }
+    Ok(reactions)
 }
 
 fn contact(
