@@ -72,7 +72,8 @@ pub(crate) struct Watch {
     start: Instant,
     shown: Duration,
     limit: Option<Duration>,
-    /// When it was first asked how much had been done, when that last changed, and both times how much it was.
+    /// When it was first asked how much had been done, when that last changed, and both times how much it
+    /// was.
     told: Option<[(Duration, f64); 2]>,
     line: ProgressLine,
     halt: Option<Halt>,

@@ -10,8 +10,8 @@ use crate::problem::{ContactState, SetPart};
 
 impl ExactSet {
     /// The admissible solutions of a pattern's equations, which are a [`Cell`]: each share has a complement
-    /// `1 - lambda_k >= 0`. With more than `most` vertices and extreme directions, it is a product; `None` once
-    /// `proceed` is `false`.
+    /// `1 - lambda_k >= 0`. With more than `most` vertices and extreme directions, it is a product; `None`
+    /// once `proceed` is `false`.
     pub(super) fn of_system(
         system: &IntegerSystem,
         pattern: &[ContactState],
@@ -36,8 +36,8 @@ impl ExactSet {
         })
     }
 
-    /// A cell by its parts; those that are the same everywhere are one. The first unknowns are those of the contacts, and
-    /// complements depend on them.
+    /// A cell by its parts; those that are the same everywhere are one. The first unknowns are those of the
+    /// contacts, and complements depend on them.
     fn product(cell: &Cell, contacts: usize) -> Self {
         let Some(inside) = cell.inside() else { return Self::Empty };
         let part = |contacts: Vec<usize>, dimension: usize, set: Self| {

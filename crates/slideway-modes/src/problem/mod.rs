@@ -2,7 +2,8 @@
 //!
 //! `side.rs` and `pattern.rs` define the basic terms. `mode_problem.rs` contains exact numbers, and
 //! `bounds.rs` those within bounds (`radii.rs`); `influence.rs` builds either from influence coefficients,
-//! `shared_load.rs` has the rows of redundant contacts. `scaling.rs` chooses units in which tolerances are pure numbers.
+//! `shared_load.rs` has the rows of redundant contacts. `scaling.rs` chooses units in which tolerances are
+//! pure numbers.
 
 mod bounds;
 mod influence;

@@ -86,7 +86,7 @@ impl Sheet {
         if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
     }
 
-    /// The same, with the faults below the title that keep it from showing a contact mode.
+    /// Writes below the title the faults that keep it from showing a contact mode.
     #[must_use]
     pub fn unsolved(self, faults: &Faults) -> Self {
         let reasons: Vec<String> = faults.sorted().iter().map(|fault| fault.kind.to_string()).collect();

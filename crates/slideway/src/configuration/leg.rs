@@ -1,4 +1,5 @@
-//! Ways along which a mechanism is followed from its drawing: of the coordinates, or of open residuals to zero.
+//! Ways along which a mechanism is followed from its drawing: of the coordinates, or of open residuals to
+//! zero.
 
 use crate::mechanism::Mechanism;
 use nalgebra::DVector;

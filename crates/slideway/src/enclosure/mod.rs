@@ -141,7 +141,7 @@ impl UncertainParameters {
     }
 }
 
-/// What is known of the problem of an exact mechanism, or of one with uncertain parameters.
+/// Bounds of the problem of an exact mechanism, or of one with uncertain parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enclosed<P> {
     /// Bounds of the influence coefficients, and of what follows from the forces.
@@ -280,8 +280,8 @@ pub(crate) fn enclosure_within(
     })
 }
 
-/// Bounds of the block mode problem of the mechanism that `model` describes, for all values of the parameters in
-/// `uncertain`; `hinges` are those with friction, with the sense in which they turn.
+/// Bounds of the block mode problem of the mechanism that `model` describes, for all values of the parameters
+/// in `uncertain`; `hinges` are those with friction, with the sense in which they turn.
 ///
 /// # Errors
 /// As [`enclosure`]; any once the work is to end.

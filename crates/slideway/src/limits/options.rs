@@ -9,7 +9,7 @@ pub const EFFORT: u64 = 800;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LimitsOptions {
-    /// What is varied, over the usual ranges of [`crate::SizeOptions::vary`].
+    /// Quantity that is varied, over the usual ranges of [`crate::SizeOptions::vary`].
     pub vary: Vary,
     /// Modes count only where no normal force exceeds this (N).
     pub max_reaction: Option<f64>,

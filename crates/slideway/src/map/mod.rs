@@ -18,7 +18,8 @@
 //!
 //! # Files
 //! `map` colours a plane: `evaluate.rs` has the mode problem at a point and its states between faces,
-//! `solved.rs` those of a point that is solved by itself, `class.rs` what its solutions come to, `refine.rs` solves pixels only where neighbours differ.
+//! `solved.rs` those of a point that is solved by itself, `class.rs` what its solutions come to, `refine.rs`
+//! solves pixels only where neighbours differ.
 
 mod class;
 mod evaluate;

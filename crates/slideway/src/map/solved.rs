@@ -1,4 +1,5 @@
-//! The states of a point, each solved by itself: where hinges rub, or contacts stand still while the rest moves.
+//! The states of a point, each solved by itself: where hinges rub, or contacts stand still while the rest
+//! moves.
 
 use super::ColourBy;
 use super::class::{MARGINS, States, margin_up_to};

@@ -178,7 +178,8 @@ impl<'w> Pinned<'_, 'w> {
     }
 
     /// The point at which the least slack is greatest, those of the friction circles among them, and that slack; once one
-    /// is positive, greater ones are not sought, and of those below `least` times the greatest term only that they are below.
+    /// is positive, greater ones are not sought, and of those below `least` times the greatest term only that
+    /// they are below.
     ///
     /// # Errors
     /// If a linear program was not solved, too many sectors would be needed, or the work is to end.

@@ -156,10 +156,11 @@ impl Against {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SizeOptions {
-    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to
-    /// twice its value, but at least to 1, and both to twice the friction at which the number of solutions is known to
-    /// change if that lies beyond; a parameter that was typed as an angle the quarter turn in which it
-    /// stands, any other parameter that is not zero from a fifth of its value to five times it.
+    /// Quantity that is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction
+    /// from 0 to twice its value, but at least to 1, and both to twice the friction at which the number of
+    /// solutions is known to change if that lies beyond; a parameter that was typed as an angle the quarter
+    /// turn in which it stands, any other parameter that is not zero from a fifth of its value to five times
+    /// it.
     pub vary: Vary,
     /// The wanted margin, positive: a factor of friction. Against an effort, normal force or bearing pressure
     /// the greatest that is allowed (N, N m or Pa), against the efficiency the least.

@@ -308,7 +308,8 @@ fn check_states(setup: &Setup, most: u64) -> Result<usize, Faults> {
     let sides = options.iter().fold(1_u64, |sides, options| sides.saturating_mul(options.len() as u64));
     let joints = setup.sliders.len() + setup.mechanism.friction_circles.len();
     let of_motions = |motions: usize| most_directions(motions, joints).saturating_mul(sides);
-    // More motions than joints make no more states, which spares most mechanisms the search for their motions.
+    // More motions than joints make no more states, which spares most mechanisms the search for their
+    // motions.
     let at_most = of_motions(joints);
     let states = if at_most <= most { at_most } else { of_motions(held_motions(setup).ncols()) };
     match usize::try_from(sides) {

@@ -10,8 +10,8 @@
 //! without weights, other loads and preloads, which are negligible beside a load that is great enough. More
 //! static friction only widens this cone, so that there is one threshold, found by bisection of the linear
 //! programs' feasibility and polished by a secant: self-locking from there on, free below. The accuracy is
-//! about 1e-12. Where a block wedges in its guide the reactions grow without bound as the inverse of the distance from
-//! the threshold: there it is 1e-11, and 1e-9 beside hinges with friction.
+//! about 1e-12. Where a block wedges in its guide the reactions grow without bound as the inverse of the
+//! distance from the threshold: there it is 1e-11, and 1e-9 beside hinges with friction.
 //!
 //! Redundant guides *wedge* where the cone without any load holds normal forces that do not vanish: friction then
 //! keeps them pressed against each other, however hard. Play and misalignment are negligible beside the deflections of
@@ -29,12 +29,13 @@ use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
 use crate::progress::{Progress, Work};
 
-/// Feasible within rounding, as a part of the greatest term: what the programs leave over at the exact threshold.
+/// Feasible within rounding, as a part of the greatest term: what the programs leave over at the exact
+/// threshold.
 const ROUNDING: f64 = 1e-13;
 /// The bisection ends at this relative width, ...
 const WIDTH: f64 = 1e-14;
-/// ... and at this one where friction circles would decide the sign of what is missed nearer to the root, with ever more
-/// sectors. Roots of secants are no farther from the bracket.
+/// ... and at this one where friction circles would decide the sign of what is missed nearer to the root,
+/// with ever more sectors. Roots of secants are no farther from the bracket.
 const NEAR: f64 = 1e-9;
 /// Distances from the bracket, relative to it, of the points of a secant below it, and of one above it.
 const BELOW: [f64; 2] = [1e-6, 1e-8];
@@ -184,14 +185,16 @@ fn least_in(
 /// By how much the load is not held.
 #[derive(Clone, Copy)]
 struct Missed {
-    /// The greatest slack that is missed, as a part of the greatest term: positive where the load is not held.
+    /// The greatest slack that is missed, as a part of the greatest term: positive where the load is not
+    /// held.
     part: f64,
-    /// The greatest term of any slack there, or 1: it grows without bound towards the friction from which a block wedges.
+    /// The greatest term of any slack there, or 1: it grows without bound towards the friction from which a
+    /// block wedges.
     greatest_term: f64,
 }
 
-/// The least value from 0 to `best` where a load is held, to a relative width if no secant tells it; of what is missed by
-/// more than the second argument of `missed` it is enough to know that.
+/// The least value from 0 to `best` where a load is held, to a relative width if no secant tells it; of what
+/// is missed by more than the second argument of `missed` it is enough to know that.
 fn least_of(
     (best, width): (f64, f64),
     missed: impl Fn(f64, f64) -> Result<Missed, Unsolved>,
@@ -232,14 +235,14 @@ fn least_of(
     Ok(Some(missed_at([below, above], &missed).unwrap_or(above)))
 }
 
-/// The root in a bracket, or near it, from the secant through two points below it, where what is missed is well above
-/// rounding: the bisection ends where that falls below [`ROUNDING`], not at its root.
+/// The root in a bracket, or near it, from the secant through two points below it, where what is missed is
+/// well above rounding: the bisection ends where that falls below [`ROUNDING`], not at its root.
 fn missed_at(bracket: [f64; 2], missed: &impl Fn(f64, f64) -> Result<Missed, Unsolved>) -> Option<f64> {
     let points = BELOW.map(|distance| bracket[0] * (1.0 - distance));
     secant(bracket, points, |value| Some(missed(value, f64::INFINITY).ok()?.part))
 }
 
-/// The same from two points above it, where forces are well below their infinity at the root.
+/// The root from two points above the bracket, where forces are well below their infinity at the root.
 fn wedged_at(bracket: [f64; 2], missed: &impl Fn(f64, f64) -> Result<Missed, Unsolved>) -> Option<f64> {
     let points = ABOVE.map(|distance| bracket[1] * (1.0 + distance));
     secant(bracket, points, |value| Some(missed(value, ROUNDING).ok()?.greatest_term.recip()))

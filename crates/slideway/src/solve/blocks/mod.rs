@@ -1,5 +1,5 @@
-//! Solutions of the block mode problem, whose unknowns have one component (a contact) or two (a hinge with friction), and
-//! what they are in the mechanism (theory of hinges).
+//! Solutions of the block mode problem, whose unknowns have one component (a contact) or two (a hinge with
+//! friction), and what they are in the mechanism (theory of hinges).
 
 mod branches;
 mod found;
