@@ -17,6 +17,7 @@ mod style;
 mod table;
 mod text;
 mod tipping;
+mod uncertainty;
 mod undetermined;
 
 pub(crate) use crate::units::number;
@@ -492,12 +493,31 @@ pub struct Uncertainty {
     /// For every value there are at most so many solutions; absent if that could not be proven.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub most_solutions: Option<usize>,
+    /// The numbers of solutions that are proven for some values each, in ascending order.
+    pub proven_counts: Vec<usize>,
+    /// The number of solutions along the parameter, in ascending order of its values; empty with several parameters.
+    pub stretches: Vec<CountStretch>,
     /// The modes that exist for some value, and those of which that could not be ruled out.
     pub modes: Vec<UncertainMode>,
     /// The parts into which the ranges were divided.
     pub parts: usize,
     /// Why parts of the ranges could not be searched; empty if all were.
     pub open: Vec<String>,
+}
+
+/// A part of the range of an uncertain parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct CountStretch {
+    /// Its least value (SI units).
+    pub from: f64,
+    /// Its greatest value.
+    pub to: f64,
+    /// For every value in it there are at least so many solutions.
+    pub least_solutions: usize,
+    /// For every value in it there are at most so many solutions; absent if that could not be proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub most_solutions: Option<usize>,
 }
 
 /// A parameter that is known within bounds.

@@ -13,7 +13,8 @@ use std::fmt::Write;
 
 impl Report for SolveReport {
     fn answer(&self) -> String {
-        [vec![self.verdict_in_words()], self.safety_in_words()].concat().join(" ")
+        let answer = [vec![self.verdict_in_words()], self.safety_in_words()].concat().join(" ");
+        self.uncertainty.as_ref().map_or_else(|| answer.clone(), |uncertainty| uncertainty.before(&answer))
     }
 
     fn text(&self, style: Style) -> String {
@@ -40,24 +41,6 @@ impl Report for SolveReport {
 }
 
 impl SolveReport {
-    /// The answer for all values of parameters that are known within bounds, in sentences: "1 solution for
-    /// every value, proven with 3 parts."; none without such parameters.
-    pub fn for_all_values(&self) -> Vec<String> {
-        let Some(uncertainty) = &self.uncertainty else { return Vec::new() };
-        let least = uncertainty.least_solutions;
-        let solutions = match uncertainty.most_solutions {
-            Some(most) if most == least => {
-                format!("{} for every value", count(least, "solution", "solutions"))
-            }
-            Some(most) => format!("{least} to {} for every value", count(most, "solution", "solutions")),
-            None => format!("at least {} for every value", count(least, "solution", "solutions")),
-        };
-        let proven = format!("{solutions}, proven with {}.", count(uncertainty.parts, "part", "parts"));
-        let open =
-            uncertainty.open.iter().map(|reason| format!("Not all values could be decided: {reason}."));
-        std::iter::once(proven).chain(open).collect()
-    }
-
     /// Returns the remark that friction exceeds the loads, with how to ask whether it jams. Returns `None` if
     /// no solution slows down although the loads push it.
     pub fn remark(&self) -> Option<String> {
@@ -313,12 +296,7 @@ impl Text<'_> {
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
         let forces = self.report.model.units.of("N").title("normal forces");
         self.table(&["signs", "exists", &forces], &rows);
-        let nominal: Vec<String> = uncertainty
-            .parameters
-            .iter()
-            .map(|range| format!("{} = {}", range.name, range.shown_in.show(range.value)))
-            .collect();
-        self.line(&format!("  Everything else holds for {}.", nominal.join(", ")));
+        self.line("  Everything else holds for the middle.");
     }
 
     fn continua(&mut self) {

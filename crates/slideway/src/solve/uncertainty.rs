@@ -10,10 +10,11 @@ use super::state::{pattern, pressed, signs};
 use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosed_while, enclosure_within};
 use crate::interval::{Interval, Real};
 use crate::model::{Model, ParameterRange};
-use crate::modes::{Certificate, Completeness, ContactState, SearchResult, StateLists, search};
+use crate::modes::certificate::is_exchange;
+use crate::modes::{Certificate, Completeness, ContactState, OpenContacts, SearchResult, StateLists, search};
 use crate::progress::Callback;
 use crate::report::{self, Persistence};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most boxes that are searched.
 const BOXES: usize = 255;
@@ -45,8 +46,33 @@ impl Presence {
     }
 }
 
-/// What is known of a box: its modes, or why it could not be searched.
-pub(super) type Searched = Result<BTreeMap<Vec<ContactState>, Presence>, String>;
+/// What is known of a box, or why it could not be searched.
+pub(super) type Searched = Result<Found, String>;
+
+/// What is known of a box.
+pub(super) struct Found {
+    /// Its modes, those in preload gaps among them.
+    pub(super) modes: BTreeMap<Vec<ContactState>, Presence>,
+    /// Every value in it has at least so many solutions, ...
+    pub(super) least: usize,
+    /// ... and at most so many.
+    pub(super) most: usize,
+}
+
+impl Found {
+    /// These modes; `exchange` if exactly one of those that may be or not is a solution for every value.
+    fn of(modes: BTreeMap<Vec<ContactState>, Presence>, open: &OpenContacts, exchange: bool) -> Self {
+        let solutions = || modes.iter().filter(|(mode, _)| open.is_solution(mode)).map(|(_, found)| found);
+        let certain: usize = solutions().map(|found| found.certain).sum();
+        let possible = solutions().map(|found| found.possible).sum();
+        let (least, most) = if exchange { (certain + 1, certain + 1) } else { (certain, possible) };
+        Self { modes, least, most }
+    }
+
+    fn is_open(&self) -> bool {
+        self.modes.values().any(|mode| mode.certain < mode.possible)
+    }
+}
 
 /// What is known of one mode over all boxes.
 struct Record {
@@ -105,34 +131,43 @@ impl Answer<'_> {
             return Err("the search was not completed".to_owned());
         }
         let mut modes = BTreeMap::new();
-        let mut add = |mode: Vec<ContactState>, certificate: &Certificate| {
-            let unknowns = certificate.unknowns().map(<[Interval]>::to_vec);
-            let tipping = match &unknowns {
-                Some(unknowns) => enclosed.outputs.tipping(&mode, unknowns),
-                None => Tipping::Open,
-            };
-            let proven = matches!(certificate, Certificate::Proven { .. });
+        // Those that may be or not, with bounds of their unknowns, as long as none of them may tip.
+        let mut doubtful = Some(Vec::new());
+        let mut add = |mode: Vec<ContactState>, unknowns: Option<&[Interval]>, proven: bool| {
+            let tipping = unknowns.map_or(Tipping::Open, |bounds| enclosed.outputs.tipping(&mode, bounds));
+            let unknowns = unknowns.map(<[Interval]>::to_vec);
+            match (tipping, &unknowns) {
+                (Tipping::Never, Some(_)) if proven => {}
+                (Tipping::Never, Some(bounds)) => {
+                    doubtful.iter_mut().for_each(|all| all.push((mode.clone(), bounds.clone())));
+                }
+                _ => doubtful = None,
+            }
             if tipping != Tipping::Always {
-                modes.insert(mode, Presence::one(proven && tipping == Tipping::Never, unknowns));
+                let presence = Presence::one(proven && tipping == Tipping::Never, unknowns);
+                modes.entry(mode).or_insert(presence);
             } else if let Some((mode, bounds)) =
                 unknowns.and_then(|bounds| self.in_gap(enclosed, mode, bounds))
             {
                 modes.insert(mode, Presence::one(false, Some(bounds)));
             }
         };
+        let is_proven = |certificate: &Certificate| matches!(certificate, Certificate::Proven { .. });
         for solution in &lists.solutions {
-            add(pressed(&solution.pattern), &solution.certificate);
+            let certificate = &solution.certificate;
+            add(pressed(&solution.pattern), certificate.unknowns(), is_proven(certificate));
         }
         for gap in &lists.gaps {
-            add(gap.pattern.clone(), &gap.certificate);
+            add(gap.pattern.clone(), gap.certificate.unknowns(), is_proven(&gap.certificate));
         }
         for mode in &lists.singular {
-            add(mode.pattern.clone(), &mode.certificate);
+            add(mode.pattern.clone(), mode.certificate.unknowns(), is_proven(&mode.certificate));
         }
-        for undecided in lists.undecided {
-            modes.entry(undecided.pattern).or_insert(Presence::one(false, undecided.unknowns));
+        for undecided in &lists.undecided {
+            add(undecided.pattern.clone(), undecided.unknowns.as_deref(), false);
         }
-        Ok(modes)
+        let exchange = doubtful.is_some_and(|doubtful| is_exchange(&enclosed.problem, &doubtful));
+        Ok(Found::of(modes, &enclosed.open, exchange))
     }
 
     /// A mode in which guided sliders tip, with those in their preload gap that may be without normal force
@@ -152,10 +187,15 @@ impl Answer<'_> {
         (enclosed.outputs.tipping(&mode, &bounds) != Tipping::Always).then_some((mode, bounds))
     }
 
-    fn summary(&self, ranges: &[ParameterRange], searched: &[Searched]) -> report::Uncertainty {
+    fn summary(
+        &self,
+        ranges: &[ParameterRange],
+        searched: &[(Vec<Interval>, Searched)],
+    ) -> report::Uncertainty {
         let mut records: BTreeMap<&[ContactState], Record> = BTreeMap::new();
-        for modes in searched.iter().flatten() {
-            for (mode, presence) in modes {
+        let found = || searched.iter().map(|(_, found)| found);
+        for found in found().flatten() {
+            for (mode, presence) in &found.modes {
                 let found = presence
                     .unknowns
                     .as_deref()
@@ -166,8 +206,7 @@ impl Answer<'_> {
                 record.bounds = record.bounds.take().zip(found).map(|(one, other)| hull(&one, &other));
             }
         }
-        let mut open: Vec<String> =
-            searched.iter().filter_map(|modes| modes.as_ref().err().cloned()).collect();
+        let mut open: Vec<String> = found().filter_map(|found| found.as_ref().err().cloned()).collect();
         open.sort_unstable();
         open.dedup();
         let persistence = |record: &Record| match record.certain {
@@ -182,20 +221,14 @@ impl Answer<'_> {
             // In parts that could not be decided the forces may be any.
             normal_force_bounds: record.bounds.clone().filter(|_| open.is_empty()),
         };
-        let count = |certain: bool| {
-            let pressed = |mode: &[ContactState]| !mode.contains(&ContactState::Gap);
-            searched.iter().map(move |modes| match modes {
-                Ok(modes) => {
-                    let counted = modes.iter().filter(|(mode, _)| pressed(mode));
-                    counted.map(|(_, found)| if certain { found.certain } else { found.possible }).sum()
-                }
-                Err(_) => 0_usize,
-            })
-        };
+        let counts = found().map(|found| found.as_ref().map_or((0, 0), |found| (found.least, found.most)));
+        let proven = found().flatten().filter(|found| found.least == found.most).map(|found| found.least);
         report::Uncertainty {
             parameters: ranges.iter().map(parameter).collect(),
-            least_solutions: count(true).min().unwrap_or(0),
-            most_solutions: open.is_empty().then(|| count(false).max().unwrap_or(0)),
+            least_solutions: counts.clone().map(|(least, _)| least).min().unwrap_or(0),
+            most_solutions: open.is_empty().then(|| counts.map(|(_, most)| most).max().unwrap_or(0)),
+            proven_counts: proven.collect::<BTreeSet<_>>().into_iter().collect(),
+            stretches: if ranges.len() == 1 { stretches(searched) } else { Vec::new() },
             modes: records.iter().map(mode).collect(),
             parts: searched.len(),
             open,
@@ -207,22 +240,43 @@ impl Answer<'_> {
 fn subdivide(
     ranges: &[ParameterRange],
     search_box: &mut dyn FnMut(&[Interval]) -> Searched,
-) -> Vec<Searched> {
+) -> Vec<(Vec<Interval>, Searched)> {
     let whole: Vec<Interval> = ranges.iter().map(ParameterRange::interval).collect();
     let mut done = Vec::new();
     let mut waiting = std::collections::VecDeque::from([whole.clone()]);
     let mut searched = 0;
     while let Some(part) = waiting.pop_front() {
-        let modes = search_box(&part);
+        let found = search_box(&part);
         searched += 1;
-        let is_open =
-            modes.as_ref().map_or(true, |modes| modes.values().any(|mode| mode.certain < mode.possible));
+        let is_open = found.as_ref().map_or(true, Found::is_open);
         match halves(&part, &whole).filter(|_| is_open && searched + waiting.len() + 2 <= BOXES) {
             Some(halves) => waiting.extend(halves),
-            None => done.push(modes),
+            None => done.push((part, found)),
         }
     }
     done
+}
+
+/// The numbers of solutions along a parameter, from its least value to its greatest: adjoining boxes with the same
+/// bounds of the number are one stretch.
+fn stretches(searched: &[(Vec<Interval>, Searched)]) -> Vec<report::CountStretch> {
+    let mut boxes: Vec<report::CountStretch> = searched
+        .iter()
+        .map(|(part, found)| {
+            let (least, most) = found.as_ref().map_or((0, None), |found| (found.least, Some(found.most)));
+            let [from, to] = [part[0].lower(), part[0].upper()];
+            report::CountStretch { from, to, least_solutions: least, most_solutions: most }
+        })
+        .collect();
+    boxes.sort_by(|one, other| one.from.total_cmp(&other.from));
+    boxes.dedup_by(|next, last| {
+        let same = (next.least_solutions, next.most_solutions) == (last.least_solutions, last.most_solutions);
+        if same {
+            last.to = next.to;
+        }
+        same
+    });
+    boxes
 }
 
 /// The halves of a box, cut across its longest side relative to the whole; none if it has no extent.

@@ -3,7 +3,7 @@
 use crate::answers::{model, report, report_with};
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{Persistence, SolveReport, Uncertainty};
+use slideway::report::{Persistence, Report, SolveReport, Uncertainty};
 use slideway::solve::solve;
 
 fn uncertainty(name: &str, list: &[(&str, &str)]) -> Uncertainty {
@@ -29,6 +29,44 @@ fn the_paper_s_number_of_solutions_for_ranges_of_friction() {
     assert_eq!((across.least_solutions, across.most_solutions), (1, Some(2)));
     assert_eq!(persistence(&across, "+++"), Persistence::AllValues);
     assert_eq!(persistence(&across, "-++"), Persistence::SomeValues);
+}
+
+/// The drawer has one solution while `2 mu |a| < L` = 0.4 m (README; `limits` proves it), also where the force of its
+/// guides passes zero, at a = 0.
+#[test]
+fn a_force_that_passes_zero_within_the_range_leaves_the_number_of_solutions() {
+    let across = uncertainty("drawer", &[("a", "-0.1..0.15")]);
+    assert_eq!((across.least_solutions, across.most_solutions), (1, Some(1)));
+    assert_eq!(persistence(&across, "+-"), Persistence::SomeValues);
+    assert_eq!(persistence(&across, "-+"), Persistence::SomeValues);
+}
+
+/// It jams from mu = L/(2 a) = 2/3 on.
+#[test]
+fn a_jam_within_the_range_is_found_where_it_begins() {
+    let across = uncertainty("drawer", &[("mu", "0.6..0.7")]);
+    assert_eq!((across.least_solutions, across.most_solutions), (0, Some(1)));
+    assert_eq!(across.proven_counts, [0, 1]);
+    let counted = |number| {
+        let mut found = across.stretches.iter().filter(|stretch| stretch.most_solutions == Some(number));
+        let stretch = found.find(|stretch| stretch.least_solutions == number).expect("proven");
+        assert!(found.all(|other| other.least_solutions < number));
+        [stretch.from, stretch.to]
+    };
+    let ([from, end], [begin, to]) = (counted(1), counted(0));
+    assert_eq!((from, to), (0.6, 0.7));
+    assert!(end <= 2.0 / 3.0 && 2.0 / 3.0 <= begin && begin - end < 1e-9, "{end} {begin}");
+}
+
+#[test]
+fn the_first_line_is_about_the_whole_range() {
+    let answer = |range: &str| report("drawer", &[("mu", range)]).answer();
+    let moves = answer("0.2..0.4");
+    let all = "One solution for every mu from 0.2 to 0.4. In the middle, mu = 0.3: it moves: push needs";
+    assert!(moves.starts_with(all), "{moves}");
+    let jams = answer("0.6..0.7");
+    let part = "From mu = 0.6 to 0.6667 one solution, from 0.6667 to 0.7 no solution. In the middle";
+    assert!(jams.starts_with(part), "{jams}");
 }
 
 /// A parameter, its bounds, and their unit.

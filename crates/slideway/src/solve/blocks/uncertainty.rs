@@ -1,7 +1,7 @@
 //! Which solutions with friction in hinges exist for all values of parameters that are known within bounds only.
 
 use super::super::SolveOptions;
-use super::super::uncertainty::{Presence, Searched};
+use super::super::uncertainty::{Found, Presence, Searched};
 use super::found::BlockAnswer;
 use crate::enclosure::{
     EnclosedBlockProblem, Tipping, UncertainParameters, enclosed_block_problem, enclosed_while,
@@ -97,29 +97,34 @@ fn located(
     Ok(result.solutions.iter().map(Located::of).collect())
 }
 
-/// The modes of a box.
+/// The modes of a box, and how many solutions it has: one near a boundary is one, whichever of its modes it is in.
 fn presences(enclosed: &EnclosedBlockProblem, solutions: &[Located]) -> Searched {
-    let mut modes: BTreeMap<Vec<ContactState>, Presence> = BTreeMap::new();
+    let mut found = Found { modes: BTreeMap::new(), least: 0, most: 0 };
     for solution in solutions {
         if solution.on_boundary.len() > ON_BOUNDARY {
             return Err("too many contacts may be on either side".to_owned());
         }
+        let (mut never_tips, mut may_stay) = (true, false);
         for mode in modes_of(solution) {
             let unknowns = unknowns(solution, &mode);
             let tipping = enclosed.outputs.tipping(&mode, &unknowns);
+            never_tips &= tipping == Tipping::Never;
             if tipping == Tipping::Always {
                 continue;
             }
+            may_stay |= enclosed.open.is_solution(&mode);
             let certain = solution.on_boundary.is_empty() && tipping == Tipping::Never;
-            let found = Presence::one(certain, Some(unknowns));
-            let all = match modes.remove(&mode) {
-                Some(others) => found.and(others),
-                None => found,
+            let presence = Presence::one(certain, Some(unknowns));
+            let all = match found.modes.remove(&mode) {
+                Some(others) => presence.and(others),
+                None => presence,
             };
-            modes.insert(mode, all);
+            found.modes.insert(mode, all);
         }
+        found.most += usize::from(may_stay);
+        found.least += usize::from(may_stay && never_tips);
     }
-    Ok(modes)
+    Ok(found)
 }
 
 /// The contact modes in which a solution may be.
