@@ -1,12 +1,12 @@
 //! A mechanism at one instant: how normal forces, sliding accelerations and couples respond to friction.
 
-use super::joints::{SlidingJoint, set_units, sliding_joints};
-use super::outputs::{Group, Outputs, groups, outputs};
+use super::joints::{RoughHinge, SlidingJoint, rough_hinges, set_units, sliding_joints};
+use super::outputs::{Group, Outputs, Rubbing, groups, outputs};
 use super::scale::{Scale, rounding, scale};
 use super::units::Units;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Contact, Mechanism};
@@ -27,6 +27,8 @@ pub(super) struct Instant<'m> {
     pub(super) influence: Influence,
     /// Its sliding joints.
     pub(super) joints: Vec<SlidingJoint>,
+    /// Its hinges with friction.
+    pub(super) hinges: Vec<RoughHinge>,
     /// Units of the whole mechanism.
     pub(super) units: Units,
     /// The least units of force (N), for the whole mechanism and for what is connected with each joint.
@@ -35,7 +37,7 @@ pub(super) struct Instant<'m> {
     pub(super) outputs: Outputs,
     /// The difference of these from what the loads give, see [`Self::vanish`].
     pub(super) shift: DVector<f64>,
-    /// The sliding joints, in groups that are decided separately.
+    /// The sliding joints and hinges with friction, in groups that are decided separately.
     pub(super) groups: Vec<Group>,
 }
 
@@ -83,7 +85,10 @@ impl<'m> Instant<'m> {
         force: f64,
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
-        if self.joints.iter().all(|joint| joint.units.force >= force) {
+        let mut hinges = self.hinges.iter();
+        if self.joints.iter().all(|joint| joint.units.force >= force)
+            && hinges.all(|hinge| hinge.units.force >= force)
+        {
             return Ok(self);
         }
         let least: Vec<f64> = self.least_forces.iter().map(|least| least.max(force)).collect();
@@ -114,9 +119,12 @@ impl<'m> Instant<'m> {
             Least::Now(scale) => (Some((configuration, scale)), Vec::new()),
             Least::Before(forces) => (None, forces.to_vec()),
         };
-        let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut least_forces));
-        let outputs = outputs(mechanism, &influence, &joints);
-        let groups = groups(&joints, &outputs);
+        let mut hinges = rough_hinges(mechanism, &equations);
+        let both = (&mut joints[..], &mut hinges[..]);
+        let units = set_units(mechanism, (&influence, &equations), now, (both, &mut least_forces));
+        let rubbing = Rubbing { contacts: mechanism.contacts.len(), joints: &joints, hinges: &hinges };
+        let outputs = outputs(mechanism, &influence, rubbing);
+        let groups = groups(rubbing, &outputs);
         let shift = DVector::zeros(outputs.base.len());
         let contacts = contacts(mechanism, configuration, &equations)?;
         Ok(Self {
@@ -125,6 +133,7 @@ impl<'m> Instant<'m> {
             equations,
             influence,
             joints,
+            hinges,
             units,
             least_forces,
             outputs,
@@ -143,23 +152,19 @@ impl<'m> Instant<'m> {
     /// A fault if a phase is not one of this mechanism.
     pub(super) fn check(&self, phase: &Phase) -> Result<(), Faults> {
         self.check_joints(phase.joints.len())?;
+        wrong_count("hinges with friction", self.hinges.len(), phase.hinges.len())?;
         wrong_count("contacts", self.mechanism.contacts.len(), phase.contacts.len())
     }
 
     /// The response to friction impulses alone, without loads.
     pub(super) fn impulse_outputs(&self) -> Outputs {
-        Outputs { base: DVector::zeros(self.outputs.base.len()), columns: self.outputs.columns.clone() }
+        Outputs { base: DVector::zeros(self.outputs.base.len()), ..self.outputs.clone() }
     }
 
     /// The outputs for changes of all unknowns.
     pub(super) fn response(&self, unknowns: &DVector<f64>) -> DVector<f64> {
-        let normals = self.influence.normal_part(unknowns);
-        let normals = normals.iter().enumerate().map(|(k, normal)| normal / self.units_of(k).force);
-        let slides = self.joints.iter().map(|joint| joint.row.change(unknowns) / joint.units.acceleration);
-        let couples = self.joints.iter().filter_map(|joint| {
-            Some(unknowns[joint.couple?.unknown] / (joint.units.force * joint.units.length))
-        });
-        DVector::from_vec(normals.chain(slides).chain(couples).collect())
+        let contacts = self.mechanism.contacts.len();
+        Rubbing { contacts, joints: &self.joints, hinges: &self.hinges }.response(&self.influence, unknowns)
     }
 
     /// The units of a contact.
@@ -200,6 +205,28 @@ impl<'m> Instant<'m> {
     /// The index of a sliding joint's acceleration among the outputs.
     pub(super) fn sliding_output(&self, joint: usize) -> usize {
         self.mechanism.contacts.len() + joint
+    }
+
+    /// The index of the angular acceleration of a hinge with friction among the outputs; those of both components of
+    /// its force follow.
+    pub(super) fn turning_output(&self, hinge: usize) -> usize {
+        self.outputs.base.len() - 3 * (self.hinges.len() - hinge)
+    }
+
+    /// Number of sliding joints and hinges with friction.
+    pub(super) fn rubbing(&self) -> usize {
+        self.joints.len() + self.hinges.len()
+    }
+
+    /// The number of a hinge with friction among the sliding joints and these.
+    pub(super) fn number_of(&self, hinge: usize) -> usize {
+        self.joints.len() + hinge
+    }
+
+    /// The joint of one of the sliding joints and hinges with friction.
+    pub(super) fn id_of(&self, rubbing: usize) -> Option<JointId> {
+        let hinge = || self.hinges.get(rubbing - self.joints.len()).map(|hinge| hinge.id);
+        self.joints.get(rubbing).map_or_else(hinge, |joint| Some(joint.id))
     }
 
     /// The index of each guided slider's couple among the outputs.

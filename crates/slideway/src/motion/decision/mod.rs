@@ -86,7 +86,7 @@ mod vanishing;
 
 #[cfg(test)]
 pub(super) use assessment::ASSESSED;
-pub(super) use determined::determined_forces;
+pub(super) use determined::{DeterminedForces, determined_forces};
 pub(super) use hinged::relative_velocities;
 pub use impact::{Blow, Impact, impact};
 pub use jam::{Impulse, Jam, jam};
