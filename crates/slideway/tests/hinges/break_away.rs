@@ -89,7 +89,10 @@ fn statics_determines_the_forces_beside_a_rough_pin_at_rest() {
         ];
         for (name, expected) in expected {
             let found = series.column(name).unwrap().values[row];
-            assert!(found.is_some_and(|found| (found - expected).abs() < 1e-9), "{name}: {found:?} {expected}");
+            assert!(
+                found.is_some_and(|found| (found - expected).abs() < 1e-9),
+                "{name}: {found:?} {expected}"
+            );
         }
     }
 }
@@ -109,7 +112,10 @@ fn statics_determines_the_forces_beside_a_rough_pin_that_turns() {
         assert!(sample.hinges[0].spin != 0.0 || time == 0.0);
         let expected = [(cart + bob) * 9.81 + bob * y, -bob * x];
         for (found, expected) in [normal, friction].into_iter().zip(expected) {
-            assert!(found.is_some_and(|found| (found - expected).abs() < 1e-8), "{time}: {found:?} {expected}");
+            assert!(
+                found.is_some_and(|found| (found - expected).abs() < 1e-8),
+                "{time}: {found:?} {expected}"
+            );
         }
     }
 }

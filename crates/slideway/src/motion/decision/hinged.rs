@@ -5,14 +5,15 @@
 //! the motions of the mechanism, with all sides of the contacts, by the same programs as at rest; their solutions are
 //! those in which the motion can go on. The solution that is followed is one of them, known by the forces of its hinges.
 
-use super::assessment::assess;
-use super::instant::Instant;
+use super::assessment::{Decisive, assess};
+use super::growth::standing;
+use super::instant::{Instant, contacts_at_speeds};
 use super::joints::touched_stop;
 use super::rules::{Continuation, Continuations, EventInstant, Hold, Outlook, Resting};
 use super::sticking::ENOUGH;
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::{ContactId, JointId};
+use crate::ids::JointId;
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
@@ -53,11 +54,7 @@ pub(super) fn setup(
     mechanism.check_determinate("what follows in time")?;
     let equations = KineticEquations::new(mechanism, configuration)?;
     let mut at_speeds = mechanism.clone();
-    for k in (0..mechanism.contacts.len()).filter(|&k| mechanism.contacts[k].depends_on_speed()) {
-        let speed = equations.contacts[k].sliding_velocity.abs();
-        at_speeds.contacts[k].mu =
-            mechanism.friction_of(ContactId(k), speed, configuration.pieces.as_deref())?;
-    }
+    at_speeds.contacts = contacts_at_speeds(mechanism, configuration, &equations)?.into_owned();
     let force = super::scale_of_forces(mechanism, configuration).max(rounding);
     let mut setup = Setup::in_motion(at_speeds, configuration, (signs, force))?;
     let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
@@ -127,7 +124,11 @@ pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> 
         let question = instant.question(&stopped, Some(&phase));
         let Ok(Some(found)) = assess(&instant, &question, &phase, ENOUGH) else { continue };
         let violated = found.slacks.iter().filter(|slack| slack.value < -super::BOUNDARY);
-        let tips = instant.tipping(&phase, violated.map(|slack| slack.subject));
+        let mut violated: Vec<Decisive> = violated.map(|slack| slack.subject).collect();
+        if violated.is_empty() {
+            violated = standing(configuration, (&instant, &question, &found)).err().unwrap_or_default();
+        }
+        let tips = instant.tipping(&phase, violated.into_iter());
         joints.extend(tips.into_iter().flat_map(|tipping| tipping.joints));
     }
     Ok(joints)
@@ -339,10 +340,8 @@ pub(super) fn is_undisturbed(event: &EventInstant<'_>) -> Result<bool, Faults> {
     let signs = event.signs.iter().chain(event.spins);
     let sliders =
         sliding_joints(event.mechanism).into_iter().filter_map(|joint| event.mechanism.slider(joint));
-    let rubs = sliders.map(|slider| {
-        let mut contacts = slider.contacts.iter().map(|k| &event.mechanism.contacts[k.index()]);
-        contacts.any(|contact| !contact.is_frictionless() || contact.mu_static != [0.0; 2])
-    });
+    let rubs =
+        sliders.map(|slider| slider.contacts.iter().any(|k| event.mechanism.contacts[k.index()].may_hold()));
     let rubs = rubs.chain(event.spins.iter().map(|_| true));
     let mut states = phase.joints_and_hinges().zip(signs).zip(rubs);
     if states.any(|((state, sign), rubs)| rubs && state.sign() != *sign) {
@@ -353,7 +352,8 @@ pub(super) fn is_undisturbed(event: &EventInstant<'_>) -> Result<bool, Faults> {
         bounds.values().iter().all(|(watched, value)| is_speed(watched) || *value > BOUNDARY)
     });
     Ok(inside
-        && (!phase.sticks() || super::sticking_margin(event.mechanism, event.configuration, phase)? > BOUNDARY))
+        && (!phase.sticks()
+            || super::sticking_margin(event.mechanism, event.configuration, phase)? > BOUNDARY))
 }
 
 /// The velocities of what sticks in a phase: one that no equation holds, since no motion moves it at once, goes on at a

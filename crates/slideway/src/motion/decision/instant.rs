@@ -126,7 +126,7 @@ impl<'m> Instant<'m> {
         let outputs = outputs(mechanism, &influence, rubbing);
         let groups = groups(rubbing, &outputs);
         let shift = DVector::zeros(outputs.base.len());
-        let contacts = contacts(mechanism, configuration, &equations)?;
+        let contacts = contacts_at_speeds(mechanism, configuration, &equations)?;
         Ok(Self {
             mechanism,
             contacts,
@@ -245,7 +245,7 @@ fn wrong_count(what: &'static str, expected: usize, found: usize) -> Result<(), 
 }
 
 /// The contacts with the friction at their sliding speeds.
-fn contacts<'m>(
+pub(super) fn contacts_at_speeds<'m>(
     mechanism: &'m Mechanism,
     configuration: &Configuration,
     equations: &KineticEquations,

@@ -65,10 +65,8 @@ pub(super) fn rough_hinges(mechanism: &Mechanism, equations: &KineticEquations) 
             let place = equations.layout.reaction(Reaction::Hinge(circle.joint, axis));
             place.expect("every hinge has its force")
         };
-        let ends =
-            mechanism.hinge(circle.joint).map(|[first, second]| [(first, 1.0), (second, -1.0)]);
-        let rotation =
-            |(end, sign): (&Attachment, f64)| Some((3 * end.frame.body()?.index() + 2, sign));
+        let ends = mechanism.hinge(circle.joint).map(|[first, second]| [(first, 1.0), (second, -1.0)]);
+        let rotation = |(end, sign): (&Attachment, f64)| Some((3 * end.frame.body()?.index() + 2, sign));
         RoughHinge {
             id: circle.joint,
             force: [0, 1].map(place),
@@ -93,10 +91,7 @@ pub(super) fn sliding_joints(
             slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect();
         let place = equations.layout.reaction(Reaction::Couple(id));
         let first = contacts.first().map(|&k| equations.contacts[k].sliding_velocity);
-        let has_friction = contacts.iter().any(|&k| {
-            let contact = &mechanism.contacts[k];
-            !contact.is_frictionless() || contact.mu_static != [0.0; 2]
-        });
+        let has_friction = contacts.iter().any(|&k| mechanism.contacts[k].may_hold());
         let stop = touched_stop(mechanism, configuration, slider);
         Some(SlidingJoint {
             id,

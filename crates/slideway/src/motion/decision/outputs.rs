@@ -90,7 +90,8 @@ impl<'r> Rubbing<'r> {
     /// The outputs for changes of all unknowns.
     pub(super) fn response(self, influence: &Influence, unknowns: &DVector<f64>) -> DVector<f64> {
         let normals = influence.normal_part(unknowns);
-        let outputs = self.outputs().into_iter().map(|(output, unit)| output.change(unknowns, &normals) / unit);
+        let outputs =
+            self.outputs().into_iter().map(|(output, unit)| output.change(unknowns, &normals) / unit);
         DVector::from_vec(outputs.collect())
     }
 }

@@ -314,7 +314,9 @@ impl<'s> System<'s> {
     /// Both components of the force of a hinge of the group on its first body, and its friction couple, in units; `None` if
     /// the equations leave it open.
     pub(super) fn determined_forces_of_hinge(&self, hinge: usize) -> [Option<f64>; 3] {
-        let Some(&(_, couple)) = self.couples.iter().find(|(other, _)| *other == hinge) else { return [None; 3] };
+        let Some(&(_, couple)) = self.couples.iter().find(|(other, _)| *other == hinge) else {
+            return [None; 3];
+        };
         let [x, y] = self.force(hinge);
         [x, y, AffineExpression::unknown(couple, 1.0)].map(|force| {
             let force = self.solutions.function(&force);
