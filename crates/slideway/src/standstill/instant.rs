@@ -4,11 +4,11 @@
 use super::directions::{directions, most_directions};
 use super::rest::{Over, possible, static_friction};
 use super::setup::Setup;
-use super::state::{Pattern, State, StateQuestion, StaticFriction, side_options, sides};
+use super::state::{Pattern, State, StateQuestion, side_options, sides};
 use super::turning::turning_states;
 use super::{MOST_STATES, held_motions};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::pattern::{AffineExpression, ContactPhase, JointPhase, Region, Unsolved};
+use crate::pattern::{AffineExpression, ContactPhase, JointPhase, Unsolved};
 use crate::progress::Work;
 use nalgebra::DMatrix;
 
@@ -92,22 +92,7 @@ fn state_of(setup: &Setup, pattern: &Pattern) -> Result<Option<MotionState>, Uns
 /// By how much the forces of a pattern in which joints or hinges stick stay within all bounds, over the sides of the
 /// contacts that stick: the greatest least slack, in units of the setup; nothing where they cannot, or where that is not
 /// decided. The forces of the hinges that turn are taken in these directions.
-#[expect(clippy::redundant_closure_for_method_calls, reason = "the method holds for one lifetime only")]
 pub(crate) fn whole_slack(setup: &Setup, pattern: &Pattern, directions: &[[f64; 2]]) -> Option<f64> {
-    greatest_slack(setup, (pattern, directions), |state, friction| state.region(friction))
-}
-
-/// The same within the bounds of what sticks alone, and of what is shared out with it.
-#[expect(clippy::redundant_closure_for_method_calls, reason = "the method holds for one lifetime only")]
-pub(crate) fn sticking_slack(setup: &Setup, pattern: &Pattern, directions: &[[f64; 2]]) -> Option<f64> {
-    greatest_slack(setup, (pattern, directions), |state, friction| state.sticking_region(friction))
-}
-
-fn greatest_slack(
-    setup: &Setup,
-    (pattern, directions): (&Pattern, &[[f64; 2]]),
-    region: impl Fn(&State<'_>, &StaticFriction) -> Region<'static>,
-) -> Option<f64> {
     let sticks = |k: usize| {
         let joint = setup.sliders.iter().position(|slider| slider.contacts.contains(&k));
         joint.is_some_and(|joint| pattern.joints[joint] == JointPhase::Sticking)
@@ -117,7 +102,7 @@ fn greatest_slack(
     let slack = |sides: Vec<ContactPhase>| {
         let pattern = Pattern { contacts: sides, ..pattern.clone() };
         let state = State::turning(setup, &pattern, (QUESTION, Some(directions)))?;
-        region(&state, &static_friction(setup)).highest().ok().map(|(slack, _)| slack)
+        state.region(&static_friction(setup)).highest().ok().map(|(slack, _)| slack)
     };
     let slacks = sides(setup).into_iter().filter(agrees).filter_map(slack);
     slacks.reduce(f64::max)

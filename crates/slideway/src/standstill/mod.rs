@@ -71,7 +71,7 @@ use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::sharing::load_sharing;
 use directions::{directions, most_directions};
-pub(crate) use instant::{MotionState, motion_states, sticking_slack, whole_slack};
+pub(crate) use instant::{MotionState, motion_states, whole_slack};
 use nalgebra::DMatrix;
 use rest::Over;
 pub(crate) use setup::{KnownMotion, Setup};

@@ -64,6 +64,7 @@ impl Assessment {
                 frictions: vec![none; contacts],
                 normal: vec![0.0; contacts],
                 shares: vec![None; contacts],
+                couples: vec![0.0; phase.hinges.len()],
             },
             indeterminate: 0,
             slacks: Vec::new(),
@@ -82,6 +83,10 @@ impl Assessment {
             self.forces.frictions[k] = part.forces.frictions[k];
             self.forces.normal[k] = part.forces.normal[k];
             self.forces.shares[k] = part.forces.shares[k];
+        }
+        for &hinge in &group.hinges {
+            self.phase.hinges[hinge] = part.phase.hinges[hinge];
+            self.forces.couples[hinge] = part.forces.couples[hinge];
         }
         self.indeterminate += part.indeterminate;
         self.slacks.extend(&part.slacks);
@@ -182,11 +187,13 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
         inequalities.iter().filter(depends).map(|inequality| inequality.slack.clone()).collect();
     found.indeterminate = system.dimension();
     found.redundant = system.is_redundant();
-    let open = if together.is_empty() {
+    let pins = system.open_pins();
+    let open = if together.is_empty() && pins.is_empty() {
         vec![0.0; found.indeterminate]
     } else {
-        let (value, open) = Region::new(found.indeterminate, together).highest()?;
-        found.slacks.push(Slack { subject: Decisive::Open(group.joints[0]), value: without_rounding(value) });
+        let (value, open) = Region::new(found.indeterminate, together).with_pins(pins).highest()?;
+        let subject = Decisive::Open(group.first(instant.joints.len()));
+        found.slacks.push(Slack { subject, value: without_rounding(value) });
         open
     };
     for inequality in inequalities.iter().filter(|inequality| !depends(inequality)) {
@@ -209,6 +216,7 @@ pub(super) fn concerns_sticking((instant, phase): (&Instant<'_>, &Phase), subjec
         Subject::Pressure(k) | Subject::Couple(k) | Subject::Friction(k) => {
             instant.joint_of(k).is_some_and(|joint| phase.joints[joint] == JointPhase::Sticking)
         }
+        Subject::Circle(_) => true,
         Subject::Share(_) | Subject::Slip(_) => false,
     }
 }

@@ -24,8 +24,7 @@ use crate::standstill::{KnownMotion, MotionState, motion_states, whole_slack};
 pub(super) fn halting_impulse(event: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
     let EventInstant { mechanism, configuration, .. } = *event;
     let signs: Vec<f64> = event.signs.iter().chain(event.spins).copied().collect();
-    let known: Vec<Option<f64>> = signs.iter().map(|sign| Some(*sign).filter(|sign| *sign != 0.0)).collect();
-    let setup = setup(mechanism, configuration, (&known, event.greatest_rounding()))?;
+    let setup = setup(mechanism, configuration, (&event.known_signs(), event.greatest_rounding()))?;
     let velocities = relative_velocities(mechanism, configuration);
     let moving: Vec<usize> = (0..signs.len()).filter(|joint| signs[*joint] != 0.0).collect();
     let everything = (moving.len() > 1).then(|| moving.clone());

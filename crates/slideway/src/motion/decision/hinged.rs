@@ -5,11 +5,15 @@
 //! the motions of the mechanism, with all sides of the contacts, by the same programs as at rest; their solutions are
 //! those in which the motion can go on. The solution that is followed is one of them, known by the forces of its hinges.
 
+use super::assessment::{Decisive, assess};
+use super::growth::standing;
+use super::instant::{Instant, contacts_at_speeds};
 use super::joints::touched_stop;
 use super::rules::{Continuation, Continuations, EventInstant, Hold, Outlook, Resting};
+use super::sticking::ENOUGH;
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::ContactId;
+use crate::ids::JointId;
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
@@ -19,9 +23,9 @@ use crate::motion::moving::magnitudes::Magnitudes;
 use crate::motion::moving::switching::Switching;
 use crate::motion::moving::watch::{Watch, Watched};
 use crate::pattern::phase::sliding_joints;
-use crate::pattern::{ContactPhase, HingePhase, JointPhase, Phase, direction};
+use crate::pattern::{ContactPhase, HingePhase, JointPhase, Phase};
 use crate::report::Verdict;
-use crate::standstill::{MotionState, Pattern, Setup, motion_states, sticking_slack};
+use crate::standstill::{MotionState, Setup, motion_states};
 use nalgebra::DVector;
 
 /// Accelerations that differ by less than this part of the greatest are the same.
@@ -51,11 +55,7 @@ pub(super) fn setup(
     mechanism.check_determinate("what follows in time")?;
     let equations = KineticEquations::new(mechanism, configuration)?;
     let mut at_speeds = mechanism.clone();
-    for k in (0..mechanism.contacts.len()).filter(|&k| mechanism.contacts[k].depends_on_speed()) {
-        let speed = equations.contacts[k].sliding_velocity.abs();
-        at_speeds.contacts[k].mu =
-            mechanism.friction_of(ContactId(k), speed, configuration.pieces.as_deref())?;
-    }
+    at_speeds.contacts = contacts_at_speeds(mechanism, configuration, &equations)?.into_owned();
     let force = super::scale_of_forces(mechanism, configuration, &|_| true).max(rounding);
     let mut setup = Setup::in_motion(at_speeds, configuration, (signs, force))?;
     let sliders = sliding_joints(mechanism).into_iter().filter_map(|joint| mechanism.slider(joint));
@@ -84,10 +84,8 @@ pub(in crate::motion) fn relative_velocities(
 /// # Errors
 /// As [`setup`], and more states than are tried.
 pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, Faults> {
-    let EventInstant { mechanism, configuration, signs, spins, previous, .. } = *event;
-    let signs = signs.iter().chain(spins).map(|sign| Some(*sign).filter(|sign| *sign != 0.0));
-    let signs: Vec<Option<f64>> = signs.collect();
-    let setup = setup(mechanism, configuration, (&signs, event.greatest_rounding()))?;
+    let EventInstant { mechanism, configuration, previous, .. } = *event;
+    let setup = setup(mechanism, configuration, (&event.known_signs(), event.greatest_rounding()))?;
     let (found, undecided) = motion_states(&setup, event.work)?;
     let mut candidates: Vec<Candidate> = Vec::new();
     for state in found {
@@ -108,6 +106,33 @@ pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, F
         phase: candidate.phase,
     };
     Ok(Continuations { list: candidates.into_iter().map(one).collect(), left_out: undecided > 0 })
+}
+
+/// The guided sliders that would tip in states that nothing else excludes.
+///
+/// # Errors
+/// As [`continuations`].
+pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
+    let EventInstant { mechanism, configuration, rounding, .. } = *event;
+    let mut setup = setup(mechanism, configuration, (&event.known_signs(), event.greatest_rounding()))?;
+    setup.sliders.iter_mut().for_each(|slider| slider.couple = None);
+    let instant = Instant::looking_ahead(mechanism, configuration)?;
+    let instant = instant.in_units_of_at_least(rounding, configuration)?;
+    let stopped: Vec<bool> = event.signs.iter().chain(event.spins).map(|sign| *sign == 0.0).collect();
+    let mut joints = Vec::new();
+    for state in motion_states(&setup, event.work)?.0 {
+        let phase = phase_of(&setup, state);
+        let question = instant.question(&stopped, Some(&phase));
+        let Ok(Some(found)) = assess(&instant, &question, &phase, ENOUGH) else { continue };
+        let violated = found.slacks.iter().filter(|slack| slack.value < -super::BOUNDARY);
+        let mut violated: Vec<Decisive> = violated.map(|slack| slack.subject).collect();
+        if violated.is_empty() {
+            violated = standing(configuration, (&instant, &question, &found)).err().unwrap_or_default();
+        }
+        let tips = instant.tipping(&phase, violated.into_iter());
+        joints.extend(tips.into_iter().flat_map(|tipping| tipping.joints));
+    }
+    Ok(joints)
 }
 
 /// The phase of a state. A joint without friction always slides, unless its stop holds it.
@@ -143,7 +168,7 @@ impl Candidate {
         let phase = &candidate.phase;
         let turns = phase.hinges.iter().any(|hinge| hinge.state != JointPhase::Sticking);
         let sticks = !(turns && phase.sticks())
-            || sticking_margin(event.mechanism, event.configuration, phase)? >= -BOUNDARY;
+            || super::sticking_margin(event.mechanism, event.configuration, phase)? >= -BOUNDARY;
         Ok((sticks && lasts(event, phase)).then_some(candidate))
     }
 
@@ -316,10 +341,8 @@ pub(super) fn is_undisturbed(event: &EventInstant<'_>) -> Result<bool, Faults> {
     let signs = event.signs.iter().chain(event.spins);
     let sliders =
         sliding_joints(event.mechanism).into_iter().filter_map(|joint| event.mechanism.slider(joint));
-    let rubs = sliders.map(|slider| {
-        let mut contacts = slider.contacts.iter().map(|k| &event.mechanism.contacts[k.index()]);
-        contacts.any(|contact| !contact.is_frictionless() || contact.mu_static != [0.0; 2])
-    });
+    let rubs =
+        sliders.map(|slider| slider.contacts.iter().any(|k| event.mechanism.contacts[k.index()].may_hold()));
     let rubs = rubs.chain(event.spins.iter().map(|_| true));
     let mut states = phase.joints_and_hinges().zip(signs).zip(rubs);
     if states.any(|((state, sign), rubs)| rubs && state.sign() != *sign) {
@@ -330,7 +353,8 @@ pub(super) fn is_undisturbed(event: &EventInstant<'_>) -> Result<bool, Faults> {
         bounds.values().iter().all(|(watched, value)| is_speed(watched) || *value > BOUNDARY)
     });
     Ok(inside
-        && (!phase.sticks() || sticking_margin(event.mechanism, event.configuration, phase)? > BOUNDARY))
+        && (!phase.sticks()
+            || super::sticking_margin(event.mechanism, event.configuration, phase)? > BOUNDARY))
 }
 
 /// The velocities of what sticks in a phase: one that no equation holds, since no motion moves it at once, goes on at a
@@ -428,26 +452,6 @@ pub(super) fn sliding_accelerations(
     let sliders = equations.sliders.iter().filter_map(|joint| mechanism.slider(*joint));
     let rows = sliders.map(|slider| SlidingRow::new(mechanism, configuration, slider));
     Some(rows.map(|row| row.acceleration(&accelerations)).collect())
-}
-
-/// By how much what sticks in a phase stays within its bounds; -1 where it cannot stick, or where that was not decided.
-///
-/// # Errors
-/// As [`setup`].
-pub(super) fn sticking_margin(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    phase: &Phase,
-) -> Result<f64, Faults> {
-    let signs: Vec<Option<f64>> = phase.joints_and_hinges().map(|joint| Some(joint.sign())).collect();
-    let setup = setup(mechanism, configuration, (&signs, 0.0))?;
-    let pattern = Pattern {
-        joints: phase.joints.clone(),
-        hinges: phase.hinges.iter().map(|hinge| hinge.state).collect(),
-        contacts: phase.contacts.clone(),
-    };
-    let directions: Vec<[f64; 2]> = phase.hinges.iter().map(|hinge| direction(hinge.force)).collect();
-    Ok(sticking_slack(&setup, &pattern, &directions).unwrap_or(super::sticking::NONE))
 }
 
 /// Bodies that stand still under loads that do not change with time: nothing changes for them.

@@ -17,7 +17,7 @@ impl Instant<'_> {
     /// state: near a dead centre its acceleration comes from the geometry of the motion (or from a drive),
     /// and no realistic force along its guide would change it.
     pub(super) fn passes(&self, joint: usize) -> Option<f64> {
-        let acceleration = self.outputs.base[self.sliding_output(joint)];
+        let acceleration = self.outputs.base[self.acceleration_output(joint)];
         let holding_force = acceleration.abs() / self.mobility(joint, joint).abs();
         (acceleration.abs() > NO_ACCELERATION && holding_force > GREATEST_FORCE)
             .then(|| acceleration.signum())
@@ -53,18 +53,30 @@ impl Instant<'_> {
         !self.is_held(other.0, &[one.0]) || ratio * one.1 * other.1 >= 0.0
     }
 
+    /// The index of the acceleration of one of the sliding joints and hinges with friction among the outputs.
+    fn acceleration_output(&self, joint: usize) -> usize {
+        match joint.checked_sub(self.joints.len()) {
+            None => self.sliding_output(joint),
+            Some(hinge) => self.turning_output(hinge),
+        }
+    }
+
     /// Mobilities between joints and, in the last column, their accelerations without friction.
     fn mobilities(&self, joints: &[usize]) -> DMatrix<f64> {
         DMatrix::from_fn(joints.len(), joints.len() + 1, |i, j| match joints.get(j) {
             Some(pushed) => self.mobility(joints[i], *pushed),
-            None => self.outputs.base[self.sliding_output(joints[i])],
+            None => self.outputs.base[self.acceleration_output(joints[i])],
         })
     }
 
-    /// Acceleration of a sliding joint under a unit force along the guide of another joint, in units.
+    /// Acceleration of a sliding joint or hinge under a unit force along the guide of another joint, or a unit couple of
+    /// another hinge, in units.
     fn mobility(&self, joint: usize, pushed: usize) -> f64 {
-        let Some(&k) = self.joints[pushed].contacts.first() else { return 0.0 };
-        let row = self.sliding_output(joint);
+        let row = self.acceleration_output(joint);
+        let Some(pushed_joint) = self.joints.get(pushed) else {
+            return self.outputs.couples[(row, pushed - self.joints.len())];
+        };
+        let Some(&k) = pushed_joint.contacts.first() else { return 0.0 };
         let [plus, minus] = [0, 1].map(|face| self.outputs.columns[face][(row, k)]);
         -f64::midpoint(plus, minus)
     }

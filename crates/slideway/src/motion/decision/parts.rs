@@ -166,7 +166,7 @@ impl PhaseSearch<'_> {
                 Ok(Some(assessment)) => {
                     let violated = assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY);
                     let subjects = violated.map(|slack| slack.subject);
-                    found.tipping.extend(self.tipping(&assessment.phase, subjects));
+                    found.tipping.extend(self.instant.tipping(&assessment.phase, subjects));
                 }
             }
         }
@@ -223,23 +223,6 @@ impl PhaseSearch<'_> {
             .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
         !slipping.iter().any(|(joint, _)| self.instant.is_held(*joint, &held))
             && pairs.all(|pair| self.instant.can_begin_together(pair))
-    }
-
-    /// The guided sliders that would tip in a phase that violates only these inequalities.
-    pub(super) fn tipping(
-        &self,
-        phase: &Phase,
-        violated: impl Iterator<Item = Decisive>,
-    ) -> Option<TippingPhase> {
-        let mut joints = Vec::new();
-        for subject in violated {
-            let Decisive::One(Subject::Couple(k)) = subject else { return None };
-            let joint = self.instant.contact(k).joint;
-            if !joints.contains(&joint) {
-                joints.push(joint);
-            }
-        }
-        (!joints.is_empty()).then(|| TippingPhase { phase: phase.clone(), joints })
     }
 
     /// What a group can do compared with what it did before; whether motions are continued is not determined
@@ -348,6 +331,25 @@ impl PhaseSearch<'_> {
             _ => 2,
         };
         (Reverse([stuck().filter(before).count(), stuck().count()]), [class, verdict])
+    }
+}
+
+impl Instant<'_> {
+    /// The guided sliders that would tip in a phase that violates only these inequalities.
+    pub(super) fn tipping(
+        &self,
+        phase: &Phase,
+        violated: impl Iterator<Item = Decisive>,
+    ) -> Option<TippingPhase> {
+        let mut joints = Vec::new();
+        for subject in violated {
+            let Decisive::One(Subject::Couple(k)) = subject else { return None };
+            let joint = self.contact(k).joint;
+            if !joints.contains(&joint) {
+                joints.push(joint);
+            }
+        }
+        (!joints.is_empty()).then(|| TippingPhase { phase: phase.clone(), joints })
     }
 }
 

@@ -61,6 +61,15 @@ impl<'a> EventInstant<'a> {
     }
 }
 
+impl EventInstant<'_> {
+    /// The signs of the velocities of the sliding joints, then of the hinges with friction; nothing where these are at rest
+    /// and their accelerations decide.
+    pub(super) fn known_signs(&self) -> Vec<Option<f64>> {
+        let signs = self.signs.iter().chain(self.spins);
+        signs.map(|sign| Some(*sign).filter(|sign| *sign != 0.0)).collect()
+    }
+}
+
 /// A phase in which the motion can continue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Continuation {

@@ -44,7 +44,12 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
     let frictions: Vec<ContactFriction> = forces.frictions.iter().enumerate().map(scaled).collect();
     let normal_forces: Vec<f64> =
         forces.normal.iter().enumerate().map(|(k, normal)| normal * unit(k)).collect();
-    let unknowns = instant.influence.unknowns(&frictions, &DVector::from_column_slice(&normal_forces));
+    let mut unknowns = instant.influence.unknowns(&frictions, &DVector::from_column_slice(&normal_forces));
+    for ((hinge, couple), column) in
+        instant.hinges.iter().zip(&forces.couples).zip(&instant.influence.couples)
+    {
+        unknowns.axpy(couple * hinge.units.force * hinge.units.length, column, 1.0);
+    }
     let sliding = instant.joints.iter().zip(&assessment.phase.joints);
     let acceleration = |(joint, phase): (&super::joints::SlidingJoint, &JointPhase)| match phase {
         JointPhase::Sticking => 0.0,
@@ -76,5 +81,8 @@ pub(super) fn is_same_phase(instant: &Instant<'_>, group: &Group, [one, other]: 
         one.contacts[k] == other.contacts[k]
             || instant.joint_of(k).is_some_and(|joint| one.joints[joint] == JointPhase::Sticking)
     };
-    group.joints.iter().all(|joint| same_joint(*joint)) && group.contacts.iter().all(|k| same_contact(*k))
+    let same_hinge = |hinge: &usize| one.hinges[*hinge].state == other.hinges[*hinge].state;
+    group.joints.iter().all(|joint| same_joint(*joint))
+        && group.contacts.iter().all(|k| same_contact(*k))
+        && group.hinges.iter().all(same_hinge)
 }

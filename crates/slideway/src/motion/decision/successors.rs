@@ -198,7 +198,7 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
         let parts: Vec<&GroupPhase> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
         match standing {
             Ok(standing) => found.list.push(successor(search, &whole, (&parts, standing))),
-            Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
+            Err(violated) => found.tipping.extend(search.instant.tipping(&whole.phase, violated.into_iter())),
         }
     }
     // Unless there is evidence to the contrary, what has fallen to zero continues to fall.

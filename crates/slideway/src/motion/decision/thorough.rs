@@ -63,18 +63,7 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults> {
-        let Some(parts) = separate(mechanism) else {
-            return sticking_margin(mechanism, configuration, phase);
-        };
-        let mut least = f64::INFINITY;
-        for part in parts {
-            let phase = part.phase(phase);
-            if phase.sticks() {
-                let configuration = part.configuration(configuration);
-                least = least.min(sticking_margin(&part.part.mechanism, &configuration, &phase)?);
-            }
-        }
-        Ok(least)
+        super::sticking_margin(mechanism, configuration, phase)
     }
 
     fn normal_forces(
@@ -83,16 +72,8 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
-        let Some(parts) = separate(mechanism) else { return normal_forces(mechanism, configuration, phase) };
-        let mut forces = vec![None; mechanism.contacts.len()];
-        for part in parts {
-            let configuration = part.configuration(configuration);
-            let of_part = normal_forces(&part.part.mechanism, &configuration, &part.phase(phase))?;
-            for (contact, force) in part.part.contacts.iter().zip(of_part) {
-                forces[contact.index()] = force;
-            }
-        }
-        Ok(forces)
+        let forces = super::determined_forces(mechanism, configuration, phase)?;
+        Ok(forces.contacts.into_iter().map(|[normal, _]| normal).collect())
     }
 
     fn hold<'m>(
@@ -136,7 +117,7 @@ fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
 
 fn tipping(instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
     if has_rough_hinges(instant.mechanism) {
-        return Ok(Vec::new());
+        return hinged::tipping(instant);
     }
     let found = super::continuations(instant)?;
     Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
@@ -154,27 +135,4 @@ fn halting_impulse(instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>,
         velocities: impulse.after.velocities,
         energy_lost: impulse.energy_lost,
     }))
-}
-
-fn sticking_margin(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    phase: &Phase,
-) -> Result<f64, Faults> {
-    if has_rough_hinges(mechanism) {
-        return hinged::sticking_margin(mechanism, configuration, phase);
-    }
-    super::sticking_margin(mechanism, configuration, phase)
-}
-
-fn normal_forces(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    phase: &Phase,
-) -> Result<Vec<Option<f64>>, Faults> {
-    if has_rough_hinges(mechanism) {
-        return Ok(vec![None; mechanism.contacts.len()]);
-    }
-    let forces = super::determined_forces(mechanism, configuration, phase)?;
-    Ok(forces.into_iter().map(|[normal, _]| normal).collect())
 }
