@@ -192,7 +192,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
         vec![0.0; found.indeterminate]
     } else {
         let (value, open) = Region::new(found.indeterminate, together).with_pins(pins).highest()?;
-        let subject = Decisive::Open(group.first(instant.joints.len()));
+        let subject = Decisive::Open(group.members(instant.joints.len()).next().unwrap_or_default());
         found.slacks.push(Slack { subject, value: without_rounding(value) });
         open
     };
@@ -206,7 +206,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
     };
     let margins = found.slacks.iter().filter(sticks).map(|slack| slack.value);
     found.margin = margins.fold(f64::INFINITY, f64::min);
-    system.write_forces(&open, &mut found.forces);
+    system.write_forces(&open, &mut found);
     Ok(found)
 }
 

@@ -232,6 +232,16 @@ impl<'m> Instant<'m> {
         self.joints.len() + hinge
     }
 
+    /// Whether one of the sliding joints and hinges with friction can stick.
+    pub(super) fn may_stick(&self, number: usize) -> bool {
+        self.joints.get(number).is_none_or(|joint| joint.has_friction)
+    }
+
+    /// The units of one of the sliding joints and hinges with friction.
+    pub(super) fn units_of_rubbing(&self, number: usize) -> Units {
+        self.joints.get(number).map_or_else(|| self.hinges[number - self.joints.len()].units, |joint| joint.units)
+    }
+
     /// The joint of one of the sliding joints and hinges with friction.
     pub(super) fn id_of(&self, rubbing: usize) -> Option<JointId> {
         let hinge = || self.hinges.get(rubbing - self.joints.len()).map(|hinge| hinge.id);

@@ -2,7 +2,7 @@
 //! directions they can begin to slide.
 
 use super::instant::Instant;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Mobilities that cancel to within this multiple of themselves count as zero.
 const DEPENDENT: f64 = 1e-10;
@@ -29,6 +29,17 @@ impl Instant<'_> {
     /// of the block) and `a` the accelerations without friction, this is `A_jj - A_jH A_HH^-1 A_Hj = 0` and
     /// `a_j - A_jH A_HH^-1 a_H = 0`, by elimination with complete pivoting among the held joints H.
     pub(super) fn is_held(&self, joint: usize, held: &[usize]) -> bool {
+        let (is_movable, acceleration) = self.beside(joint, held);
+        !is_movable && acceleration.abs() <= NO_ACCELERATION
+    }
+
+    /// Whether a force at a joint accelerates it while others are held.
+    pub(super) fn is_movable(&self, joint: usize, held: &[usize]) -> bool {
+        self.beside(joint, held).0
+    }
+
+    /// Whether a force at a joint accelerates it while others are held, and how it accelerates without one.
+    fn beside(&self, joint: usize, held: &[usize]) -> (bool, f64) {
         let joints: Vec<usize> = held.iter().copied().chain([joint]).collect();
         let last = held.len();
         let mut matrix = self.mobilities(&joints);
@@ -36,7 +47,7 @@ impl Instant<'_> {
         let own = matrix[(last, last)].abs();
         eliminate(&mut matrix, held.len(), DEPENDENT * greatest);
         let rest = matrix[(last, last)].abs();
-        rest <= DEPENDENT * own.max(DEPENDENT * greatest) && matrix[(last, last + 1)].abs() <= NO_ACCELERATION
+        (rest > DEPENDENT * own.max(DEPENDENT * greatest), matrix[(last, last + 1)])
     }
 
     /// The number of these joints whose motion depends on that of the others.
@@ -54,7 +65,7 @@ impl Instant<'_> {
     }
 
     /// The index of the acceleration of one of the sliding joints and hinges with friction among the outputs.
-    fn acceleration_output(&self, joint: usize) -> usize {
+    pub(super) fn acceleration_output(&self, joint: usize) -> usize {
         match joint.checked_sub(self.joints.len()) {
             None => self.sliding_output(joint),
             Some(hinge) => self.turning_output(hinge),
@@ -79,6 +90,16 @@ impl Instant<'_> {
         let Some(&k) = pushed_joint.contacts.first() else { return 0.0 };
         let [plus, minus] = [0, 1].map(|face| self.outputs.columns[face][(row, k)]);
         -f64::midpoint(plus, minus)
+    }
+
+    /// All outputs under a unit force along the guide of a joint, in the middle of the block, or a unit couple of a hinge.
+    pub(super) fn response_to_force(&self, pushed: usize) -> DVector<f64> {
+        let [plus, minus] = &self.outputs.columns;
+        match self.joints.get(pushed).map(|joint| joint.contacts.first()) {
+            None => self.outputs.couples.column(pushed - self.joints.len()).into_owned(),
+            Some(Some(&k)) => (plus.column(k) + minus.column(k)) * -0.5,
+            Some(None) => DVector::zeros(plus.nrows()),
+        }
     }
 }
 

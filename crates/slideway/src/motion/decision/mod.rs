@@ -84,6 +84,7 @@ mod sticking;
 mod successors;
 mod system;
 pub(super) mod thorough;
+mod turning;
 mod units;
 mod vanishing;
 

@@ -21,10 +21,9 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// The first of its members, by its number among the sliding joints, of which there are so many, and hinges.
-    pub(super) fn first(&self, joints: usize) -> usize {
-        let hinge = || self.hinges.first().map(|hinge| joints + hinge);
-        self.joints.first().copied().or_else(hinge).unwrap_or_default()
+    /// Its members, by their numbers among the sliding joints, of which there are so many, and hinges.
+    pub(super) fn members(&self, joints: usize) -> impl Iterator<Item = usize> + '_ {
+        self.joints.iter().copied().chain(self.hinges.iter().map(move |hinge| joints + hinge))
     }
 }
 

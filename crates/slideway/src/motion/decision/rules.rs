@@ -62,6 +62,11 @@ impl<'a> EventInstant<'a> {
 }
 
 impl EventInstant<'_> {
+    /// The sign of the velocity of one of the sliding joints and hinges with friction.
+    pub(super) fn sign_of(&self, number: usize) -> f64 {
+        self.signs.get(number).copied().unwrap_or_else(|| self.spins[number - self.signs.len()])
+    }
+
     /// The signs of the velocities of the sliding joints, then of the hinges with friction; nothing where these are at rest
     /// and their accelerations decide.
     pub(super) fn known_signs(&self) -> Vec<Option<f64>> {

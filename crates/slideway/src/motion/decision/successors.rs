@@ -164,13 +164,14 @@ fn searched<T>(
         vanish(&mut instant, event, previous);
     }
     let instant = &instant;
-    let sign = |(joint, sign): (usize, &f64)| match *sign {
-        0.0 => instant.passes(joint).unwrap_or(0.0),
+    let sign = |number: usize| match event.sign_of(number) {
+        0.0 => instant.passes(number).unwrap_or(0.0),
         sign => sign,
     };
-    let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
-    let event = &rules::EventInstant { signs: &signs, ..*event };
-    let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
+    let signs: Vec<f64> = (0..instant.rubbing()).map(sign).collect();
+    let stopped: Vec<bool> = signs.iter().map(|sign| *sign == 0.0).collect();
+    let (signs, spins) = signs.split_at(instant.joints.len());
+    let event = &rules::EventInstant { signs, spins, ..*event };
     let question = instant.question(&stopped, None);
     find(&PhaseSearch { instant, event, question: &question, detail })
 }
@@ -302,17 +303,17 @@ fn without_copies(search: &PhaseSearch<'_>, list: &mut Vec<Successor>) {
     let is_copy = |one: &Successor, other: &Successor| {
         let rests = |joint: usize| {
             !one.is_present
-                && one.phase.joints[joint] == JointPhase::Sticking
-                && stays(other, PhaseBound::Slip(instant.joints[joint].id))
+                && one.phase.of(joint) == JointPhase::Sticking
+                && instant.id_of(joint).is_some_and(|id| stays(other, PhaseBound::Slip(id)))
         };
-        let same_joint = |joint: usize| one.phase.joints[joint] == other.phase.joints[joint] || rests(joint);
+        let same_joint = |joint: usize| one.phase.of(joint) == other.phase.of(joint) || rests(joint);
         let same_contact = |k: usize| {
             let zero = PhaseBound::NormalForce(ContactId(k));
             one.phase.contacts[k] == other.phase.contacts[k]
                 || (stays(one, zero) && stays(other, zero))
                 || instant.joint_of(k).is_some_and(rests)
         };
-        (0..one.phase.joints.len()).all(same_joint)
+        (0..instant.rubbing()).all(same_joint)
             && (0..one.phase.contacts.len()).all(same_contact)
             && instant.groups.iter().all(|group| search.is_same_motion(group, [&one.state, &other.state]))
     };

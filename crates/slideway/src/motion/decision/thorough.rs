@@ -33,21 +33,12 @@ pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
-        match separate(instant.mechanism) {
-            Some(parts) => separate::continuations(&parts, instant, continuations),
-            None => continuations(instant),
-        }
+        continuations(instant)
     }
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
-        let Some(parts) = separate(instant.mechanism) else { return tipping(instant) };
-        for part in parts {
-            if part.at(instant, continuations)?.list.is_empty() {
-                let joints = part.at(instant, tipping)?;
-                return Ok(joints.into_iter().map(|joint| part.in_whole(joint)).collect());
-            }
-        }
-        Ok(Vec::new())
+        let found = super::continuations(instant)?;
+        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
@@ -103,9 +94,6 @@ impl Decisions for Thorough {
 
 /// The phases in which a mechanism can go on, taken as a whole.
 fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
-    if has_rough_hinges(instant.mechanism) {
-        return hinged::continuations(instant);
-    }
     let found = super::continuations(instant)?;
     let one = |successor: super::Successor| Continuation {
         phase: successor.phase,
@@ -113,14 +101,6 @@ fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
         continues: successor.continues,
     };
     Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
-}
-
-fn tipping(instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
-    if has_rough_hinges(instant.mechanism) {
-        return hinged::tipping(instant);
-    }
-    let found = super::continuations(instant)?;
-    Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
 }
 
 fn halting_impulse(instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
