@@ -245,6 +245,18 @@ pub(super) fn sticking_sides(
     contacts.map(options).collect()
 }
 
+/// The sliding contacts of a group with their possible sides.
+pub(super) fn sliding_sides(
+    question: &Question<'_>,
+    phase: &Phase,
+    (instant, group): (&Instant<'_>, &Group),
+) -> Vec<(usize, Vec<ContactPhase>)> {
+    let slides =
+        |k: usize| instant.joint_of(k).is_some_and(|joint| phase.joints[joint] != JointPhase::Sticking);
+    let sliding = group.contacts.iter().filter(|k| slides(**k));
+    sliding.map(|k| (*k, question.sides[*k].clone())).collect()
+}
+
 /// A phase with the combination of sides of this number; `None` beyond the last.
 pub(super) fn with_sides(
     phase: &Phase,

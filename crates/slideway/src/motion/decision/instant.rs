@@ -128,7 +128,7 @@ impl<'m> Instant<'m> {
             Least::Now(scale) => (Some((configuration, scale)), Vec::new()),
             Least::Before(forces) => (None, forces.to_vec()),
         };
-        let mut hinges = rough_hinges(mechanism, &equations);
+        let mut hinges = rough_hinges(mechanism, configuration, &equations);
         let both = (&mut joints[..], &mut hinges[..]);
         let units = set_units(mechanism, (&influence, &equations), now, (both, &mut least_forces));
         let rubbing = Rubbing { contacts: mechanism.contacts.len(), joints: &joints, hinges: &hinges };
@@ -235,6 +235,18 @@ impl<'m> Instant<'m> {
     /// Whether one of the sliding joints and hinges with friction can stick.
     pub(super) fn may_stick(&self, number: usize) -> bool {
         self.joints.get(number).is_none_or(|joint| joint.has_friction)
+    }
+
+    /// The velocity of one of the sliding joints and hinges with friction (m/s); that of hinges in sizes of the mechanism.
+    pub(super) fn velocity(&self, number: usize) -> f64 {
+        let hinge = || self.hinges[number - self.joints.len()].velocity * self.units.length;
+        self.joints.get(number).map_or_else(hinge, |joint| joint.velocity)
+    }
+
+    /// The change of this velocity with those of the bodies.
+    pub(super) fn change(&self, number: usize, jumps: &DVector<f64>) -> f64 {
+        let hinge = || self.hinges[number - self.joints.len()].acceleration(jumps) * self.units.length;
+        self.joints.get(number).map_or_else(hinge, |joint| joint.row.change(jumps))
     }
 
     /// The units of one of the sliding joints and hinges with friction.

@@ -47,6 +47,8 @@ pub(super) struct RoughHinge {
     rotations: Vec<(usize, f64)>,
     /// The radius of its friction circle while it turns, and the static one (m).
     pub(super) radii: [f64; 2],
+    /// The angular velocity of its first body against the second (rad/s).
+    pub(super) velocity: f64,
     /// Units of the bodies that joints connect to it.
     pub(super) units: Units,
 }
@@ -59,7 +61,11 @@ impl RoughHinge {
 }
 
 /// The hinges with friction of a mechanism, in the order of its friction circles.
-pub(super) fn rough_hinges(mechanism: &Mechanism, equations: &KineticEquations) -> Vec<RoughHinge> {
+pub(super) fn rough_hinges(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    equations: &KineticEquations,
+) -> Vec<RoughHinge> {
     let one = |circle: &FrictionCircle| {
         let place = |axis| {
             let place = equations.layout.reaction(Reaction::Hinge(circle.joint, axis));
@@ -72,10 +78,31 @@ pub(super) fn rough_hinges(mechanism: &Mechanism, equations: &KineticEquations) 
             force: [0, 1].map(place),
             rotations: ends.into_iter().flatten().filter_map(rotation).collect(),
             radii: [circle.radius, circle.static_radius],
+            velocity: spin(mechanism, configuration, circle.joint),
             units: Units { force: 1.0, length: mechanism.size, acceleration: 1.0 },
         }
     };
     mechanism.friction_circles.iter().map(one).collect()
+}
+
+/// The angular velocity of the first body of a hinge against the second (rad/s).
+fn spin(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) -> f64 {
+    mechanism.hinge(joint).map_or(0.0, |[first, second]| {
+        configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame)
+    })
+}
+
+/// The velocities of the sliding joints, then of the hinges with friction (m/s, rad/s).
+pub(in crate::motion) fn relative_velocities(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Vec<f64> {
+    let sliders = mechanism.joints.iter().filter_map(|joint| match &joint.kind {
+        JointKind::Slider(slider) => Some(configuration.sliding(mechanism, slider).1),
+        JointKind::Hinge(_) => None,
+    });
+    let circles = mechanism.friction_circles.iter();
+    sliders.chain(circles.map(|circle| spin(mechanism, configuration, circle.joint))).collect()
 }
 
 /// The sliding joints of a mechanism, in the order of its joints.
@@ -108,7 +135,7 @@ pub(super) fn sliding_joints(
 }
 
 /// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.
-pub(super) fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
+fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
     let Some([least, greatest]) = slider.travel.filter(|_| slider.stops != [None; 2]) else {
         return 0.0;
     };

@@ -6,6 +6,7 @@ use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::motion::moving::connected::join;
+use crate::pattern::{JointPhase, Phase};
 use crate::solve::{NO_INFLUENCE, SAME_COLUMN};
 use nalgebra::{DMatrix, DVector, DVectorView};
 
@@ -21,6 +22,11 @@ pub(super) struct Group {
 }
 
 impl Group {
+    /// Whether hinges of it turn with friction.
+    pub(super) fn turns(&self, phase: &Phase) -> bool {
+        self.hinges.iter().any(|hinge| phase.hinges[*hinge].state != JointPhase::Sticking)
+    }
+
     /// Its members, by their numbers among the sliding joints, of which there are so many, and hinges.
     pub(super) fn members(&self, joints: usize) -> impl Iterator<Item = usize> + '_ {
         self.joints.iter().copied().chain(self.hinges.iter().map(move |hinge| joints + hinge))

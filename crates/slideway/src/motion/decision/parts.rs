@@ -1,6 +1,6 @@
 //! What a group of joints can do at an instant, decided independently of the others.
 
-use super::assessment::{Assessment, Decisive, assess_group, with_sides};
+use super::assessment::{Assessment, Decisive, assess_group, sliding_sides, with_sides};
 use super::elastic::verdict;
 use super::instant::Instant;
 use super::outputs::Group;
@@ -13,9 +13,9 @@ use super::system::{Question, Subject};
 use super::turning::Turning;
 use super::{BOUNDARY, MOST_STATES};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::pattern::{ContactPhase, HingePhase, JointPhase, Phase, Unsolved};
+use crate::pattern::{HingePhase, JointPhase, Phase, Unsolved};
 use crate::report::Verdict;
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::cmp::Reverse;
 
 /// Accelerations and forces that differ by less than this, in units, count as equal.
@@ -60,11 +60,6 @@ pub(super) struct PhaseSearch<'s> {
 }
 
 impl PhaseSearch<'_> {
-    /// Whether nothing happens in any group.
-    pub(super) fn nothing_happens(&self) -> bool {
-        self.undisturbed().1.iter().all(|undisturbed| *undisturbed)
-    }
-
     /// What each group did before, and whether nothing happens in it.
     fn undisturbed(&self) -> (Vec<Option<Assessment>>, Vec<bool>) {
         let groups = &self.instant.groups;
@@ -144,7 +139,7 @@ impl PhaseSearch<'_> {
         };
         let is_large = stuck(&self.any_phase()) > FEW_RESTING;
         let mut most = 0;
-        let undecided = Cell::new(false);
+        let undecided = RefCell::new(Vec::new());
         for (tried, phase) in (1..).zip(self.patterns(group, &undecided)) {
             let limit = if list.is_empty() { MOST_STATES } else { FURTHER_STATES };
             if tried > limit || (is_large && stuck(&phase) < most) {
@@ -173,7 +168,7 @@ impl PhaseSearch<'_> {
                 }
             }
         }
-        found.complete &= !undecided.get();
+        found.unsolved.extend(undecided.take());
         Ok(list)
     }
 
@@ -183,11 +178,12 @@ impl PhaseSearch<'_> {
     }
 
     /// All states of the joints and hinges of a group with all sides of the sliding contacts and all forces of the hinges
-    /// that turn, those with most sticking first; sticking contacts have any side. Whether forces remain undecided is noted.
+    /// that turn, those with most sticking first; sticking contacts have any side. Those whose
+    /// forces remain undecided are noted.
     fn patterns<'p>(
         &'p self,
         group: &'p Group,
-        undecided: &'p Cell<bool>,
+        undecided: &'p RefCell<Vec<Phase>>,
     ) -> impl Iterator<Item = Phase> + 'p {
         let rests = |number: &usize| self.event.sign_of(*number) == 0.0 && self.instant.may_stick(*number);
         let resting: Vec<usize> = self.members(group).filter(rests).collect();
@@ -215,20 +211,16 @@ impl PhaseSearch<'_> {
         &'p self,
         group: &'p Group,
         phase: Phase,
-        undecided: &Cell<bool>,
+        undecided: &RefCell<Vec<Phase>>,
     ) -> Box<dyn Iterator<Item = Phase> + 'p> {
-        if group.hinges.iter().any(|hinge| phase.hinges[*hinge].state != JointPhase::Sticking) {
+        if group.turns(&phase) {
             let turning = Turning::new(self.instant, self.question, (&phase, group));
             let (phases, decided) =
                 turning.map_or((Vec::new(), false), |turning| turning.phases(self.event.work));
-            undecided.set(undecided.get() || !decided);
+            undecided.borrow_mut().extend((!decided).then_some(phase));
             return Box::new(phases.into_iter());
         }
-        let sliding = group.contacts.iter().filter(|k| {
-            self.instant.joint_of(**k).is_some_and(|joint| phase.joints[joint] != JointPhase::Sticking)
-        });
-        let sides: Vec<(usize, Vec<ContactPhase>)> =
-            sliding.map(|k| (*k, self.question.sides[*k].clone())).collect();
+        let sides = sliding_sides(self.question, &phase, (self.instant, group));
         Box::new((0..).map_while(move |number| with_sides(&phase, &sides, number)))
     }
 

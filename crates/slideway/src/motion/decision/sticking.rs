@@ -87,9 +87,6 @@ pub(in crate::motion) fn sliding_accelerations(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Result<Option<Vec<f64>>, Faults> {
-    if !mechanism.friction_circles.is_empty() {
-        return Ok(super::hinged::sliding_accelerations(mechanism, configuration, phase));
-    }
     let state = phase_state(mechanism, configuration, phase)?;
     Ok(state.map(|state| state.sliding_accelerations))
 }

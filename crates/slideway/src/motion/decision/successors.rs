@@ -17,7 +17,7 @@ use crate::pattern::{JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 
 /// If there are more combinations of what independent groups of joints can do, they are not all listed.
-pub(super) const MOST_COMBINATIONS: usize = 256;
+const MOST_COMBINATIONS: usize = 256;
 const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
@@ -28,7 +28,7 @@ pub struct Successors {
     /// Phases that would be admissible except that a guided slider would tip: unlike a block slider, it has
     /// no state of its own for that.
     pub tipping: Vec<TippingPhase>,
-    /// Phases for which a linear program was not solved.
+    /// Phases for which a linear program was not solved, or not all forces of the hinges that turn were found.
     pub unsolved: Vec<Phase>,
     /// Whether the list is complete; otherwise there are so many states that some in which fewer joints stick
     /// were omitted.
@@ -137,27 +137,12 @@ pub(crate) fn continuations(event: &rules::EventInstant<'_>) -> Result<Successor
     at(instant, event, Detail::Order)
 }
 
-/// Whether nothing happens at an instant: nothing has just stopped or reversed, and the present phase is at no boundary.
-///
-/// # Errors
-/// As [`successors`].
-pub(super) fn is_undisturbed(event: &rules::EventInstant<'_>) -> Result<bool, Faults> {
-    let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
-    let instant = instant.in_units_of_at_least(event.rounding, event.configuration)?;
-    searched(instant, event, Detail::Order, |search| Ok(search.nothing_happens()))
-}
-
-fn at(instant: Instant<'_>, event: &rules::EventInstant<'_>, detail: Detail) -> Result<Successors, Faults> {
-    searched(instant, event, detail, following)
-}
-
-/// What a search at an instant finds.
-fn searched<T>(
+/// What can follow at an instant.
+fn at(
     mut instant: Instant<'_>,
     event: &rules::EventInstant<'_>,
     detail: Detail,
-    find: impl FnOnce(&PhaseSearch<'_>) -> Result<T, Faults>,
-) -> Result<T, Faults> {
+) -> Result<Successors, Faults> {
     instant.check_joints(event.signs.len())?;
     if let Some(previous) = event.previous {
         instant.check(previous)?;
@@ -173,7 +158,7 @@ fn searched<T>(
     let (signs, spins) = signs.split_at(instant.joints.len());
     let event = &rules::EventInstant { signs, spins, ..*event };
     let question = instant.question(&stopped, None);
-    find(&PhaseSearch { instant, event, question: &question, detail })
+    following(&PhaseSearch { instant, event, question: &question, detail })
 }
 
 fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
@@ -239,7 +224,7 @@ fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usiz
 
 /// Every way to choose one part for each group; if there are so many that an order of preference is given,
 /// only those in which all groups but at most one take their preferred part.
-pub(super) fn choices<T>(parts: &[Vec<T>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
+fn choices<T>(parts: &[Vec<T>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
     let Some(order) = order else {
         let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
         return combinations(&numbers);
@@ -284,7 +269,7 @@ fn successor(
 }
 
 /// Rank of a verdict: the verdict for several independent groups is the one of highest rank.
-pub(super) fn severity(verdict: Verdict) -> u8 {
+fn severity(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::NotComputed => 0,
         Verdict::Attainable => 1,

@@ -55,7 +55,7 @@ pub(super) struct Question<'q> {
     pub(super) sides: Vec<Vec<ContactPhase>>,
     /// Joints, then hinges with friction, whose velocity is zero; those of them that move have just begun to.
     pub(super) stopped: &'q [bool],
-    /// A joint that sticks only at the end, with the sign of the sliding velocity that its friction opposes.
+    /// A joint or hinge that sticks only at the end, with the sign of the sliding velocity that its friction opposes.
     pub(super) opposes: Option<(usize, f64)>,
     /// Sliding joints that are pushed by the stops that they touch, so that they, too, have the required
     /// acceleration.
@@ -373,6 +373,13 @@ impl<'s> System<'s> {
             let number = self.instant.number_of(hinge);
             if self.question.stopped[number] {
                 add(Subject::Slip(number), self.acceleration(number).times(sign));
+            }
+        }
+        for &(hinge, couple) in &self.couples {
+            if let Some((_, sign)) =
+                self.question.opposes.filter(|(number, _)| *number == self.instant.number_of(hinge))
+            {
+                add(Subject::Circle(hinge), AffineExpression::unknown(couple, -sign));
             }
         }
         for (hinge, pin) in self.pins().filter(|(_, pin)| !pin.varies()) {

@@ -4,12 +4,12 @@ use super::holding::Holding;
 use super::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
-use super::separate::{self, separate};
-use super::{halting, hinged};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, body_of};
+use crate::motion::moving::amounts::Amounts;
+use crate::motion::moving::equations::independent;
 use crate::pattern::Phase;
 
 impl Hold for Holding<'_> {
@@ -20,11 +20,6 @@ impl Hold for Holding<'_> {
     fn margin(&mut self, time: f64) -> Result<f64, Faults> {
         self.margin(time)
     }
-}
-
-/// Whether hinges have friction.
-fn has_rough_hinges(mechanism: &Mechanism) -> bool {
-    !mechanism.friction_circles.is_empty()
 }
 
 /// The decisions of this module: every state of joints and contacts is tried.
@@ -42,10 +37,14 @@ impl Decisions for Thorough {
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-        match separate(instant.mechanism) {
-            Some(parts) => separate::jam(&parts, instant, continuations, halting_impulse),
-            None => halting_impulse(instant),
-        }
+        let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
+            return Ok(None);
+        };
+        let first = impulses.into_iter().next();
+        Ok(first.map(|impulse| HaltingImpulse {
+            velocities: impulse.after.velocities,
+            energy_lost: impulse.energy_lost,
+        }))
     }
 
     fn sticking_margin(
@@ -73,26 +72,26 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
-        if !has_rough_hinges(mechanism) {
-            return Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)));
+        // Friction of hinges is not affine in the loads: what has it is known to stay at rest if nothing changes.
+        let parts = independent(mechanism);
+        let circles = mechanism.friction_circles.iter();
+        let rough: Vec<usize> = circles
+            .filter_map(|circle| body_of(mechanism, circle.joint))
+            .map(|body| parts[body.index()])
+            .collect();
+        let of = |is_rough: bool| -> Vec<bool> {
+            let rests = resting.bodies.iter().zip(&parts);
+            rests.map(|(rests, part)| *rests && rough.contains(part) == is_rough).collect()
+        };
+        if Amounts::new(mechanism, configuration, &of(true)).units().next().is_some() {
+            return Ok(None);
         }
-        let mut of = [resting.bodies.to_vec(), vec![false; resting.bodies.len()]];
-        for part in separate(mechanism).unwrap_or_default().iter().filter(|part| !part.is_rough()) {
-            part.part
-                .bodies
-                .iter()
-                .for_each(|body| of[1][body.index()] = std::mem::take(&mut of[0][body.index()]));
-        }
-        let [rough, smooth] = of.each_ref().map(|bodies| Resting { bodies, ..resting });
-        let forever = hinged::hold(mechanism, configuration, rough);
-        if forever.is_none() || !smooth.bodies.contains(&true) {
-            return Ok(forever);
-        }
+        let smooth = Resting { bodies: &of(false), ..resting };
         Ok(Some(Box::new(Holding::new(mechanism, configuration, smooth)?)))
     }
 }
 
-/// The phases in which a mechanism can go on, taken as a whole.
+/// The phases in which a mechanism can go on.
 fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
     let found = super::continuations(instant)?;
     let one = |successor: super::Successor| Continuation {
@@ -100,19 +99,6 @@ fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
         verdict: successor.attainability.verdict,
         continues: successor.continues,
     };
-    Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
-}
-
-fn halting_impulse(instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-    if has_rough_hinges(instant.mechanism) {
-        return halting::halting_impulse(instant);
-    }
-    let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
-        return Ok(None);
-    };
-    let first = impulses.into_iter().next();
-    Ok(first.map(|impulse| HaltingImpulse {
-        velocities: impulse.after.velocities,
-        energy_lost: impulse.energy_lost,
-    }))
+    let left_out = !found.complete || !found.unsolved.is_empty();
+    Ok(Continuations { left_out, list: found.list.into_iter().map(one).collect() })
 }

@@ -20,7 +20,7 @@ impl State<'_> {
     /// What the equations leave open within every inequality of the state, with this static friction.
     pub(in crate::standstill) fn region(&self, static_friction: &StaticFriction) -> Region<'static> {
         let all = (0..self.setup.sliders.len()).flat_map(|slider| self.bounds_of(slider, static_friction));
-        let slacks = all.chain(self.pushes().into_iter().flatten()).chain(self.beginning());
+        let slacks = all.chain(self.beginning());
         let slacks = slacks.map(|slack| self.function(&slack)).collect();
         Region::new(self.solutions.dimension(), slacks).with_pins(self.pins(&static_friction.radii))
     }
@@ -50,13 +50,11 @@ impl State<'_> {
     /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do.
     pub(in crate::standstill) fn beginning(&self) -> Vec<AffineExpression> {
         let sliders = self.pattern.joints.iter().enumerate();
-        let sliders = sliders.map(|(index, joint)| (index, *joint, self.sliding_acceleration(index)));
-        let hinges = self.pattern.hinges.iter().enumerate().map(|(index, hinge)| {
-            (self.setup.sliders.len() + index, *hinge, self.turning_acceleration(index))
-        });
-        let begins = sliders.chain(hinges).filter(|(index, ..)| self.setup.known[*index].sign.is_none());
-        let moving = begins.filter(|(_, joint, _)| *joint != JointPhase::Sticking);
-        moving.map(|(_, joint, acceleration)| acceleration.times(joint.sign())).collect()
+        let sliders = sliders.map(|(index, joint)| (*joint, self.sliding_acceleration(index)));
+        let hinges = self.pattern.hinges.iter().enumerate();
+        let hinges = hinges.map(|(index, hinge)| (*hinge, self.turning_acceleration(index)));
+        let moving = sliders.chain(hinges).filter(|(joint, _)| *joint != JointPhase::Sticking);
+        moving.map(|(joint, acceleration)| acceleration.times(joint.sign())).collect()
     }
 
     /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones unless
