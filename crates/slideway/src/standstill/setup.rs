@@ -6,9 +6,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
-use crate::mechanism::{
-    Attachment, Effort, FrictionCircle, JointKind, Mechanism, Quantity,
-};
+use crate::mechanism::{Attachment, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};

@@ -58,9 +58,10 @@ impl<'s> Impulses<'s> {
     /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick or
     /// are pushed by their stops.
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
-        let wanted = jumps.iter().enumerate().map(|(number, jump)| {
-            jump / (self.instant.units_of_rubbing(number).acceleration * self.time())
-        });
+        let wanted = jumps
+            .iter()
+            .enumerate()
+            .map(|(number, jump)| jump / (self.instant.units_of_rubbing(number).acceleration * self.time()));
         Question {
             outputs: &self.outputs,
             wanted: wanted.collect(),
@@ -129,7 +130,8 @@ impl<'s> Impulses<'s> {
         if states > MOST_STATES {
             return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
         }
-        let options_of: Vec<Vec<JointPhase>> = members.iter().map(|number| options[*number].clone()).collect();
+        let options_of: Vec<Vec<JointPhase>> =
+            members.iter().map(|number| options[*number].clone()).collect();
         let any = Phase {
             joints: options[..instant.joints.len()].iter().map(|options| options[0]).collect(),
             contacts: vec![PRESSED[0]; self.outputs.columns[0].ncols()],
@@ -144,8 +146,8 @@ impl<'s> Impulses<'s> {
             members.iter().zip(does).for_each(|(number, does)| phase.set(*number, does));
             if group.turns(&phase) {
                 let turning = Turning::new(instant, question, (&phase, group));
-                let (phases, decided) = turning
-                    .map_or((Vec::new(), false), |turning| turning.phases(Work::undisturbed()));
+                let (phases, decided) =
+                    turning.map_or((Vec::new(), false), |turning| turning.phases(Work::undisturbed()));
                 *undecided += usize::from(!decided);
                 all.extend(phases);
             } else {

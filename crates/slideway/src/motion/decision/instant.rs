@@ -251,7 +251,9 @@ impl<'m> Instant<'m> {
 
     /// The units of one of the sliding joints and hinges with friction.
     pub(super) fn units_of_rubbing(&self, number: usize) -> Units {
-        self.joints.get(number).map_or_else(|| self.hinges[number - self.joints.len()].units, |joint| joint.units)
+        self.joints
+            .get(number)
+            .map_or_else(|| self.hinges[number - self.joints.len()].units, |joint| joint.units)
     }
 
     /// The joint of one of the sliding joints and hinges with friction.

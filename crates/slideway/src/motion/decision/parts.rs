@@ -124,7 +124,9 @@ impl PhaseSearch<'_> {
     fn is_undisturbed(&self, group: &Group, before: &Assessment) -> bool {
         let keeps = |number: usize| match before.phase.of(number) {
             JointPhase::Sticking => self.event.sign_of(number) == 0.0,
-            JointPhase::Sliding(sign) => self.event.sign_of(number) == sign || !self.instant.may_stick(number),
+            JointPhase::Sliding(sign) => {
+                self.event.sign_of(number) == sign || !self.instant.may_stick(number)
+            }
         };
         self.members(group).all(keeps) && before.least() > BOUNDARY && !before.redundant
     }
@@ -141,6 +143,9 @@ impl PhaseSearch<'_> {
         let mut most = 0;
         let undecided = RefCell::new(Vec::new());
         for (tried, phase) in (1..).zip(self.patterns(group, &undecided)) {
+            if self.event.work.is_over() {
+                break;
+            }
             let limit = if list.is_empty() { MOST_STATES } else { FURTHER_STATES };
             if tried > limit || (is_large && stuck(&phase) < most) {
                 if list.is_empty() {
@@ -200,9 +205,9 @@ impl PhaseSearch<'_> {
                 }
                 phase
             });
-            senses.filter(|phase| self.can_begin(group, phase)).flat_map(|phase| {
-                self.with_forces(group, phase, undecided)
-            })
+            senses
+                .filter(|phase| self.can_begin(group, phase))
+                .flat_map(|phase| self.with_forces(group, phase, undecided))
         })
     }
 

@@ -33,6 +33,8 @@ pub struct Successors {
     /// Whether the list is complete; otherwise there are so many states that some in which fewer joints stick
     /// were omitted.
     pub complete: bool,
+    /// The sliding joints and hinges with friction of the groups that cannot go on, whatever others do.
+    pub(super) blocked: Vec<JointId>,
 }
 
 /// A phase that can follow.
@@ -165,6 +167,9 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
     let PhaseSearch { event, detail, .. } = *search;
     let mut found = Successors { complete: true, ..Successors::default() };
     let mut parts = search.parts(&mut found)?;
+    let blocked = search.instant.groups.iter().zip(&parts).filter(|(_, parts)| parts.is_empty());
+    let members = blocked.flat_map(|(group, _)| group.members(search.instant.joints.len()));
+    found.blocked = members.filter_map(|number| search.instant.id_of(number)).collect();
     let is_few =
         parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len())) <= MOST_COMBINATIONS;
     found.complete &= is_few;

@@ -40,8 +40,9 @@ impl Decisions for Thorough {
         let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
             return Ok(None);
         };
-        let first = impulses.into_iter().next();
-        Ok(first.map(|impulse| HaltingImpulse {
+        let blocked = super::continuations(instant)?.blocked;
+        let stops = |impulse: &super::Impulse| blocked.is_empty() || blocked.contains(&impulse.wedged);
+        Ok(impulses.into_iter().find(stops).map(|impulse| HaltingImpulse {
             velocities: impulse.after.velocities,
             energy_lost: impulse.energy_lost,
         }))

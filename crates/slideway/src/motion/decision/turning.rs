@@ -118,7 +118,8 @@ impl<'t> Turning<'t> {
     fn phases_of(&self, solution: &BlockSolution) -> Vec<Phase> {
         let mut phase = self.phase.clone();
         for ((hinge, _), force) in self.hinges.iter().zip(&solution.reactions) {
-            phase.hinges[*hinge].force = force.map(|component| component * self.instant.hinges[*hinge].units.force);
+            phase.hinges[*hinge].force =
+                force.map(|component| component * self.instant.hinges[*hinge].units.force);
         }
         let mut all = vec![phase];
         for (index, (k, _)) in self.contacts.iter().enumerate() {
@@ -133,7 +134,8 @@ impl<'t> Turning<'t> {
                 phase.contacts[*k] = *option;
                 phase
             };
-            all = all.iter().flat_map(|phase| options.iter().map(move |option| with(phase, option))).collect();
+            all =
+                all.iter().flat_map(|phase| options.iter().map(move |option| with(phase, option))).collect();
         }
         all
     }
@@ -183,7 +185,8 @@ impl Held {
             }
         }
         let rows: Vec<usize> = held.iter().map(|number| instant.acceleration_output(*number)).collect();
-        let columns: Vec<DVector<f64>> = held.iter().map(|number| instant.response_to_force(*number)).collect();
+        let columns: Vec<DVector<f64>> =
+            held.iter().map(|number| instant.response_to_force(*number)).collect();
         let responses =
             DMatrix::from_fn(question.outputs.base.len(), held.len(), |row, column| columns[column][row]);
         let mobility = responses.select_rows(&rows).lu();
