@@ -24,6 +24,8 @@ pub(super) struct Impulses<'s> {
     outputs: Outputs,
     /// The greatest velocity of a sliding joint or hinge with friction (m/s).
     pub(super) speed: f64,
+    /// For each of them, the greatest in its group, beside which velocities are rounding.
+    pub(super) speeds: Vec<f64>,
 }
 
 /// Admissible states of a group, and the number of undecided patterns.
@@ -37,17 +39,24 @@ impl<'s> Impulses<'s> {
     pub(super) fn new(instant: &'s Instant<'s>) -> Self {
         let speeds = (0..instant.rubbing()).map(|number| instant.velocity(number).abs());
         let speed = speeds.fold(0.0, f64::max);
-        Self { instant, outputs: instant.impulse_outputs(), speed }
+        let mut speeds = vec![0.0; instant.rubbing()];
+        for group in &instant.groups {
+            let members = || group.members(instant.joints.len());
+            let greatest = members().map(|number| instant.velocity(number).abs()).fold(0.0, f64::max);
+            members().for_each(|number| speeds[number] = greatest);
+        }
+        Self { instant, outputs: instant.impulse_outputs(), speed, speeds }
     }
 
     /// The velocities of the sliding joints and hinges with friction (m/s), exactly zero where they are only rounding.
     pub(super) fn velocities(&self) -> Vec<f64> {
         let velocities = (0..self.instant.rubbing()).map(|number| self.instant.velocity(number));
-        velocities.map(|velocity| self.without_rounding(velocity)).collect()
+        velocities.enumerate().map(|(number, velocity)| self.without_rounding(number, velocity)).collect()
     }
 
-    pub(super) fn without_rounding(&self, velocity: f64) -> f64 {
-        if velocity.abs() <= AT_REST * self.speed { 0.0 } else { velocity }
+    /// A velocity of a joint or hinge, exactly zero where it is only rounding.
+    pub(super) fn without_rounding(&self, number: usize, velocity: f64) -> f64 {
+        if velocity.abs() <= AT_REST * self.speeds[number] { 0.0 } else { velocity }
     }
 
     /// The time in which the unit of acceleration produces the greatest sliding velocity (s).

@@ -182,7 +182,7 @@ impl ImpulseSearch<'_> {
         for (number, velocity) in self.velocities.iter().enumerate() {
             let JointPhase::Sliding(sign) = phase.of(number) else { continue };
             let jump = sign * instant.change(number, jumps);
-            if !instant.may_stick(number) || jump >= -AT_REST * self.impulses.speed {
+            if !instant.may_stick(number) || jump >= -AT_REST * self.impulses.speeds[number] {
                 continue;
             }
             if *velocity == 0.0 {
@@ -199,6 +199,6 @@ impl ImpulseSearch<'_> {
         if phase.of(number) == JointPhase::Sticking && self.velocities[number] == 0.0 {
             return 0.0;
         }
-        self.impulses.without_rounding(instant.velocity(number) + instant.change(number, jumps))
+        self.impulses.without_rounding(number, instant.velocity(number) + instant.change(number, jumps))
     }
 }

@@ -35,7 +35,9 @@ pub(super) fn impact(
             continue;
         }
         let size = instant.influence.frictionless.len();
-        let collision = Collision::new(mechanism, &hits, &velocities, size);
+        let mut of_group = vec![0.0; velocities.len()];
+        group.members(joints.len()).for_each(|number| of_group[number] = velocities[number]);
+        let collision = Collision::new(mechanism, &hits, &of_group, size);
         let before = &found.after;
         let course = outcome(collision, |collision, unsolved| {
             let instant = touching(&instant, collision);
@@ -113,12 +115,11 @@ impl Pushed<'_> {
         };
         let impulse = all.into_iter().find(of_group);
         Ok(impulse.map(|impulse| {
-            let velocities = impulse.velocities.iter().zip(&course.velocities);
-            Change {
-                velocities: velocities.map(|(after, before)| after - before).collect(),
-                jumps: impulse.jumps,
-                impulses: vec![0.0; self.collision.pushing().count()],
+            let mut velocities = vec![0.0; course.velocities.len()];
+            for number in self.group.members(joints.len()) {
+                velocities[number] = impulse.velocities[number] - course.velocities[number];
             }
+            Change { velocities, jumps: impulse.jumps, impulses: vec![0.0; self.collision.pushing().count()] }
         }))
     }
 
