@@ -19,7 +19,7 @@ impl Instant<'_> {
         let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
         Question {
             outputs: &self.outputs,
-            wanted: vec![0.0; self.joints.len()],
+            wanted: vec![0.0; self.rubbing()],
             has_preload: true,
             sides: match slides {
                 Some(phase) => phase.contacts.iter().map(|contact| vec![*contact]).collect(),
@@ -43,8 +43,8 @@ impl Instant<'_> {
 /// 4).
 fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let contacts = 0..instant.mechanism.contacts.len();
-    // A stop can push with any force.
-    let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0);
+    // A stop can push with any force, and what is known of the forces of hinges is their couples.
+    let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0) && instant.hinges.is_empty();
     let change = if is_free { greatest_changes(instant) } else { None };
     contacts
         .map(|j| {

@@ -141,9 +141,9 @@ fn limit(instant: &Instant<'_>, subject: Decisive) -> PhaseBound {
         Decisive::One(Subject::Pressure(k)) => PhaseBound::NormalForce(ContactId(k)),
         Decisive::One(Subject::Share(k)) => PhaseBound::PreloadShare(ContactId(k)),
         Decisive::One(Subject::Couple(k)) => PhaseBound::Couple(ContactId(k)),
-        Decisive::One(Subject::Friction(_)) | Decisive::Open(_) => PhaseBound::Sticking,
+        Decisive::One(Subject::Friction(_) | Subject::Circle(_)) | Decisive::Open(_) => PhaseBound::Sticking,
         Decisive::One(Subject::Slip(joint)) => {
-            PhaseBound::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
+            PhaseBound::Slip(instant.id_of(joint).unwrap_or(JointId(joint)))
         }
     }
 }
