@@ -7,6 +7,7 @@ use super::outputs::{Group, Outputs};
 use super::successors::combinations;
 use super::system::Question;
 use super::turning::Turning;
+use super::units::Units;
 use super::{BOUNDARY, MOST_STATES};
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -22,10 +23,10 @@ pub(super) const AT_REST: f64 = 1e-9;
 pub(super) struct Impulses<'s> {
     pub(super) instant: &'s Instant<'s>,
     outputs: Outputs,
-    /// The greatest velocity of a sliding joint or hinge with friction (m/s).
-    pub(super) speed: f64,
-    /// For each of them, the greatest in its group, beside which velocities are rounding.
+    /// For each sliding joint and hinge with friction the greatest velocity in its group (m/s), beside which velocities are
+    /// rounding.
     pub(super) speeds: Vec<f64>,
+    pub(super) work: Work<'s>,
 }
 
 /// Admissible states of a group, and the number of undecided patterns.
@@ -36,16 +37,15 @@ pub(super) struct Admissible {
 }
 
 impl<'s> Impulses<'s> {
-    pub(super) fn new(instant: &'s Instant<'s>) -> Self {
-        let speeds = (0..instant.rubbing()).map(|number| instant.velocity(number).abs());
-        let speed = speeds.fold(0.0, f64::max);
+    /// Those at an instant; once the work is to end, what is left of it counts as undecided.
+    pub(super) fn new(instant: &'s Instant<'s>, work: Work<'s>) -> Self {
         let mut speeds = vec![0.0; instant.rubbing()];
         for group in &instant.groups {
             let members = || group.members(instant.joints.len());
             let greatest = members().map(|number| instant.velocity(number).abs()).fold(0.0, f64::max);
             members().for_each(|number| speeds[number] = greatest);
         }
-        Self { instant, outputs: instant.impulse_outputs(), speed, speeds }
+        Self { instant, outputs: instant.impulse_outputs(), speeds, work }
     }
 
     /// The velocities of the sliding joints and hinges with friction (m/s), exactly zero where they are only rounding.
@@ -59,9 +59,9 @@ impl<'s> Impulses<'s> {
         if velocity.abs() <= AT_REST * self.speeds[number] { 0.0 } else { velocity }
     }
 
-    /// The time in which the unit of acceleration produces the greatest sliding velocity (s).
-    fn time(&self) -> f64 {
-        self.speed / self.instant.units.acceleration
+    /// The time in which the unit of acceleration of a joint or hinge produces the greatest velocity in its group (s).
+    fn time(&self, number: usize) -> f64 {
+        self.speeds[number] / self.instant.units_of_rubbing(number).acceleration
     }
 
     /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick or
@@ -69,8 +69,8 @@ impl<'s> Impulses<'s> {
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
         let wanted = jumps
             .iter()
-            .enumerate()
-            .map(|(number, jump)| jump / (self.instant.units_of_rubbing(number).acceleration * self.time()));
+            .zip(&self.speeds)
+            .map(|(jump, speed)| if *jump == 0.0 { 0.0 } else { jump / speed });
         Question {
             outputs: &self.outputs,
             wanted: wanted.collect(),
@@ -106,6 +106,10 @@ impl<'s> Impulses<'s> {
     ) -> Result<Admissible, Faults> {
         let mut found = Admissible::default();
         for phase in self.states(question, options, (group, &mut found.unsolved))? {
+            if self.work.is_over() {
+                found.unsolved += 1;
+                break;
+            }
             match assess_group(self.instant, question, (&phase, group), f64::INFINITY) {
                 Err(_) => found.unsolved += 1,
                 Ok(Some(state)) if state.least() >= -BOUNDARY => found.list.push(state),
@@ -156,7 +160,7 @@ impl<'s> Impulses<'s> {
             if group.turns(&phase) {
                 let turning = Turning::new(instant, question, (&phase, group));
                 let (phases, decided) =
-                    turning.map_or((Vec::new(), false), |turning| turning.phases(Work::undisturbed()));
+                    turning.map_or((Vec::new(), false), |turning| turning.phases(self.work));
                 *undecided += usize::from(!decided);
                 all.extend(phases);
             } else {
@@ -169,7 +173,7 @@ impl<'s> Impulses<'s> {
 
     /// The unit of the impulses of a contact (N s).
     pub(super) fn unit(&self, k: usize) -> f64 {
-        self.instant.units_of(k).force * self.time()
+        self.instant.joint_of(k).map_or(0.0, |joint| self.instant.units_of(k).force * self.time(joint))
     }
 
     /// The impulses of friction and of stops in a state (N s).
@@ -182,8 +186,10 @@ impl<'s> Impulses<'s> {
     pub(super) fn jumps(&self, state: &Assessment) -> DVector<f64> {
         let Influence { couples, .. } = &self.instant.influence;
         let mut jumps = self.instant.influence.of_friction(&self.frictions(state));
-        for ((hinge, couple), column) in self.instant.hinges.iter().zip(&state.forces.couples).zip(couples) {
-            jumps.axpy(couple * hinge.units.force * hinge.units.length * self.time(), column, 1.0);
+        for ((number, couple), column) in state.forces.couples.iter().enumerate().zip(couples) {
+            let Units { force, length, .. } = self.instant.hinges[number].units;
+            let time = self.time(self.instant.number_of(number));
+            jumps.axpy(couple * force * length * time, column, 1.0);
         }
         jumps
     }

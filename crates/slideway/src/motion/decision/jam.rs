@@ -12,6 +12,7 @@ use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::{JointPhase, Phase};
+use crate::progress::Work;
 use nalgebra::DVector;
 
 /// The effect of an impulse that ends a jam.
@@ -80,8 +81,20 @@ pub enum Jam {
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and more states than
 /// are tried.
 pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, Faults> {
+    jam_within(mechanism, configuration, Work::undisturbed())
+}
+
+/// The impulses of [`jam`], in work that may end: then some are missing.
+///
+/// # Errors
+/// As [`jam`].
+pub(super) fn jam_within(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    work: Work<'_>,
+) -> Result<Jam, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
-    let impulses = Impulses::new(&instant);
+    let impulses = Impulses::new(&instant, work);
     let velocities = impulses.velocities();
     let slides = |number: &usize| instant.may_stick(*number) && velocities[*number] != 0.0;
     let moving: Vec<usize> = (0..velocities.len()).filter(slides).collect();

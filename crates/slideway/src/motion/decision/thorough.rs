@@ -1,6 +1,7 @@
 //! Every state of joints and contacts is tried.
 
 use super::holding::Holding;
+use super::jam::jam_within;
 use super::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
@@ -37,7 +38,7 @@ impl Decisions for Thorough {
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-        let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
+        let super::Jam::Stops(impulses) = jam_within(instant.mechanism, instant.configuration, instant.work)? else {
             return Ok(None);
         };
         let blocked = super::continuations(instant)?.blocked;

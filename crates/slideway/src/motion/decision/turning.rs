@@ -14,6 +14,7 @@ use super::system::Question;
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
 use crate::modes::{BySide, ContactState, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase, Phase, direction};
+use crate::problem::BlockNumbers;
 use crate::progress::Work;
 use nalgebra::{DMatrix, DVector};
 
@@ -87,24 +88,19 @@ impl<'t> Turning<'t> {
     }
 
     fn problem(&self) -> Option<BlockProblem> {
-        let contacts = self.contacts.len();
         let matrix = |columns: Vec<DVector<f64>>| {
             DMatrix::from_fn(self.base.len(), columns.len(), |row, column| columns[column][row])
         };
-        let part = |side: Side, part: usize| {
-            (0..contacts).map(move |index| {
-                let [response, jump] = self.friction(index, side);
-                if part == 0 { response } else { jump }
-            })
-        };
+        let contacts = |side: Side| (0..self.contacts.len()).map(move |index| self.friction(index, side));
         let hinges = || (0..self.hinges.len()).map(|index| self.couple(index));
-        let response = |side: Side| matrix(part(side, 0).chain(hinges()).collect());
-        let jumps = |side: Side| matrix(part(side, 1).collect());
-        let [response, jumps] = [
-            BySide { positive: response(Side::Positive), negative: response(Side::Negative) },
-            BySide { positive: jumps(Side::Positive), negative: jumps(Side::Negative) },
-        ];
-        BlockProblem::new(response, jumps, self.base.clone()).ok()
+        let numbers = BlockNumbers {
+            response: BySide::of(|side| {
+                matrix(contacts(side).map(|[response, _]| response).chain(hinges()).collect())
+            }),
+            jumps: BySide::of(|side| matrix(contacts(side).map(|[_, jump]| jump).collect())),
+            load: self.base.clone(),
+        };
+        numbers.problem().ok()
     }
 
     /// The phases of all solutions, those without a normal force at a contact on either side, and whether these are all.

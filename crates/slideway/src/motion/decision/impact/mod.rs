@@ -12,8 +12,10 @@ use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::pattern::phase::sliding_joints;
+use crate::progress::Work;
 use nalgebra::DVector;
 use pushed::Pushed;
+pub(in crate::motion) use pushed::impact_within;
 
 /// The effect of an impact on end stops.
 #[derive(Debug, Clone)]
@@ -72,7 +74,7 @@ pub fn impact(
     configuration: &Configuration,
     stops: &[(JointId, f64)],
 ) -> Result<Impact, Faults> {
-    pushed::impact(mechanism, configuration, stops)
+    impact_within(mechanism, configuration, stops, Work::undisturbed())
 }
 
 /// A joint that has reached its stop.

@@ -9,23 +9,26 @@ use crate::modes::Side;
 use crate::motion::decision::assessment::Assessment;
 use crate::motion::decision::impulse::Impulses;
 use crate::motion::decision::instant::Instant;
-use crate::motion::decision::jam::{Impulse, Jam, jam};
+use crate::motion::decision::jam::{Impulse, Jam, jam_within};
 use crate::motion::decision::outputs::Group;
 use crate::motion::decision::parts::SAME;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::{ContactPhase, JointPhase};
+use crate::progress::Work;
 
-/// The impact of joints, each group of joints that act on one another by itself.
+/// The impact of joints, each group of joints that act on one another by itself, in work that may end: then it comes to
+/// nothing.
 ///
 /// # Errors
 /// As [`impact`](super::impact).
-pub(super) fn impact(
+pub(in crate::motion) fn impact_within(
     mechanism: &Mechanism,
     configuration: &Configuration,
     stops: &[(JointId, f64)],
+    work: Work<'_>,
 ) -> Result<Impact, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
-    let velocities = Impulses::new(&instant).velocities();
+    let velocities = Impulses::new(&instant, work).velocities();
     let joints: Vec<JointId> = instant.joints.iter().map(|joint| joint.id).collect();
     let hits = hits(stops, &joints, &velocities);
     let mut found = Impact { after: configuration.clone(), blows: Vec::new() };
@@ -41,10 +44,10 @@ pub(super) fn impact(
         let before = &found.after;
         let course = outcome(collision, |collision, unsolved| {
             let instant = touching(&instant, collision);
-            let impulses = Impulses::new(&instant);
+            let impulses = Impulses::new(&instant, work);
             collision.outcome(&Pushed { impulses: &impulses, group, before, collision }, unsolved)
         })?;
-        let after = Impulses::new(&instant).moved(&found.after, &course.jumps);
+        let after = Impulses::new(&instant, work).moved(&found.after, &course.jumps);
         let stops = hits.iter().map(|hit| hit.id).zip(course.impulses).collect();
         let energy_lost = kinetic(mechanism, &found.after) - kinetic(mechanism, &after);
         found.blows.push(Blow { stops, energy_lost });
@@ -109,7 +112,7 @@ impl Pushed<'_> {
         let instant = self.impulses.instant;
         let Instant { mechanism, joints, .. } = instant;
         let configuration = self.impulses.moved(self.before, &course.jumps);
-        let Jam::Stops(all) = jam(mechanism, &configuration)? else { return Ok(None) };
+        let Jam::Stops(all) = jam_within(mechanism, &configuration, self.impulses.work)? else { return Ok(None) };
         let of_group = |impulse: &Impulse| {
             self.group.members(joints.len()).any(|number| instant.id_of(number) == Some(impulse.wedged))
         };
