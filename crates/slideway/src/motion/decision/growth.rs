@@ -31,8 +31,16 @@ struct Accelerations {
     coordinates: Vec<f64>,
 }
 
-/// How a phase stands to its bounds; otherwise the bounds that it violates at once, or none if its equations
-/// contradict each other a little later.
+/// Why a phase does not last.
+#[derive(Default)]
+pub(super) struct Ended {
+    /// The bounds that it violates at once; none if its equations contradict each other a little later.
+    pub(super) violated: Vec<Decisive>,
+    /// The joints and hinges with friction that this concerns, with all on which their motion depends.
+    pub(super) members: Vec<usize>,
+}
+
+/// How a phase stands to its bounds; otherwise why it does not last.
 ///
 /// The time in which the motion can change is that in which accelerations or velocities carry the mechanism
 /// through its own length, or that over which four samples show what the loads do.
@@ -44,7 +52,7 @@ struct Accelerations {
 pub(super) fn standing(
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
-) -> Result<Standing, Vec<Decisive>> {
+) -> Result<Standing, Ended> {
     let at_bounds = |slacks: &[Slack]| -> Vec<Decisive> {
         slacks.iter().filter(|slack| slack.value <= BOUNDARY).map(|slack| slack.subject).collect()
     };
@@ -55,7 +63,7 @@ pub(super) fn standing(
     if bounds.is_empty() && !assessment.redundant {
         return Ok(Standing::Inside);
     }
-    let (mut violated, mut constant) = (Vec::new(), Vec::new());
+    let (mut ended, mut constant) = (Ended::default(), Vec::new());
     for part in Part::all(instant.mechanism) {
         let slacks = part.slacks(instant, &assessment.slacks);
         let own = at_bounds(&slacks);
@@ -66,16 +74,17 @@ pub(super) fn standing(
         let start = (configuration, accelerations(instant, assessment));
         let flow = Flow { instant, phase: &assessment.phase, stopped: question.stopped, part: &part };
         match flow.judged(start, step, Bounds { slacks: &slacks }) {
+            Ok(Later::Lasts(judged)) if judged.violated.is_empty() => constant.extend(judged.constant),
             Ok(Later::Lasts(judged)) => {
-                violated.extend(judged.violated);
-                constant.extend(judged.constant);
+                ended.violated.extend(judged.violated);
+                ended.members.extend(part.members(instant));
             }
-            Ok(Later::Ends) => return Err(Vec::new()),
+            Ok(Later::Ends) => return Err(Ended { violated: Vec::new(), members: part.members(instant).collect() }),
             Ok(Later::Unsolved) | Err(_) => constant.extend(own),
         }
     }
-    if !violated.is_empty() {
-        return Err(violated);
+    if !ended.members.is_empty() {
+        return Err(ended);
     }
     Ok(if bounds.is_empty() {
         Standing::Inside
@@ -186,6 +195,10 @@ impl Part {
         body.is_some_and(|body| self.bodies[body.index()])
     }
 
+    fn members(&self, instant: &Instant<'_>) -> impl Iterator<Item = usize> {
+        (0..instant.rubbing()).filter(|number| self.has(instant, *number))
+    }
+
     fn groups<'i>(&self, instant: &'i Instant<'_>) -> impl Iterator<Item = &'i Group> {
         let joints = instant.joints.len();
         instant.groups.iter().filter(move |group| group.members(joints).any(|number| self.has(instant, number)))
@@ -211,8 +224,7 @@ impl Part {
         let velocities = configuration.velocities.iter().zip(&self.bodies).filter(|(_, counts)| **counts);
         let speeds = velocities.map(|(v, _)| v.linear.norm().max(v.angular.abs() * length));
         let speed = speeds.fold(0.0, f64::max);
-        let members = (0..instant.rubbing()).filter(|number| self.has(instant, *number));
-        let accelerations = members.map(|number| instant.units_of_rubbing(number).acceleration);
+        let accelerations = self.members(instant).map(|number| instant.units_of_rubbing(number).acceleration);
         let by_forces = (length / accelerations.fold(0.0, f64::max)).sqrt();
         let scale = by_forces.min(if speed > 0.0 { length / speed } else { f64::INFINITY });
         let resolution = Resolution::of_bodies(instant.mechanism, |body| self.bodies[body]);

@@ -81,21 +81,23 @@ pub enum Jam {
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and more states than
 /// are tried.
 pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, Faults> {
-    jam_within(mechanism, configuration, Work::undisturbed())
+    jam_within(mechanism, configuration, (&|_| false, Work::undisturbed()))
 }
 
-/// The impulses of [`jam`], in work that may end: then some are missing.
+/// The impulses of [`jam`], where some of the sliding joints and hinges with friction are known to be at rest whatever rounding
+/// leaves of their velocities, in work that may end: then some are missing.
 ///
 /// # Errors
 /// As [`jam`].
 pub(super) fn jam_within(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    work: Work<'_>,
+    (rests, work): (&dyn Fn(usize) -> bool, Work<'_>),
 ) -> Result<Jam, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
     let impulses = Impulses::new(&instant, work);
-    let velocities = impulses.velocities();
+    let mut velocities = impulses.velocities();
+    velocities.iter_mut().enumerate().filter(|(number, _)| rests(*number)).for_each(|(_, velocity)| *velocity = 0.0);
     let slides = |number: &usize| instant.may_stick(*number) && velocities[*number] != 0.0;
     let moving: Vec<usize> = (0..velocities.len()).filter(slides).collect();
     if moving.is_empty() {

@@ -1,8 +1,8 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::{Assessment, Decisive};
+use super::assessment::Assessment;
 use super::elastic::attainability;
-use super::growth::standing;
+use super::growth::{Ended, standing};
 use super::instant::Instant;
 use super::parts::{Detail, GroupPhase, PhaseSearch};
 use super::rules;
@@ -167,9 +167,6 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
     let PhaseSearch { event, detail, .. } = *search;
     let mut found = Successors { complete: true, ..Successors::default() };
     let mut parts = search.parts(&mut found)?;
-    let blocked = search.instant.groups.iter().zip(&parts).filter(|(_, parts)| parts.is_empty());
-    let members = blocked.flat_map(|(group, _)| group.members(search.instant.joints.len()));
-    found.blocked = members.filter_map(|number| search.instant.id_of(number)).collect();
     let is_few =
         parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len())) <= MOST_COMBINATIONS;
     found.complete &= is_few;
@@ -185,11 +182,14 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
         };
         outcomes.sort_by_cached_key(place);
     }
+    found.blocked = blocked(search.instant, &parts, &outcomes);
     for CombinedPhase { chosen, whole, standing } in outcomes {
         let parts: Vec<&GroupPhase> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
         match standing {
             Ok(standing) => found.list.push(successor(search, &whole, (&parts, standing))),
-            Err(violated) => found.tipping.extend(search.instant.tipping(&whole.phase, violated.into_iter())),
+            Err(Ended { violated, .. }) => {
+                found.tipping.extend(search.instant.tipping(&whole.phase, violated.into_iter()));
+            }
         }
     }
     // Unless there is evidence to the contrary, what has fallen to zero continues to fall.
@@ -214,7 +214,24 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
 struct CombinedPhase {
     chosen: Vec<usize>,
     whole: Assessment,
-    standing: Result<Standing, Vec<Decisive>>,
+    standing: Result<Standing, Ended>,
+}
+
+/// The sliding joints and hinges with friction that cannot go on, whatever others do: those of groups that can do nothing, and
+/// those that end every phase.
+fn blocked(instant: &Instant<'_>, parts: &[Vec<GroupPhase>], outcomes: &[CombinedPhase]) -> Vec<JointId> {
+    let is_empty = |number: &usize| {
+        let mut groups = instant.groups.iter().zip(parts).filter(|(_, parts)| parts.is_empty());
+        groups.any(|(group, _)| group.members(instant.joints.len()).any(|member| member == *number))
+    };
+    let ends = |number: &usize| {
+        let ended = |outcome: &CombinedPhase| {
+            outcome.standing.as_ref().is_err_and(|ended| ended.members.contains(number))
+        };
+        !outcomes.is_empty() && outcomes.iter().all(ended)
+    };
+    let all = 0..instant.rubbing();
+    all.filter(|number| is_empty(number) || ends(number)).filter_map(|number| instant.id_of(number)).collect()
 }
 
 fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usize>) -> CombinedPhase {

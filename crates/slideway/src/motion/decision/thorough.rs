@@ -38,9 +38,9 @@ impl Decisions for Thorough {
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-        let super::Jam::Stops(impulses) = jam_within(instant.mechanism, instant.configuration, instant.work)? else {
-            return Ok(None);
-        };
+        let rests = |number: usize| instant.sign_of(number) == 0.0;
+        let found = jam_within(instant.mechanism, instant.configuration, (&rests, instant.work))?;
+        let super::Jam::Stops(impulses) = found else { return Ok(None) };
         let blocked = super::continuations(instant)?.blocked;
         let stops = |impulse: &super::Impulse| blocked.is_empty() || blocked.contains(&impulse.wedged);
         Ok(impulses.into_iter().find(stops).map(|impulse| HaltingImpulse {

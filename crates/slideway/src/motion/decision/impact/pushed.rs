@@ -112,7 +112,9 @@ impl Pushed<'_> {
         let instant = self.impulses.instant;
         let Instant { mechanism, joints, .. } = instant;
         let configuration = self.impulses.moved(self.before, &course.jumps);
-        let Jam::Stops(all) = jam_within(mechanism, &configuration, self.impulses.work)? else { return Ok(None) };
+        let rests = |number: usize| course.velocities[number] == 0.0;
+        let found = jam_within(mechanism, &configuration, (&rests, self.impulses.work))?;
+        let Jam::Stops(all) = found else { return Ok(None) };
         let of_group = |impulse: &Impulse| {
             self.group.members(joints.len()).any(|number| instant.id_of(number) == Some(impulse.wedged))
         };
