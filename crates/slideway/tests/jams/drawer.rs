@@ -165,7 +165,9 @@ fn a_slow_drawer_beside_a_fast_one_jams_with_its_own_impulse() {
         .rate("second_x", "1e4 m/s");
     let mechanism = Mechanism::new(&two_drawers().with(&settings).unwrap()).unwrap();
     let configuration = Configuration::new(&mechanism).unwrap();
-    let decision::Jam::Stops(impulses) = jam(&mechanism, &configuration).unwrap() else { panic!("they stop") };
+    let decision::Jam::Stops(impulses) = jam(&mechanism, &configuration).unwrap() else {
+        panic!("they stop")
+    };
     let of_slow: Vec<_> = impulses.iter().filter(|impulse| impulse.sliding_velocities[0] == 0.0).collect();
     assert!(!of_slow.is_empty(), "{impulses:?}");
     for impulse in of_slow {

@@ -79,7 +79,9 @@ pub(super) fn standing(
                 ended.violated.extend(judged.violated);
                 ended.members.extend(part.members(instant));
             }
-            Ok(Later::Ends) => return Err(Ended { violated: Vec::new(), members: part.members(instant).collect() }),
+            Ok(Later::Ends) => {
+                return Err(Ended { violated: Vec::new(), members: part.members(instant).collect() });
+            }
             Ok(Later::Unsolved) | Err(_) => constant.extend(own),
         }
     }
@@ -186,7 +188,9 @@ impl Part {
         let numbers = independent(mechanism);
         let is_one = |number: &usize| numbers.contains(number);
         let parts: Vec<usize> = (0..numbers.len()).filter(is_one).collect();
-        parts.into_iter().map(move |part| Self { bodies: numbers.iter().map(|number| *number == part).collect() })
+        parts
+            .into_iter()
+            .map(move |part| Self { bodies: numbers.iter().map(|number| *number == part).collect() })
     }
 
     /// Whether one of the sliding joints and hinges with friction belongs to it.
@@ -201,7 +205,10 @@ impl Part {
 
     fn groups<'i>(&self, instant: &'i Instant<'_>) -> impl Iterator<Item = &'i Group> {
         let joints = instant.joints.len();
-        instant.groups.iter().filter(move |group| group.members(joints).any(|number| self.has(instant, number)))
+        instant
+            .groups
+            .iter()
+            .filter(move |group| group.members(joints).any(|number| self.has(instant, number)))
     }
 
     /// Its own of these slacks.
@@ -327,7 +334,13 @@ impl Flow<'_> {
     }
 
     /// The configuration after a step in which accelerations vary linearly in time from `start` to `end`.
-    fn advanced(&self, from: &Configuration, start: &Accelerations, end: &Accelerations, step: f64) -> Configuration {
+    fn advanced(
+        &self,
+        from: &Configuration,
+        start: &Accelerations,
+        end: &Accelerations,
+        step: f64,
+    ) -> Configuration {
         let way = |velocity: f64, a: f64, b: f64| step * (velocity + step * (2.0 * a + b) / 6.0);
         let gain = |a: f64, b: f64| step * f64::midpoint(a, b);
         let part = |accelerations: &Accelerations, body: usize| -> [f64; 3] {
@@ -351,7 +364,10 @@ impl Flow<'_> {
         Configuration {
             poses: from.poses.iter().zip(&from.velocities).enumerate().map(pose).collect(),
             velocities: from.velocities.iter().enumerate().map(velocity).collect(),
-            coordinates: coordinates.zip(both.clone()).map(|((q, qd), (a, b))| q + way(*qd, *a, *b)).collect(),
+            coordinates: coordinates
+                .zip(both.clone())
+                .map(|((q, qd), (a, b))| q + way(*qd, *a, *b))
+                .collect(),
             rates: from.rates.iter().zip(both).map(|(qd, (a, b))| qd + gain(*a, *b)).collect(),
             time: from.time + step,
             steps: from.steps,

@@ -67,10 +67,8 @@ impl<'s> Impulses<'s> {
     /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick or
     /// are pushed by their stops.
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
-        let wanted = jumps
-            .iter()
-            .zip(&self.speeds)
-            .map(|(jump, speed)| if *jump == 0.0 { 0.0 } else { jump / speed });
+        let wanted =
+            jumps.iter().zip(&self.speeds).map(|(jump, speed)| if *jump == 0.0 { 0.0 } else { jump / speed });
         Question {
             outputs: &self.outputs,
             wanted: wanted.collect(),

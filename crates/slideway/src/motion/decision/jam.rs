@@ -97,7 +97,11 @@ pub(super) fn jam_within(
     let instant = Instant::new(mechanism, configuration)?;
     let impulses = Impulses::new(&instant, work);
     let mut velocities = impulses.velocities();
-    velocities.iter_mut().enumerate().filter(|(number, _)| rests(*number)).for_each(|(_, velocity)| *velocity = 0.0);
+    velocities
+        .iter_mut()
+        .enumerate()
+        .filter(|(number, _)| rests(*number))
+        .for_each(|(_, velocity)| *velocity = 0.0);
     let slides = |number: &usize| instant.may_stick(*number) && velocities[*number] != 0.0;
     let moving: Vec<usize> = (0..velocities.len()).filter(slides).collect();
     if moving.is_empty() {
