@@ -42,7 +42,7 @@
 //! `standstill` stands beside `solve` and takes `kinetics::Assembled`, the equations without factorization:
 //! at rest they need no inertia. `setup.rs` is the mechanism at rest with its varied load, `state/` the equations
 //! of one state of joints and contacts, and its inequalities, `directions.rs` which way joints may move together; `rest.rs`,
-//! `threshold.rs` and `release.rs` are the questions, `instant.rs` that of a mechanism in motion with friction in hinges, `turning.rs` its states in which some turn.
+//! `threshold.rs` and `release.rs` are the questions, and `turning.rs` finds the states in which hinges with friction turn.
 
 mod answer;
 mod directions;
