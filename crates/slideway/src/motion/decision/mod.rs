@@ -38,7 +38,9 @@
 //! such force, the unit is the force that the loads reach within the time in which they take the mechanism
 //! through its own size; within a motion, it is at least what counts as rounding beside its greatest force. A
 //! slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6 per
-//! unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
+//! unit of the time in which the bodies move through the length of the mechanism, second derivatives below 2e-3. Bodies that
+//! have nothing to do with one another have each their own units and their own time, so that none changes what is decided of
+//! another.
 //!
 //! # Files
 //! `rules.rs` defines what the simulation asks, `thorough.rs` answers. `instant.rs` is a mechanism at one
