@@ -23,7 +23,7 @@ use evaluation::Evaluation;
 pub use excess::Excess;
 use nalgebra::Vector2;
 pub use pad::Pad;
-pub(crate) use part::{Part, body_of, frames_of};
+pub(crate) use part::{body_of, frames_of};
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
 

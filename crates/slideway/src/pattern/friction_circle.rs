@@ -50,6 +50,17 @@ pub(crate) struct Pin {
 }
 
 impl Pin {
+    /// Whether its force or its couple is no constant.
+    pub(crate) fn varies(&self) -> bool {
+        self.couple.varies() || self.reaction.iter().any(Affine::varies)
+    }
+
+    /// `r |R| - |M|` where both are constants.
+    pub(crate) fn slack_of_constants(&self) -> f64 {
+        let [x, y] = &self.reaction;
+        self.radius * x.constant.hypot(y.constant) - self.couple.constant.abs() + self.allowance
+    }
+
     /// `|M| <= r c.R`.
     fn within(&self, direction: [f64; 2]) -> Vec<Affine> {
         [-1.0, 1.0].map(|sign| self.slack(1.0, direction, sign)).to_vec()

@@ -49,6 +49,19 @@ impl Phase {
         self.joints_and_hinges().any(|joint| joint == JointPhase::Sticking)
     }
 
+    /// What one of the sliding joints and hinges with friction does.
+    pub(crate) fn of(&self, number: usize) -> JointPhase {
+        self.joints.get(number).copied().unwrap_or_else(|| self.hinges[number - self.joints.len()].state)
+    }
+
+    /// Lets one of the sliding joints and hinges with friction do something.
+    pub(crate) fn set(&mut self, number: usize, does: JointPhase) {
+        match number.checked_sub(self.joints.len()) {
+            None => self.joints[number] = does,
+            Some(hinge) => self.hinges[hinge].state = does,
+        }
+    }
+
     /// What the sliding joints do, then the hinges with friction.
     pub(crate) fn joints_and_hinges(&self) -> impl Iterator<Item = JointPhase> {
         self.joints.iter().copied().chain(self.hinges.iter().map(|hinge| hinge.state))

@@ -42,11 +42,10 @@
 //! `standstill` stands beside `solve` and takes `kinetics::Assembled`, the equations without factorization:
 //! at rest they need no inertia. `setup.rs` is the mechanism at rest with its varied load, `state/` the equations
 //! of one state of joints and contacts, and its inequalities, `directions.rs` which way joints may move together; `rest.rs`,
-//! `threshold.rs` and `release.rs` are the questions, `instant.rs` that of a mechanism in motion with friction in hinges, `turning.rs` its states in which some turn.
+//! `threshold.rs` and `release.rs` are the questions, and `turning.rs` finds the states in which hinges with friction turn.
 
 mod answer;
 mod directions;
-mod instant;
 mod reactions;
 mod release;
 mod report;
@@ -71,10 +70,9 @@ use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::sharing::load_sharing;
 use directions::{directions, most_directions};
-pub(crate) use instant::{MotionState, motion_states, sticking_slack, whole_slack};
 use nalgebra::DMatrix;
 use rest::Over;
-pub(crate) use setup::{KnownMotion, Setup};
+use setup::Setup;
 pub(crate) use state::Pattern;
 use state::side_options;
 
@@ -212,7 +210,7 @@ impl Beginning {
         let motions = held_motions(setup);
         let motions_without_inertia = undriven_without_inertia(setup, &motions);
         let has_inertia = motions_without_inertia.is_empty();
-        let directions = if has_inertia { directions(setup, &motions, false) } else { Vec::new() };
+        let directions = if has_inertia { directions(setup, &motions) } else { Vec::new() };
         let releases = release::releases(setup, &directions, is_held, work.part(0, 2));
         let verdict = if has_inertia {
             let moves = !releases.found.is_empty();

@@ -1,12 +1,11 @@
 //! States in which a mechanism begins to move: every joint sticks or slips one way or the other.
 
-use super::instant::MotionState;
 use super::reactions::{range, reactions};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
 use super::rest::{Over, possible, static_friction, symbols, until_over};
 use super::setup::{Setup, SlidingJoint};
 use super::state::{Pattern, State, StateQuestion, sides};
-use super::turning::{TurningStates, turning_states};
+use super::turning::{TurningState, TurningStates, turning_states};
 use super::words::slip_in_words;
 use super::{TOLERANCE, held_motions};
 use crate::configuration::unit;
@@ -70,7 +69,7 @@ fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'
 }
 
 /// How a mechanism begins to move in a state in which hinges turn.
-fn turned(setup: &Setup, state: &MotionState, work: Work<'_>) -> Result<Option<Release>, Unsolved> {
+fn turned(setup: &Setup, state: &TurningState, work: Work<'_>) -> Result<Option<Release>, Unsolved> {
     let directions: Vec<[f64; 2]> = state.forces.iter().map(|force| direction(*force)).collect();
     let question = (question(setup), Some(&directions[..]));
     let Some(linear) = State::turning(setup, &state.pattern, question) else { return Ok(None) };

@@ -5,10 +5,8 @@ use super::HoldOptions;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
-use crate::kinetics::{Assembled, ConstraintRow, Reaction};
-use crate::mechanism::{
-    Attachment, Contact, CoordinateKind, Effort, FrictionCircle, JointKind, Mechanism, Quantity,
-};
+use crate::kinetics::{Assembled, Reaction};
+use crate::mechanism::{Attachment, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
@@ -71,22 +69,6 @@ pub(crate) struct Setup {
     pub(crate) units: Units,
     /// How redundant guides share their load; none if nothing is in excess.
     pub(super) shared: Option<SharedLoad>,
-    /// Of the sliding joints, then of the hinges with friction, what is known.
-    pub(super) known: Vec<KnownMotion>,
-    /// The end stop that each sliding joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0. Whatever
-    /// sticks there may be pushed, too.
-    pub(crate) stops: Vec<f64>,
-}
-
-/// What is known of the motion of a sliding joint or hinge.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct KnownMotion {
-    /// The sign of its velocity, 0 where it has to stick; nothing where it is at rest and its acceleration decides.
-    pub(crate) sign: Option<f64>,
-    /// What velocities add to its acceleration (m/s^2 or rad/s^2).
-    pub(crate) acceleration: f64,
-    /// Whether its stop pushes it while it slides, so that its whole acceleration is zero as if it stuck.
-    pub(crate) pushed: bool,
 }
 
 impl Setup {
@@ -118,73 +100,7 @@ impl Setup {
         let shared = shared(&mechanism, &assembled)?;
         let mut units = units(&mechanism, &given, load.as_ref());
         units.force = shared.as_ref().map_or(units.force, |shared| units.force.max(misfit(shared)));
-        let known = vec![KnownMotion::default(); sliders.len() + mechanism.friction_circles.len()];
-        let stops = vec![0.0; sliders.len()];
-        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared, known, stops })
-    }
-
-    /// A mechanism that moves, with the signs of the velocities of its sliding joints and hinges with friction, 0 where
-    /// they have to stick, nothing where accelerations decide; forces are counted in this unit (N).
-    ///
-    /// # Errors
-    /// Loads without a value, and whatever makes no sense in the position.
-    pub(crate) fn in_motion(
-        mechanism: Mechanism,
-        configuration: &Configuration,
-        (signs, force): (&[Option<f64>], f64),
-    ) -> Result<Self, Faults> {
-        let assembled = Assembled::new(&mechanism, configuration)?;
-        let given = forces(&mechanism, &assembled);
-        let sliders = sliders(&mechanism, &assembled);
-        let mut units = units(&mechanism, &given, None);
-        if force > 0.0 {
-            units.acceleration *= force / units.force;
-            units.force = force;
-        }
-        let mut row = ConstraintRow::empty();
-        let of_velocities = sliders.iter().map(|slider| {
-            row.set_coordinate(&mechanism, configuration, CoordinateKind::Slide(slider.joint));
-            -row.right_hand_side
-        });
-        let accelerations = of_velocities.chain(mechanism.friction_circles.iter().map(|_| 0.0));
-        let known = accelerations.zip(signs);
-        let known =
-            known.map(|(acceleration, sign)| KnownMotion { sign: *sign, acceleration, pushed: false });
-        let (known, stops) = (known.collect(), vec![0.0; sliders.len()]);
-        let configuration = configuration.clone();
-        Ok(Self {
-            mechanism,
-            configuration,
-            assembled,
-            given,
-            load: None,
-            sliders,
-            units,
-            shared: None,
-            known,
-            stops,
-        })
-    }
-
-    /// What is known of the velocities of the sliding joints and hinges with friction alone.
-    pub(crate) fn signs(&self) -> Vec<KnownMotion> {
-        self.known.iter().map(|known| KnownMotion { acceleration: 0.0, ..*known }).collect()
-    }
-
-    /// The same for impulses, without loads and preloads; jumps of velocities stand in place of accelerations. Of the joints
-    /// and hinges this is known: what is held or pushed jumps by the opposite of its acceleration.
-    pub(crate) fn impulsive(&self, known: Vec<KnownMotion>) -> Self {
-        let mut impulsive = self.alone(DVector::zeros(self.given.len()));
-        impulsive.assembled.load.fill(0.0);
-        let mut speed = 0.0_f64;
-        for (joint, known) in known.iter().enumerate() {
-            let is_hinge = joint >= self.sliders.len();
-            speed = speed.max(known.acceleration.abs() * if is_hinge { self.units.length } else { 1.0 });
-        }
-        impulsive.known = known;
-        impulsive.units.force = self.units.force / self.units.acceleration * speed;
-        impulsive.units.acceleration = speed;
-        impulsive
+        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared })
     }
 
     /// A mechanism with these forces in the equations of motion alone, and without any other load, preload, play and
@@ -250,12 +166,6 @@ impl Setup {
             }
         }
         row
-    }
-
-    /// Whether friction can act at a sliding joint, by its number among these.
-    pub(crate) fn rubs(&self, slider: usize) -> bool {
-        let contacts = self.sliders[slider].contacts.iter().map(|&k| &self.mechanism.contacts[k]);
-        contacts.into_iter().any(Contact::may_hold)
     }
 
     /// Number of equations of motion: three for each body.

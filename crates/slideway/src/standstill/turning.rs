@@ -1,7 +1,6 @@
 //! States in which hinges turn with friction, as the block mode problem has them: what sticks is held by equations of its
 //! own, and the forces of the hinges that turn enter by their magnitudes.
 
-use super::instant::MotionState;
 use super::setup::Setup;
 use super::state::Pattern;
 use crate::configuration::null_space;
@@ -20,10 +19,18 @@ const ON_BOUNDARY: f64 = 1e-8;
 /// A row that sticks is held by others already if it is no greater than this on the motions that they leave.
 const HELD: f64 = 1e-9;
 
+/// A state in which hinges turn.
+pub(super) struct TurningState {
+    /// What joints, hinges and contacts do.
+    pub(super) pattern: Pattern,
+    /// The force of each hinge with friction on its first body (N), zero where it sticks.
+    pub(super) forces: Vec<[f64; 2]>,
+}
+
 /// States in which hinges turn.
 pub(super) struct TurningStates {
     /// The states; where what sticks is statically indeterminate, those in which only some of it transmits friction.
-    pub(super) list: Vec<MotionState>,
+    pub(super) list: Vec<TurningState>,
     /// Whether these are all.
     pub(super) decided: bool,
     /// Whether the friction of all that sticks is determined.
@@ -49,11 +56,9 @@ pub(super) fn turning_states(
     })
 }
 
-/// The kinetic equations in which what sticks, or is pushed by its stop, has rows of its own.
+/// The kinetic equations in which what sticks has rows of its own.
 struct Held<'s> {
     setup: &'s Setup,
-    /// The joints and hinges with such rows.
-    joints: Vec<usize>,
     matrix: DMatrix<f64>,
     load: DVector<f64>,
     /// Powers of two that bring rows and columns to order one.
@@ -72,17 +77,15 @@ impl<'s> Held<'s> {
         let mut matrix = setup.assembled.matrix.clone().resize(size + rows.len(), size + rows.len(), 0.0);
         let mut load = setup.assembled.load.clone().resize_vertically(size + rows.len(), 0.0);
         load.rows_mut(0, given).copy_from(&setup.loads());
-        for (index, (_, row, value)) in rows.iter().enumerate() {
+        for (index, row) in rows.iter().enumerate() {
             matrix.view_mut((size + index, 0), (1, given)).copy_from(row);
             matrix.view_mut((0, size + index), (given, 1)).copy_from(&-row.transpose());
-            load[size + index] = -value;
         }
-        let joints = rows.into_iter().map(|(joint, ..)| joint).collect();
         let (rows, columns) = equilibration(&matrix);
         let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
             rows[row] * matrix[(row, column)] * columns[column]
         });
-        Self { setup, joints, matrix: scaled, load, scales: [rows, columns], determinate }
+        Self { setup, matrix: scaled, load, scales: [rows, columns], determinate }
     }
 
     /// The answers to some right-hand sides.
@@ -104,24 +107,17 @@ impl<'s> Held<'s> {
     }
 }
 
-/// The joints that are pushed by their stops, then those that stick, whose rows say something which neither the joints of the
-/// mechanism nor the rows before say: each with its row, and what velocities add.
-fn independent_rows(
-    setup: &Setup,
-    signs: &Pattern,
-    motions: &DMatrix<f64>,
-) -> Vec<(usize, RowDVector<f64>, f64)> {
+/// The rows of what sticks that say something which neither the joints of the mechanism nor the rows before say.
+fn independent_rows(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>) -> Vec<RowDVector<f64>> {
     let mut motions = motions.clone();
     let mut found = Vec::new();
     let states = signs.joints.iter().chain(&signs.hinges).enumerate();
-    let pushed = (0..setup.known.len()).filter(|joint| setup.known[*joint].pushed);
-    let sticking = states.filter(|(_, state)| **state == JointPhase::Sticking).map(|(joint, _)| joint);
-    for joint in pushed.chain(sticking) {
+    for (joint, _) in states.filter(|(_, state)| **state == JointPhase::Sticking) {
         let row = setup.row(joint);
         let moves = &row * &motions;
         if moves.amax() > HELD * row.amax() * motions.amax() {
             motions = &motions * null_space(&DMatrix::from_rows(&[moves]));
-            found.push((joint, row, setup.known[joint].acceleration));
+            found.push(row);
         }
     }
     found
@@ -194,19 +190,16 @@ impl<'h, 's> Blocks<'h, 's> {
     }
 
     /// The states of a solution: contacts without a normal force may be on either side.
-    fn states(&self, solution: &BlockSolution) -> Vec<MotionState> {
+    fn states(&self, solution: &BlockSolution) -> Vec<TurningState> {
         let setup = self.held.setup;
-        let Some((accelerations, pushes)) = self.accelerations(solution) else { return Vec::new() };
         let mut forces = vec![[0.0; 2]; setup.mechanism.friction_circles.len()];
         for (hinge, force) in self.hinges.iter().zip(&solution.reactions) {
             forces[hinge.circle] = *force;
         }
         let (joints, hinges) = self.signs.split_at(setup.sliders.len());
-        let state = |contacts| MotionState {
+        let state = |contacts| TurningState {
             pattern: Pattern { joints: joints.to_vec(), hinges: hinges.to_vec(), contacts },
-            accelerations: accelerations.clone(),
             forces: forces.clone(),
-            pushes: pushes.clone(),
         };
         self.sides(solution).into_iter().map(state).collect()
     }
@@ -230,32 +223,5 @@ impl<'h, 's> Blocks<'h, 's> {
                 .collect();
         }
         all
-    }
-
-    /// The accelerations of the bodies with the friction of a solution, which has no contact in its gap, and with what forces
-    /// their stops push the sliding joints.
-    fn accelerations(&self, solution: &BlockSolution) -> Option<(Vec<f64>, Vec<f64>)> {
-        let setup = self.held.setup;
-        let mut load = self.held.load.clone();
-        for (k, friction) in setup.assembled.friction.iter().enumerate() {
-            let side = usize::from(solution.states[k] == ContactState::Negative);
-            let contact = &setup.mechanism.contacts[k];
-            let force = self.sign(k) * (contact.mu[side] * solution.magnitudes[k] + contact.preload[side]);
-            load += self.held.forces(&friction[side]) * force;
-        }
-        for (hinge, [x, y]) in self.hinges.iter().zip(&solution.reactions) {
-            let leverage = hinge.leverage(&setup.mechanism.friction_circles[hinge.circle]);
-            load += self.held.forces(&setup.assembled.couples[hinge.circle]) * (leverage * x.hypot(*y));
-        }
-        let answer = self.held.answers(&[load])?;
-        let accelerations = answer[0].rows(0, setup.equations_of_motion()).iter().copied().collect();
-        let mut pushes = vec![0.0; setup.sliders.len()];
-        let first = answer[0].len() - self.held.joints.len();
-        for (index, &joint) in self.held.joints.iter().enumerate() {
-            if setup.known[joint].pushed {
-                pushes[joint] = -setup.stops[joint] * answer[0][first + index];
-            }
-        }
-        Some((accelerations, pushes))
     }
 }

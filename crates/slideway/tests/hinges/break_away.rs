@@ -8,6 +8,7 @@ use slideway::{Model, Settings};
 const FALLS: &str = include_str!("../findings/pin_jam.toml");
 const FALLS_ROUGHER_AT_REST: &str = include_str!("../findings/pin_jams.toml");
 const PUSHED: &str = include_str!("../findings/pin_c.toml");
+const TIPPED: &str = include_str!("../findings/motion_tipstick.toml");
 
 /// A run of `reference/break-away.toml`.
 #[derive(Deserialize)]
@@ -71,6 +72,66 @@ fn a_cart_breaks_away_beside_a_rough_pin() {
 #[test]
 fn a_cart_that_is_pushed_breaks_away_beside_a_rough_pin_at_rest() {
     compare("pushed", PUSHED, &[("F", "6 N/s")]);
+}
+
+/// While the cart of 1 kg sticks and a bob of 1 kg rests on its rough pin, 30 mm beside it, statics determines everything:
+/// the rail carries both weights and holds against the push of 6 N/s t, the pin carries the bob and its moment.
+#[test]
+fn statics_determines_the_forces_beside_a_rough_pin_at_rest() {
+    let series = moved(PUSHED, &[("F", "6 N/s")], 0.5).series(&[0.25, 0.5]);
+    let weight = 9.81;
+    for (row, time) in [0.25, 0.5].into_iter().enumerate() {
+        let expected = [
+            ("rail.normal_force", 2.0 * weight),
+            ("rail.friction_force", 6.0 * time),
+            ("pin.force", weight),
+            ("pin.couple", 0.03 * weight),
+        ];
+        for (name, expected) in expected {
+            let found = series.column(name).unwrap().values[row];
+            assert!(
+                found.is_some_and(|found| (found - expected).abs() < 1e-9),
+                "{name}: {found:?} {expected}"
+            );
+        }
+    }
+}
+
+/// While a bob turns on its rough pin and the cart sticks, the rail carries what accelerates both: `N = (m + m) g + m a_y`
+/// and `F = -m a_x` with the acceleration of the bob, of a cart that stands still.
+#[test]
+fn statics_determines_the_forces_beside_a_rough_pin_that_turns() {
+    let history = moved(FALLS, &[], 0.05);
+    let mechanism = &history.mechanism;
+    let (cart, bob) = (mechanism.bodies[0].mass, mechanism.bodies[1].mass);
+    let mut reader = history.reader();
+    for time in [0.0, 0.02, 0.04] {
+        let sample = reader.at(time).unwrap();
+        let [normal, friction] = history.forces(&sample)[0];
+        let [x, y, _] = sample.accelerations[1];
+        assert!(sample.hinges[0].spin != 0.0 || time == 0.0);
+        let expected = [(cart + bob) * 9.81 + bob * y, -bob * x];
+        for (found, expected) in [normal, friction].into_iter().zip(expected) {
+            assert!(
+                found.is_some_and(|found| (found - expected).abs() < 1e-8),
+                "{time}: {found:?} {expected}"
+            );
+        }
+    }
+}
+
+/// A block of 1 kg sticks on a guide of 100 mm and is pushed with 4 N/s t, 200 mm above it; from its rough pin hangs another
+/// 1 kg at rest. It tips when `4 N/s t 200 mm = 2 kg g 50 mm`.
+#[test]
+fn a_guided_slider_with_a_rough_pin_at_rest_tips() {
+    let text = format!(
+        "{}\n[bodies.bob]\npoints = [\"P\", \"G\"]\nmass = 1\ncentre_of_mass = \"G\"\nmoment_of_inertia = 0.02\n\
+         [joints.pin]\ntype = \"hinge\"\nbetween = [\"bob.P\", \"b.P\"]\nfriction_radius = \"5 mm\"\n",
+        TIPPED.replace("P=[0,0]", "P=[0,0]\nG=[0,-0.3]") + "[coordinates.th]\nrotation = \"bob\"\n"
+    );
+    let history = simulate(&Model::parse(&text).unwrap(), &SimulateOptions::new(2.0)).unwrap();
+    assert!(matches!(history.end, End::Tips(_)), "{:?}", history.end);
+    assert!((history.stop() - 1.25).abs() < 1e-9, "{}", history.stop());
 }
 
 /// The body is turned until its pin slips; the cart stays.

@@ -13,6 +13,7 @@
 
 use crate::model;
 use slideway::configuration::Configuration;
+use slideway::gallery;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
@@ -112,6 +113,67 @@ fn the_impulse_on_the_drawer_is_that_of_its_derivation() {
         assert!((impulse.normal_impulses[0] - normal).abs() < 1e-10, "{impulse:?}");
         assert!((impulse.normal_impulses[1] + normal).abs() < 1e-10, "{impulse:?}");
         assert!((impulse.energy_lost - MASS * 1.5 * 1.5 / 2.0).abs() < 1e-10);
+    }
+}
+
+/// The drawer and a second one, which has nothing to do with it and a spring that is slack at 0.36 m.
+fn two_drawers() -> Model {
+    let text = gallery::find("thrown-drawer").unwrap().text;
+    let (head, first) = text.split_at(text.find("[bodies.drawer]").unwrap());
+    let names = [
+        ("bodies.drawer", "bodies.second"),
+        ("block = \"drawer\"", "block = \"second\""),
+        ("drawer.inner_end", "second.inner_end"),
+        ("joints.guide", "joints.second_guide"),
+        ("slide = \"guide\"", "slide = \"second_guide\""),
+        ("loads.spring", "loads.second_spring"),
+        ("coordinates.x", "coordinates.second_x"),
+        ("ground.back", "ground.second_back"),
+        ("x_s", "later"),
+    ];
+    let second = names.iter().fold(first.to_owned(), |text, (one, other)| text.replace(one, other));
+    let head = head
+        .replace("[parameters]\n", "[parameters]\nlater = \"0.36 m\"\n")
+        .replace("[points]\n", "[points]\nsecond_back = [\"-L/2 - later\", 0]\n");
+    Model::parse(&format!("{head}{first}\n{second}")).unwrap()
+}
+
+/// Where the first drawer jams the second is beyond L - c, too: an impulse could stop it, but its spring still pushes, and it
+/// slides on.
+#[test]
+fn a_jam_stops_only_the_drawer_that_cannot_go_on() {
+    let history = simulate(&two_drawers(), &SimulateOptions::new(1.0)).unwrap();
+    assert_eq!(joints(&history), [[SLIDES, SLIDES], [STICKS, SLIDES], [STICKS, STICKS]]);
+    let [_, first, second] = &history.events[..] else { panic!("{:#?}", history.events) };
+    for (index, (event, slack)) in [(first, 0.3), (second, 0.36)].into_iter().enumerate() {
+        let places = history.reader().configuration(event.time).unwrap().coordinates.clone();
+        assert!((places[index] - slack).abs() < 1e-9, "{places:?}");
+        assert!(places[1] > LOCKS, "{places:?}");
+        let (lost, energy) = (energy_lost(event).unwrap(), energy_at_slack(slack));
+        assert!((lost - energy).abs() < 1e-7 * energy, "{lost} {energy}");
+    }
+}
+
+/// Beside the other, which is 1e10 times as fast, the velocity of a drawer is not rounding: m v = Phi, Lambda (L - x) = e Phi.
+#[test]
+fn a_slow_drawer_beside_a_fast_one_jams_with_its_own_impulse() {
+    let slow = 1e-6;
+    let settings = Settings::default()
+        .position("x", "0.3 m")
+        .position("second_x", "0.3 m")
+        .rate("x", "1e-6 m/s")
+        .rate("second_x", "1e4 m/s");
+    let mechanism = Mechanism::new(&two_drawers().with(&settings).unwrap()).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let decision::Jam::Stops(impulses) = jam(&mechanism, &configuration).unwrap() else {
+        panic!("they stop")
+    };
+    let of_slow: Vec<_> = impulses.iter().filter(|impulse| impulse.sliding_velocities[0] == 0.0).collect();
+    assert!(!of_slow.is_empty(), "{impulses:?}");
+    for impulse in of_slow {
+        let normal = OFFSET * MASS * slow / (LENGTH - 0.3);
+        assert!((impulse.normal_impulses[0] - normal).abs() < 1e-9 * normal, "{impulse:?}");
+        assert!((impulse.sliding_velocities[1] - 1e4).abs() < 1e-10, "{impulse:?}");
     }
 }
 

@@ -64,6 +64,7 @@ impl Assessment {
                 frictions: vec![none; contacts],
                 normal: vec![0.0; contacts],
                 shares: vec![None; contacts],
+                couples: vec![0.0; phase.hinges.len()],
             },
             indeterminate: 0,
             slacks: Vec::new(),
@@ -82,6 +83,10 @@ impl Assessment {
             self.forces.frictions[k] = part.forces.frictions[k];
             self.forces.normal[k] = part.forces.normal[k];
             self.forces.shares[k] = part.forces.shares[k];
+        }
+        for &hinge in &group.hinges {
+            self.phase.hinges[hinge] = part.phase.hinges[hinge];
+            self.forces.couples[hinge] = part.forces.couples[hinge];
         }
         self.indeterminate += part.indeterminate;
         self.slacks.extend(&part.slacks);
@@ -182,11 +187,13 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
         inequalities.iter().filter(depends).map(|inequality| inequality.slack.clone()).collect();
     found.indeterminate = system.dimension();
     found.redundant = system.is_redundant();
-    let open = if together.is_empty() {
+    let pins = system.open_pins();
+    let open = if together.is_empty() && pins.is_empty() {
         vec![0.0; found.indeterminate]
     } else {
-        let (value, open) = Region::new(found.indeterminate, together).highest()?;
-        found.slacks.push(Slack { subject: Decisive::Open(group.joints[0]), value: without_rounding(value) });
+        let (value, open) = Region::new(found.indeterminate, together).with_pins(pins).highest()?;
+        let subject = Decisive::Open(group.members(instant.joints.len()).next().unwrap_or_default());
+        found.slacks.push(Slack { subject, value: without_rounding(value) });
         open
     };
     for inequality in inequalities.iter().filter(|inequality| !depends(inequality)) {
@@ -199,7 +206,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
     };
     let margins = found.slacks.iter().filter(sticks).map(|slack| slack.value);
     found.margin = margins.fold(f64::INFINITY, f64::min);
-    system.write_forces(&open, &mut found.forces);
+    system.write_forces(&open, &mut found);
     Ok(found)
 }
 
@@ -209,6 +216,7 @@ pub(super) fn concerns_sticking((instant, phase): (&Instant<'_>, &Phase), subjec
         Subject::Pressure(k) | Subject::Couple(k) | Subject::Friction(k) => {
             instant.joint_of(k).is_some_and(|joint| phase.joints[joint] == JointPhase::Sticking)
         }
+        Subject::Circle(_) => true,
         Subject::Share(_) | Subject::Slip(_) => false,
     }
 }
@@ -235,6 +243,18 @@ pub(super) fn sticking_sides(
         (*k, options)
     };
     contacts.map(options).collect()
+}
+
+/// The sliding contacts of a group with their possible sides.
+pub(super) fn sliding_sides(
+    question: &Question<'_>,
+    phase: &Phase,
+    (instant, group): (&Instant<'_>, &Group),
+) -> Vec<(usize, Vec<ContactPhase>)> {
+    let slides =
+        |k: usize| instant.joint_of(k).is_some_and(|joint| phase.joints[joint] != JointPhase::Sticking);
+    let sliding = group.contacts.iter().filter(|k| slides(**k));
+    sliding.map(|k| (*k, question.sides[*k].clone())).collect()
 }
 
 /// A phase with the combination of sides of this number; `None` beyond the last.

@@ -2,6 +2,7 @@
 
 use super::BOUNDARY;
 use super::instant::Instant;
+use super::outputs::Group;
 use super::system::Question;
 use crate::ids::ContactId;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
@@ -19,7 +20,7 @@ impl Instant<'_> {
         let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
         Question {
             outputs: &self.outputs,
-            wanted: vec![0.0; self.joints.len()],
+            wanted: vec![0.0; self.rubbing()],
             has_preload: true,
             sides: match slides {
                 Some(phase) => phase.contacts.iter().map(|contact| vec![*contact]).collect(),
@@ -42,34 +43,39 @@ impl Instant<'_> {
 /// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section
 /// 4).
 fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
-    let contacts = 0..instant.mechanism.contacts.len();
-    // A stop can push with any force.
-    let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0);
-    let change = if is_free { greatest_changes(instant) } else { None };
-    contacts
-        .map(|j| {
-            let all = ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j)));
+    let options = |j: usize| ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j)));
+    let mut sides: Vec<Vec<ContactPhase>> =
+        (0..instant.mechanism.contacts.len()).map(|j| options(j).to_vec()).collect();
+    // A stop can push with any force, and what is known of the forces of hinges is their couples.
+    let is_free = |group: &&Group| {
+        group.hinges.is_empty() && group.joints.iter().all(|joint| instant.joints[*joint].stop == 0.0)
+    };
+    for group in instant.groups.iter().filter(is_free) {
+        let Some(changes) = greatest_changes(instant, &group.contacts) else { continue };
+        for (&j, change) in group.contacts.iter().zip(&changes) {
             let normal = instant.outputs.base[j];
-            match &change {
-                Some(change) if normal.abs() > change[j] + BOUNDARY => vec![all[usize::from(normal < 0.0)]],
-                _ => all.to_vec(),
+            if normal.abs() > change + BOUNDARY {
+                sides[j] = vec![options(j)[usize::from(normal < 0.0)]];
             }
-        })
-        .collect()
+        }
+    }
+    sides
 }
 
-/// The greatest change of each normal force by friction, in units; `None` if no bound was found.
-fn greatest_changes(instant: &Instant<'_>) -> Option<DVector<f64>> {
+/// The greatest change of the normal force of each of a group's contacts by friction, in units; `None` if no bound was
+/// found.
+fn greatest_changes(instant: &Instant<'_>, group: &[usize]) -> Option<DVector<f64>> {
     let [plus, minus] = &instant.outputs.columns;
-    let contacts = plus.ncols();
+    let contacts = group.len();
     let greatest = |list: [f64; 2]| list[0].max(list[1]);
     let friction = |k: usize| greatest(instant.contact(k).mu).max(greatest(instant.contact(k).mu_static));
     let influence = |j: usize, k: usize| plus[(j, k)].abs().max(minus[(j, k)].abs());
-    let by_pressures = DMatrix::from_fn(contacts, contacts, |j, k| influence(j, k) * friction(k));
+    let by_pressures =
+        DMatrix::from_fn(contacts, contacts, |j, k| influence(group[j], group[k]) * friction(group[k]));
     let preload = |k: usize| greatest(instant.contact(k).preload) / instant.units_of(k).force;
     let by_preloads =
-        DVector::from_fn(contacts, |j, _| (0..contacts).map(|k| influence(j, k) * preload(k)).sum());
-    let normal = instant.outputs.base.rows(0, contacts).abs();
+        DVector::from_fn(contacts, |j, _| group.iter().map(|&k| influence(group[j], k) * preload(k)).sum());
+    let normal = instant.outputs.base.select_rows(group).abs();
     let mut pressures = DVector::zeros(contacts);
     let mut changes = by_preloads.clone();
     let bound = |pressures: &DVector<f64>, changes: &mut DVector<f64>| {

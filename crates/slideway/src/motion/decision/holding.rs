@@ -54,7 +54,7 @@ impl<'m> Holding<'m> {
         };
         let responses: Result<Vec<DVector<f64>>, Faults> = amounts.units().map(response).collect();
         Ok(Self {
-            stopped: vec![false; instant.joints.len()],
+            stopped: vec![false; instant.rubbing()],
             first: amounts.at(configuration.time)?,
             responses: responses?,
             base: instant.outputs.base.clone(),

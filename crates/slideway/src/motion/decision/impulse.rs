@@ -1,16 +1,19 @@
 //! Impulses: what jams and impacts have in common. Positions stay, and loads and preloads do not count, while
 //! velocities jump.
 
-use super::assessment::{Assessment, PRESSED, assess_group};
+use super::assessment::{Assessment, PRESSED, assess_group, sliding_sides, with_sides};
 use super::instant::Instant;
 use super::outputs::{Group, Outputs};
 use super::successors::combinations;
 use super::system::Question;
+use super::turning::Turning;
+use super::units::Units;
 use super::{BOUNDARY, MOST_STATES};
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::influence::ContactFriction;
-use crate::pattern::{ContactPhase, JointPhase, Phase};
+use crate::influence::{ContactFriction, Influence};
+use crate::pattern::{HingePhase, JointPhase, Phase};
+use crate::progress::Work;
 use nalgebra::{DVector, Vector2};
 
 /// Sliding velocities below this multiple of the greatest count as zero.
@@ -20,8 +23,10 @@ pub(super) const AT_REST: f64 = 1e-9;
 pub(super) struct Impulses<'s> {
     pub(super) instant: &'s Instant<'s>,
     outputs: Outputs,
-    /// The greatest sliding velocity (m/s).
-    pub(super) speed: f64,
+    /// For each sliding joint and hinge with friction the greatest velocity in its group (m/s), beside which velocities are
+    /// rounding.
+    pub(super) speeds: Vec<f64>,
+    pub(super) work: Work<'s>,
 }
 
 /// Admissible states of a group, and the number of undecided patterns.
@@ -32,33 +37,41 @@ pub(super) struct Admissible {
 }
 
 impl<'s> Impulses<'s> {
-    pub(super) fn new(instant: &'s Instant<'s>) -> Self {
-        let speed = instant.joints.iter().map(|joint| joint.velocity.abs()).fold(0.0, f64::max);
-        Self { instant, outputs: instant.impulse_outputs(), speed }
+    /// Those at an instant; once the work is to end, what is left of it counts as undecided.
+    pub(super) fn new(instant: &'s Instant<'s>, work: Work<'s>) -> Self {
+        let mut speeds = vec![0.0; instant.rubbing()];
+        for group in &instant.groups {
+            let members = || group.members(instant.joints.len());
+            let greatest = members().map(|number| instant.velocity(number).abs()).fold(0.0, f64::max);
+            members().for_each(|number| speeds[number] = greatest);
+        }
+        Self { instant, outputs: instant.impulse_outputs(), speeds, work }
     }
 
-    /// The sliding velocities (m/s), exactly zero where they are only rounding.
+    /// The velocities of the sliding joints and hinges with friction (m/s), exactly zero where they are only rounding.
     pub(super) fn velocities(&self) -> Vec<f64> {
-        let velocities = self.instant.joints.iter().map(|joint| joint.velocity);
-        velocities.map(|velocity| self.without_rounding(velocity)).collect()
+        let velocities = (0..self.instant.rubbing()).map(|number| self.instant.velocity(number));
+        velocities.enumerate().map(|(number, velocity)| self.without_rounding(number, velocity)).collect()
     }
 
-    pub(super) fn without_rounding(&self, velocity: f64) -> f64 {
-        if velocity.abs() <= AT_REST * self.speed { 0.0 } else { velocity }
+    /// A velocity of a joint or hinge, exactly zero where it is only rounding.
+    pub(super) fn without_rounding(&self, number: usize, velocity: f64) -> f64 {
+        if velocity.abs() <= AT_REST * self.speeds[number] { 0.0 } else { velocity }
     }
 
-    /// The time in which the unit of acceleration produces the greatest sliding velocity (s).
-    fn time(&self) -> f64 {
-        self.speed / self.instant.units.acceleration
+    /// The time in which the unit of acceleration of a joint or hinge produces the greatest velocity in its group (s).
+    fn time(&self, number: usize) -> f64 {
+        self.speeds[number] / self.instant.units_of_rubbing(number).acceleration
     }
 
     /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick or
     /// are pushed by their stops.
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
-        let joints = self.instant.joints.iter().zip(jumps);
+        let wanted =
+            jumps.iter().zip(&self.speeds).map(|(jump, speed)| if *jump == 0.0 { 0.0 } else { jump / speed });
         Question {
             outputs: &self.outputs,
-            wanted: joints.map(|(joint, jump)| jump / (joint.units.acceleration * self.time())).collect(),
+            wanted: wanted.collect(),
             has_preload: false,
             sides: vec![PRESSED.to_vec(); self.outputs.columns[0].ncols()],
             stopped,
@@ -67,12 +80,12 @@ impl<'s> Impulses<'s> {
         }
     }
 
-    /// What a joint with this sliding velocity can do during an impulse: a sliding joint continues, a resting
+    /// What a joint or hinge with this velocity can do during an impulse: a sliding joint continues, a resting
     /// one may stay.
     pub(super) fn options(&self, joint: usize, velocity: f64) -> Vec<JointPhase> {
         if velocity != 0.0 {
             vec![JointPhase::Sliding(velocity.signum())]
-        } else if self.instant.joints[joint].has_friction {
+        } else if self.instant.may_stick(joint) {
             vec![JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)]
         } else {
             vec![JointPhase::Sliding(1.0)]
@@ -90,7 +103,11 @@ impl<'s> Impulses<'s> {
         group: &Group,
     ) -> Result<Admissible, Faults> {
         let mut found = Admissible::default();
-        for phase in self.states(options, group)? {
+        for phase in self.states(question, options, (group, &mut found.unsolved))? {
+            if self.work.is_over() {
+                found.unsolved += 1;
+                break;
+            }
             match assess_group(self.instant, question, (&phase, group), f64::INFINITY) {
                 Err(_) => found.unsolved += 1,
                 Ok(Some(state)) if state.least() >= -BOUNDARY => found.list.push(state),
@@ -100,51 +117,79 @@ impl<'s> Impulses<'s> {
         Ok(found)
     }
 
-    /// All states of a group in which each joint does one of the given things, with all sides of the sliding
-    /// contacts; the sides of sticking contacts are found later, and other groups do not matter.
-    fn states(&self, options: &[Vec<JointPhase>], group: &Group) -> Result<Vec<Phase>, Faults> {
-        let inside = |joint: usize| group.joints.contains(&joint);
-        let joints: Vec<Vec<JointPhase>> = options
-            .iter()
-            .enumerate()
-            .map(|(joint, all)| all[..if inside(joint) { all.len() } else { 1 }].to_vec())
-            .collect();
-        let of_joint = |joint: &usize| {
-            let contacts = &self.instant.joints[*joint].contacts;
-            let slides = contacts.iter().fold(1_u64, |sides, _| sides.saturating_mul(PRESSED.len() as u64));
-            let states = joints[*joint].iter().map(|phase| match phase {
+    /// All states of a group in which each joint and hinge does one of the given things, with all sides of the sliding
+    /// contacts and all forces of the hinges that turn; the sides of sticking contacts are found later, and other groups do
+    /// not matter. Undecided patterns are counted.
+    fn states(
+        &self,
+        question: &Question<'_>,
+        options: &[Vec<JointPhase>],
+        (group, undecided): (&Group, &mut usize),
+    ) -> Result<Vec<Phase>, Faults> {
+        let instant = self.instant;
+        let members: Vec<usize> = group.members(instant.joints.len()).collect();
+        let of_member = |number: &usize| {
+            let contacts = instant.joints.get(*number).map_or(0, |joint| joint.contacts.len());
+            let slides = (PRESSED.len() as u64).saturating_pow(u32::try_from(contacts).unwrap_or(u32::MAX));
+            let states = options[*number].iter().map(|phase| match phase {
                 JointPhase::Sticking => 1,
                 JointPhase::Sliding(_) => slides,
             });
             states.fold(0, u64::saturating_add)
         };
-        let states = group.joints.iter().map(of_joint).fold(1, u64::saturating_mul);
+        let states = members.iter().map(of_member).fold(1, u64::saturating_mul);
         if states > MOST_STATES {
             return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
         }
+        let options_of: Vec<Vec<JointPhase>> =
+            members.iter().map(|number| options[*number].clone()).collect();
+        let any = Phase {
+            joints: options[..instant.joints.len()].iter().map(|options| options[0]).collect(),
+            contacts: vec![PRESSED[0]; self.outputs.columns[0].ncols()],
+            hinges: options[instant.joints.len()..]
+                .iter()
+                .map(|options| HingePhase { state: options[0], force: [0.0; 2] })
+                .collect(),
+        };
         let mut all = Vec::new();
-        for joints in combinations(&joints) {
-            let sides = |k: usize| {
-                let joint = self.instant.joint_of(k).filter(|joint| inside(*joint));
-                let slides = joint.is_some_and(|joint| joints[joint] != JointPhase::Sticking);
-                PRESSED[..if slides { 2 } else { 1 }].to_vec()
-            };
-            let sides: Vec<Vec<ContactPhase>> = (0..self.outputs.columns[0].ncols()).map(sides).collect();
-            let phases = combinations(&sides).into_iter();
-            all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts, hinges: Vec::new() }));
+        for does in combinations(&options_of) {
+            let mut phase = any.clone();
+            members.iter().zip(does).for_each(|(number, does)| phase.set(*number, does));
+            if group.turns(&phase) {
+                let turning = Turning::new(instant, question, (&phase, group));
+                let (phases, decided) =
+                    turning.map_or((Vec::new(), false), |turning| turning.phases(self.work));
+                *undecided += usize::from(!decided);
+                all.extend(phases);
+            } else {
+                let sides = sliding_sides(question, &phase, (instant, group));
+                all.extend((0..).map_while(|number| with_sides(&phase, &sides, number)));
+            }
         }
         Ok(all)
     }
 
     /// The unit of the impulses of a contact (N s).
     pub(super) fn unit(&self, k: usize) -> f64 {
-        self.instant.units_of(k).force * self.time()
+        self.instant.joint_of(k).map_or(0.0, |joint| self.instant.units_of(k).force * self.time(joint))
     }
 
     /// The impulses of friction and of stops in a state (N s).
     pub(super) fn frictions(&self, state: &Assessment) -> Vec<ContactFriction> {
         let frictions = state.forces.frictions.iter().enumerate();
         frictions.map(|(k, friction)| friction.times(self.unit(k))).collect()
+    }
+
+    /// The jumps of all unknowns in a state.
+    pub(super) fn jumps(&self, state: &Assessment) -> DVector<f64> {
+        let Influence { couples, .. } = &self.instant.influence;
+        let mut jumps = self.instant.influence.of_friction(&self.frictions(state));
+        for ((number, couple), column) in state.forces.couples.iter().enumerate().zip(couples) {
+            let Units { force, length, .. } = self.instant.hinges[number].units;
+            let time = self.time(self.instant.number_of(number));
+            jumps.axpy(couple * force * length * time, column, 1.0);
+        }
+        jumps
     }
 
     /// The configuration with these jumps of the velocities; what rounding leaves of a velocity is set to

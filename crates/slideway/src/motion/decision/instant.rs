@@ -1,12 +1,12 @@
 //! A mechanism at one instant: how normal forces, sliding accelerations and couples respond to friction.
 
-use super::joints::{SlidingJoint, set_units, sliding_joints};
-use super::outputs::{Group, Outputs, groups, outputs};
+use super::joints::{RoughHinge, SlidingJoint, rough_hinges, set_units, sliding_joints};
+use super::outputs::{Group, Outputs, Rubbing, groups, outputs};
 use super::scale::{Scale, rounding, scale};
 use super::units::Units;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Contact, Mechanism, body_of};
@@ -27,6 +27,8 @@ pub(super) struct Instant<'m> {
     pub(super) influence: Influence,
     /// Its sliding joints.
     pub(super) joints: Vec<SlidingJoint>,
+    /// Its hinges with friction.
+    pub(super) hinges: Vec<RoughHinge>,
     /// Units of the whole mechanism.
     pub(super) units: Units,
     /// The least units of force (N), for the whole mechanism and for what is connected with each joint.
@@ -35,7 +37,7 @@ pub(super) struct Instant<'m> {
     pub(super) outputs: Outputs,
     /// The difference of these from what the loads give, see [`Self::vanish`].
     pub(super) shift: DVector<f64>,
-    /// The sliding joints, in groups that are decided separately.
+    /// The sliding joints and hinges with friction, in groups that are decided separately.
     pub(super) groups: Vec<Group>,
 }
 
@@ -83,13 +85,15 @@ impl<'m> Instant<'m> {
         rounding: &[f64],
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
-        let of = |joint: &SlidingJoint| {
-            body_of(self.mechanism, joint.id)
-                .and_then(|body| rounding.get(body.index()).copied())
-                .unwrap_or(0.0)
+        let of = |joint: JointId| {
+            let body = body_of(self.mechanism, joint);
+            body.and_then(|body| rounding.get(body.index()).copied()).unwrap_or(0.0)
         };
-        let of_joints: Vec<f64> = self.joints.iter().map(of).collect();
-        if self.joints.iter().zip(&of_joints).all(|(joint, rounding)| joint.units.force >= *rounding) {
+        let forces = self.joints.iter().map(|joint| (joint.id, joint.units.force));
+        let forces = forces.chain(self.hinges.iter().map(|hinge| (hinge.id, hinge.units.force)));
+        let (of_joints, small): (Vec<f64>, Vec<bool>) =
+            forces.map(|(joint, force)| (of(joint), force < of(joint))).unzip();
+        if !small.contains(&true) {
             return Ok(self);
         }
         // The first is that of the whole mechanism.
@@ -124,17 +128,21 @@ impl<'m> Instant<'m> {
             Least::Now(scale) => (Some((configuration, scale)), Vec::new()),
             Least::Before(forces) => (None, forces.to_vec()),
         };
-        let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut least_forces));
-        let outputs = outputs(mechanism, &influence, &joints);
-        let groups = groups(&joints, &outputs);
+        let mut hinges = rough_hinges(mechanism, configuration, &equations);
+        let both = (&mut joints[..], &mut hinges[..]);
+        let units = set_units(mechanism, (&influence, &equations), now, (both, &mut least_forces));
+        let rubbing = Rubbing { contacts: mechanism.contacts.len(), joints: &joints, hinges: &hinges };
+        let outputs = outputs(mechanism, &influence, rubbing);
+        let groups = groups(rubbing, &outputs);
         let shift = DVector::zeros(outputs.base.len());
-        let contacts = contacts(mechanism, configuration, &equations)?;
+        let contacts = contacts_at_speeds(mechanism, configuration, &equations)?;
         Ok(Self {
             mechanism,
             contacts,
             equations,
             influence,
             joints,
+            hinges,
             units,
             least_forces,
             outputs,
@@ -153,23 +161,19 @@ impl<'m> Instant<'m> {
     /// A fault if a phase is not one of this mechanism.
     pub(super) fn check(&self, phase: &Phase) -> Result<(), Faults> {
         self.check_joints(phase.joints.len())?;
+        wrong_count("hinges with friction", self.hinges.len(), phase.hinges.len())?;
         wrong_count("contacts", self.mechanism.contacts.len(), phase.contacts.len())
     }
 
     /// The response to friction impulses alone, without loads.
     pub(super) fn impulse_outputs(&self) -> Outputs {
-        Outputs { base: DVector::zeros(self.outputs.base.len()), columns: self.outputs.columns.clone() }
+        Outputs { base: DVector::zeros(self.outputs.base.len()), ..self.outputs.clone() }
     }
 
     /// The outputs for changes of all unknowns.
     pub(super) fn response(&self, unknowns: &DVector<f64>) -> DVector<f64> {
-        let normals = self.influence.normal_part(unknowns);
-        let normals = normals.iter().enumerate().map(|(k, normal)| normal / self.units_of(k).force);
-        let slides = self.joints.iter().map(|joint| joint.row.change(unknowns) / joint.units.acceleration);
-        let couples = self.joints.iter().filter_map(|joint| {
-            Some(unknowns[joint.couple?.unknown] / (joint.units.force * joint.units.length))
-        });
-        DVector::from_vec(normals.chain(slides).chain(couples).collect())
+        let contacts = self.mechanism.contacts.len();
+        Rubbing { contacts, joints: &self.joints, hinges: &self.hinges }.response(&self.influence, unknowns)
     }
 
     /// The units of a contact.
@@ -212,6 +216,52 @@ impl<'m> Instant<'m> {
         self.mechanism.contacts.len() + joint
     }
 
+    /// The index of the angular acceleration of a hinge with friction among the outputs; those of both components of
+    /// its force follow.
+    pub(super) fn turning_output(&self, hinge: usize) -> usize {
+        self.outputs.base.len() - 3 * (self.hinges.len() - hinge)
+    }
+
+    /// Number of sliding joints and hinges with friction.
+    pub(super) fn rubbing(&self) -> usize {
+        self.joints.len() + self.hinges.len()
+    }
+
+    /// The number of a hinge with friction among the sliding joints and these.
+    pub(super) fn number_of(&self, hinge: usize) -> usize {
+        self.joints.len() + hinge
+    }
+
+    /// Whether one of the sliding joints and hinges with friction can stick.
+    pub(super) fn may_stick(&self, number: usize) -> bool {
+        self.joints.get(number).is_none_or(|joint| joint.has_friction)
+    }
+
+    /// The velocity of one of the sliding joints and hinges with friction (m/s); that of hinges in sizes of the mechanism.
+    pub(super) fn velocity(&self, number: usize) -> f64 {
+        let hinge = || self.hinges[number - self.joints.len()].velocity * self.units.length;
+        self.joints.get(number).map_or_else(hinge, |joint| joint.velocity)
+    }
+
+    /// The change of this velocity with those of the bodies.
+    pub(super) fn change(&self, number: usize, jumps: &DVector<f64>) -> f64 {
+        let hinge = || self.hinges[number - self.joints.len()].acceleration(jumps) * self.units.length;
+        self.joints.get(number).map_or_else(hinge, |joint| joint.row.change(jumps))
+    }
+
+    /// The units of one of the sliding joints and hinges with friction.
+    pub(super) fn units_of_rubbing(&self, number: usize) -> Units {
+        self.joints
+            .get(number)
+            .map_or_else(|| self.hinges[number - self.joints.len()].units, |joint| joint.units)
+    }
+
+    /// The joint of one of the sliding joints and hinges with friction.
+    pub(super) fn id_of(&self, rubbing: usize) -> Option<JointId> {
+        let hinge = || self.hinges.get(rubbing - self.joints.len()).map(|hinge| hinge.id);
+        self.joints.get(rubbing).map_or_else(hinge, |joint| Some(joint.id))
+    }
+
     /// The index of each guided slider's couple among the outputs.
     pub(super) fn couple_outputs(&self) -> impl Iterator<Item = (usize, &SlidingJoint)> {
         let first = self.mechanism.contacts.len() + self.joints.len();
@@ -228,7 +278,7 @@ fn wrong_count(what: &'static str, expected: usize, found: usize) -> Result<(), 
 }
 
 /// The contacts with the friction at their sliding speeds.
-fn contacts<'m>(
+pub(super) fn contacts_at_speeds<'m>(
     mechanism: &'m Mechanism,
     configuration: &Configuration,
     equations: &KineticEquations,

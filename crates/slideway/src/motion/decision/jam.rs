@@ -4,6 +4,7 @@
 use super::assessment::Assessment;
 use super::impulse::{AT_REST, Impulses};
 use super::instant::Instant;
+use super::outputs::Group;
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -11,14 +12,15 @@ use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::{JointPhase, Phase};
+use crate::progress::Work;
 use nalgebra::DVector;
 
 /// The effect of an impulse that ends a jam.
 #[derive(Debug, Clone)]
 pub struct Impulse {
-    /// The joint that wedges; its tangential impulse is a reaction.
+    /// The joint or hinge with friction that wedges; its tangential impulse, or its couple, is a reaction.
     pub(crate) wedged: JointId,
-    /// The sliding joints without velocity afterwards: those that stopped first, and those that were at rest
+    /// The sliding joints and hinges with friction without velocity afterwards: those that stopped first, and those that were at rest
     /// and stay at rest.
     pub at_rest: Vec<JointId>,
     /// Impulse of the normal force of each contact, with its sign (N s).
@@ -33,6 +35,11 @@ pub struct Impulse {
     pub energy_lost: f64,
     /// The least slack of the inequalities, as a fraction of the greatest impulse of the state.
     pub(crate) margin: f64,
+    /// The jumps of all unknowns.
+    pub(super) jumps: DVector<f64>,
+    /// The velocities of the sliding joints and hinges with friction afterwards (m/s), those of hinges in sizes of the
+    /// mechanism.
+    pub(super) velocities: Vec<f64>,
 }
 
 /// All impulses that can end a jam.
@@ -74,18 +81,44 @@ pub enum Jam {
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and more states than
 /// are tried.
 pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, Faults> {
+    jam_within(mechanism, configuration, (&|_| false, Work::undisturbed()))
+}
+
+/// The impulses of [`jam`], where some of the sliding joints and hinges with friction are known to be at rest whatever rounding
+/// leaves of their velocities, in work that may end: then some are missing.
+///
+/// # Errors
+/// As [`jam`].
+pub(super) fn jam_within(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (rests, work): (&dyn Fn(usize) -> bool, Work<'_>),
+) -> Result<Jam, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
-    let impulses = Impulses::new(&instant);
-    let velocities = impulses.velocities();
-    let slides = |joint: &usize| instant.joints[*joint].has_friction && velocities[*joint] != 0.0;
+    let impulses = Impulses::new(&instant, work);
+    let mut velocities = impulses.velocities();
+    velocities
+        .iter_mut()
+        .enumerate()
+        .filter(|(number, _)| rests(*number))
+        .for_each(|(_, velocity)| *velocity = 0.0);
+    let slides = |number: &usize| instant.may_stick(*number) && velocities[*number] != 0.0;
     let moving: Vec<usize> = (0..velocities.len()).filter(slides).collect();
     if moving.is_empty() {
         return Ok(Jam::AtRest);
     }
     let search = ImpulseSearch { configuration, impulses: &impulses, velocities: &velocities };
     let mut found = ImpulsesFound::default();
-    for &joint in &moving {
-        search.stop(joint, &mut found)?;
+    for number in &moving {
+        search.stop(std::slice::from_ref(number), &mut found)?;
+    }
+    let rough = if found.impulses.is_empty() { &instant.groups[..] } else { &[] };
+    for group in rough.iter().filter(|group| !group.hinges.is_empty()) {
+        let all: Vec<usize> =
+            group.members(instant.joints.len()).filter(|number| moving.contains(number)).collect();
+        if all.len() > 1 {
+            search.stop(&all, &mut found)?;
+        }
     }
     if found.impulses.is_empty() {
         return Ok(Jam::NoImpulse { unsolved: found.unsolved });
@@ -103,55 +136,57 @@ struct ImpulsesFound {
 struct ImpulseSearch<'s> {
     configuration: &'s Configuration,
     impulses: &'s Impulses<'s>,
-    /// The sliding velocities (m/s), exactly zero where they are only rounding.
+    /// The velocities of the sliding joints and hinges with friction (m/s), exactly zero where they are only rounding.
     velocities: &'s [f64],
 }
 
 impl ImpulseSearch<'_> {
-    /// Looks for impulses in which this joint wedges.
-    fn stop(&self, joint: usize, found: &mut ImpulsesFound) -> Result<(), Faults> {
-        let groups = &self.impulses.instant.groups;
-        let Some(group) = groups.iter().find(|group| group.joints.contains(&joint)) else {
-            return Ok(());
-        };
-        let velocity = self.velocities[joint];
+    /// Looks for impulses in which this joint or hinge wedges, or these of a group together.
+    fn stop(&self, wedged: &[usize], found: &mut ImpulsesFound) -> Result<(), Faults> {
+        let Instant { groups, joints, .. } = self.impulses.instant;
+        let is_of = |group: &&Group| group.members(joints.len()).any(|number| number == wedged[0]);
+        let Some(group) = groups.iter().find(is_of) else { return Ok(()) };
         let stopped = vec![false; self.velocities.len()];
         let mut jumps = vec![0.0; self.velocities.len()];
-        jumps[joint] = -velocity;
+        wedged.iter().for_each(|number| jumps[*number] = -self.velocities[*number]);
         let mut question = self.impulses.question(&jumps, &stopped);
-        question.opposes = Some((joint, velocity.signum()));
+        if let [number] = wedged {
+            question.opposes = Some((*number, self.velocities[*number].signum()));
+        }
         let mut options: Vec<Vec<JointPhase>> = (0..self.velocities.len())
             .map(|joint| self.impulses.options(joint, self.velocities[joint]))
             .collect();
-        options[joint] = vec![JointPhase::Sticking];
+        wedged.iter().for_each(|number| options[*number] = vec![JointPhase::Sticking]);
         let admissible = self.impulses.admissible(&question, &options, group)?;
         found.unsolved += admissible.unsolved;
-        found.impulses.extend(admissible.list.iter().filter_map(|state| self.impulse(joint, state)));
+        found.impulses.extend(admissible.list.iter().filter_map(|state| self.impulse(wedged[0], state)));
         Ok(())
     }
 
     /// The impulse of an admissible state, up to where the first sliding velocity reaches zero; `None` if a
     /// joint that was at rest would slide in the direction of its friction.
-    fn impulse(&self, joint: usize, state: &Assessment) -> Option<Impulse> {
+    fn impulse(&self, wedged: usize, state: &Assessment) -> Option<Impulse> {
         let instant = self.impulses.instant;
         let whole = self.impulses.frictions(state);
-        let jumps = instant.influence.of_friction(&whole);
+        let jumps = self.impulses.jumps(state);
         let part = self.part(&state.phase, &jumps)?;
         let jumps = jumps * part;
-        let sliding_velocities: Vec<f64> =
-            (0..self.velocities.len()).map(|joint| self.sliding_after(joint, &state.phase, &jumps)).collect();
-        let rest = instant.joints.iter().zip(&sliding_velocities).filter(|(_, after)| **after == 0.0);
+        let velocities: Vec<f64> =
+            (0..self.velocities.len()).map(|number| self.after(number, &state.phase, &jumps)).collect();
+        let rest = (0..velocities.len()).filter(|number| velocities[*number] == 0.0);
         let after = self.impulses.moved(self.configuration, &jumps);
         let normals = state.forces.normal.iter().enumerate();
         Some(Impulse {
-            wedged: instant.joints[joint].id,
-            at_rest: rest.map(|(joint, _)| joint.id).collect(),
+            wedged: instant.id_of(wedged)?,
+            at_rest: rest.filter_map(|number| instant.id_of(number)).collect(),
             normal_impulses: normals.map(|(k, normal)| normal * self.impulses.unit(k) * part).collect(),
             friction_impulses: whole.into_iter().map(|friction| friction.times(part)).collect(),
             energy_lost: kinetic(instant.mechanism, self.configuration) - kinetic(instant.mechanism, &after),
             after,
-            sliding_velocities,
+            sliding_velocities: velocities[..instant.joints.len()].to_vec(),
             margin: state.least(),
+            jumps,
+            velocities,
         })
     }
 
@@ -159,24 +194,27 @@ impl ImpulseSearch<'_> {
     /// at rest would slide the other way.
     fn part(&self, phase: &Phase, jumps: &DVector<f64>) -> Option<f64> {
         let mut part = 1.0_f64;
-        for (index, joint) in self.impulses.instant.joints.iter().enumerate() {
-            let JointPhase::Sliding(sign) = phase.joints[index] else { continue };
-            let jump = sign * joint.row.change(jumps);
-            if !joint.has_friction || jump >= -AT_REST * self.impulses.speed {
+        let instant = self.impulses.instant;
+        for (number, velocity) in self.velocities.iter().enumerate() {
+            let JointPhase::Sliding(sign) = phase.of(number) else { continue };
+            let jump = sign * instant.change(number, jumps);
+            if !instant.may_stick(number) || jump >= -AT_REST * self.impulses.speeds[number] {
                 continue;
             }
-            if self.velocities[index] == 0.0 {
+            if *velocity == 0.0 {
                 return None;
             }
-            part = part.min(joint.velocity.abs() / -jump);
+            part = part.min(instant.velocity(number).abs() / -jump);
         }
         Some(part)
     }
 
-    /// Sliding velocity of a joint afterwards, exactly zero where it has stopped.
-    fn sliding_after(&self, joint: usize, phase: &Phase, jumps: &DVector<f64>) -> f64 {
-        let sticks = phase.joints[joint] == JointPhase::Sticking && self.velocities[joint] == 0.0;
-        let joint = &self.impulses.instant.joints[joint];
-        if sticks { 0.0 } else { self.impulses.without_rounding(joint.velocity + joint.row.change(jumps)) }
+    /// Velocity of a joint or hinge afterwards, exactly zero where it has stopped.
+    fn after(&self, number: usize, phase: &Phase, jumps: &DVector<f64>) -> f64 {
+        let instant = self.impulses.instant;
+        if phase.of(number) == JointPhase::Sticking && self.velocities[number] == 0.0 {
+            return 0.0;
+        }
+        self.impulses.without_rounding(number, instant.velocity(number) + instant.change(number, jumps))
     }
 }

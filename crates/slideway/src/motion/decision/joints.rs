@@ -1,4 +1,4 @@
-//! The sliding joints of a mechanism at an instant.
+//! The sliding joints of a mechanism at an instant, and its hinges with friction.
 
 use super::scale::{Scale, Share};
 use super::units::{Units, greatest, units};
@@ -6,10 +6,11 @@ use crate::configuration::Configuration;
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
-use crate::mechanism::{JointKind, Mechanism, Slider};
+use crate::mechanism::{Attachment, FrictionCircle, JointKind, Mechanism, Slider};
 use crate::model::Stop;
 use crate::motion::moving::connected::connected;
 use crate::pattern::GuidedCouple;
+use nalgebra::DVector;
 
 /// A joint nearer to its end stop than this, in sizes of the mechanism, touches it; positions have rounding
 /// errors.
@@ -35,6 +36,75 @@ pub(super) struct SlidingJoint {
     pub(super) units: Units,
 }
 
+/// A hinge with friction at an instant.
+#[derive(Debug, Clone)]
+pub(super) struct RoughHinge {
+    /// Which joint it is.
+    pub(super) id: JointId,
+    /// Where its force on the first body stands among the unknowns.
+    pub(super) force: [usize; 2],
+    /// The rotations of its bodies among the accelerations, and the sign with which each counts.
+    rotations: Vec<(usize, f64)>,
+    /// The radius of its friction circle while it turns, and the static one (m).
+    pub(super) radii: [f64; 2],
+    /// The angular velocity of its first body against the second (rad/s).
+    pub(super) velocity: f64,
+    /// Units of the bodies that joints connect to it.
+    pub(super) units: Units,
+}
+
+impl RoughHinge {
+    /// The angular acceleration of its first body against the second among all unknowns (rad/s^2).
+    pub(super) fn acceleration(&self, unknowns: &DVector<f64>) -> f64 {
+        self.rotations.iter().map(|(place, sign)| sign * unknowns[*place]).sum()
+    }
+}
+
+/// The hinges with friction of a mechanism, in the order of its friction circles.
+pub(super) fn rough_hinges(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    equations: &KineticEquations,
+) -> Vec<RoughHinge> {
+    let one = |circle: &FrictionCircle| {
+        let place = |axis| {
+            let place = equations.layout.reaction(Reaction::Hinge(circle.joint, axis));
+            place.expect("every hinge has its force")
+        };
+        let ends = mechanism.hinge(circle.joint).map(|[first, second]| [(first, 1.0), (second, -1.0)]);
+        let rotation = |(end, sign): (&Attachment, f64)| Some((3 * end.frame.body()?.index() + 2, sign));
+        RoughHinge {
+            id: circle.joint,
+            force: [0, 1].map(place),
+            rotations: ends.into_iter().flatten().filter_map(rotation).collect(),
+            radii: [circle.radius, circle.static_radius],
+            velocity: spin(mechanism, configuration, circle.joint),
+            units: Units { force: 1.0, length: mechanism.size, acceleration: 1.0 },
+        }
+    };
+    mechanism.friction_circles.iter().map(one).collect()
+}
+
+/// The angular velocity of the first body of a hinge against the second (rad/s).
+fn spin(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) -> f64 {
+    mechanism.hinge(joint).map_or(0.0, |[first, second]| {
+        configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame)
+    })
+}
+
+/// The velocities of the sliding joints, then of the hinges with friction (m/s, rad/s).
+pub(in crate::motion) fn relative_velocities(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Vec<f64> {
+    let sliders = mechanism.joints.iter().filter_map(|joint| match &joint.kind {
+        JointKind::Slider(slider) => Some(configuration.sliding(mechanism, slider).1),
+        JointKind::Hinge(_) => None,
+    });
+    let circles = mechanism.friction_circles.iter();
+    sliders.chain(circles.map(|circle| spin(mechanism, configuration, circle.joint))).collect()
+}
+
 /// The sliding joints of a mechanism, in the order of its joints.
 pub(super) fn sliding_joints(
     mechanism: &Mechanism,
@@ -48,10 +118,7 @@ pub(super) fn sliding_joints(
             slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect();
         let place = equations.layout.reaction(Reaction::Couple(id));
         let first = contacts.first().map(|&k| equations.contacts[k].sliding_velocity);
-        let has_friction = contacts.iter().any(|&k| {
-            let contact = &mechanism.contacts[k];
-            !contact.is_frictionless() || contact.mu_static != [0.0; 2]
-        });
+        let has_friction = contacts.iter().any(|&k| mechanism.contacts[k].may_hold());
         let stop = touched_stop(mechanism, configuration, slider);
         Some(SlidingJoint {
             id,
@@ -68,7 +135,7 @@ pub(super) fn sliding_joints(
 }
 
 /// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.
-pub(super) fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
+fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
     let Some([least, greatest]) = slider.travel.filter(|_| slider.stops != [None; 2]) else {
         return 0.0;
     };
@@ -86,14 +153,14 @@ pub(super) fn touched_stop(mechanism: &Mechanism, configuration: &Configuration,
     }
 }
 
-/// Gives each joint the units of the bodies that joints connect to it, so that distant bodies do not affect
-/// small quantities, and returns the units of the whole mechanism. Their least forces are determined anew or
-/// kept.
+/// Gives each joint and hinge the units of the bodies that joints connect to it, so that distant bodies do not
+/// affect small quantities, and returns the units of the whole mechanism. Their least forces are determined
+/// anew or kept.
 pub(super) fn set_units(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),
     least: Option<(&Configuration, Scale)>,
-    (joints, least_forces): (&mut [SlidingJoint], &mut Vec<f64>),
+    ((joints, hinges), least_forces): ((&mut [SlidingJoint], &mut [RoughHinge]), &mut Vec<f64>),
 ) -> Units {
     let connected = connected(mechanism);
     let mut one = |counts: &dyn Fn(BodyId) -> bool, place: usize, otherwise: f64| {
@@ -104,11 +171,15 @@ pub(super) fn set_units(
         units(mechanism.size, (force.max(least_forces[place]), mass), otherwise)
     };
     let whole = one(&|_| true, 0, 1.0);
-    for (index, joint) in joints.iter_mut().enumerate() {
-        let slider = mechanism.slider(joint.id);
-        let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
-        let part = body.map(|body| connected[body.index()]);
-        joint.units = one(&|other| Some(connected[other.index()]) == part, index + 1, whole.force);
+    let bodies = |joint: JointId| match &mechanism.joints[joint.index()].kind {
+        JointKind::Slider(slider) => slider.block.body().or(slider.guide.body()),
+        JointKind::Hinge([first, second]) => first.frame.body().or(second.frame.body()),
+    };
+    let of_joints = joints.iter_mut().map(|joint| (joint.id, &mut joint.units));
+    let of_hinges = hinges.iter_mut().map(|hinge| (hinge.id, &mut hinge.units));
+    for (index, (joint, units)) in of_joints.chain(of_hinges).enumerate() {
+        let part = bodies(joint).map(|body| connected[body.index()]);
+        *units = one(&|other| Some(connected[other.index()]) == part, index + 1, whole.force);
     }
     whole
 }

@@ -1,15 +1,17 @@
 //! Decisions at events: which phases can follow, how long joints can stick, what a jam does (theory, section
 //! 8).
 //!
-//! A phase is a state of every sliding joint, sticking or sliding in one of two directions, and of every
-//! contact, pressed to one side or in its preload gap. Joints without influence on one another are decided
-//! separately. In each group of joints, the states are tried in turn, those with most joints sticking first;
-//! each is a system of linear equations and inequalities:
+//! A phase is a state of every sliding joint, sticking or sliding in one of two directions, of every contact,
+//! pressed to one side or in its preload gap, and of every hinge with friction, sticking or turning in one of two
+//! directions. Joints without influence on one another are decided separately. In each group of joints, the states are
+//! tried in turn, those with most joints sticking first; each is a system of linear equations and inequalities:
 //!
 //! ```text
 //! slides   F_k = (mu_k |N_k| + F_k0) s_k                s_k = sign of the sliding velocity, of the acceleration at rest
 //! sticks   |F_k| <= mu_static_k |N_k| + F_k0            sliding acceleration s'' = 0
 //! in both  |N_k| >= 0,  |C| <= |N| L/2 of guided sliders, 0 <= share <= 1 in a preload gap
+//! turns    K_j = -r_j s_j t_j.R_j of a hinge, with the direction t_j of its force R_j, so that t_j.R_j = |R_j|
+//! sticks   |K_j| <= r_static_j |R_j|      angular acceleration of the hinge = 0
 //! ```
 //!
 //! Bodies may move while a joint sticks: its guide may move, and the equations contain the part of the
@@ -36,7 +38,9 @@
 //! such force, the unit is the force that the loads reach within the time in which they take the mechanism
 //! through its own size; within a motion, it is at least what counts as rounding beside its greatest force. A
 //! slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6 per
-//! unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
+//! unit of the time in which the bodies move through the length of the mechanism, second derivatives below 2e-3. Bodies that
+//! have nothing to do with one another have each their own units and their own time, so that none changes what is decided of
+//! another.
 //!
 //! # Files
 //! `rules.rs` defines what the simulation asks, `thorough.rs` answers. `instant.rs` is a mechanism at one
@@ -51,17 +55,15 @@
 //! `impulse.rs`. `vanishing.rs` sets to zero what an event has found to be zero, `scale.rs` provides the
 //! units where forces vanish, `sieve.rs` quickly excludes patterns of sliding, and `holding.rs` looks ahead
 //! in time for bodies that stand still while loads change, with forces that are affine in the loads
-//! (`plan.rs`). Mechanisms with friction in hinges are decided in `hinged.rs`, by the programs of
-//! [`standstill`](crate::standstill), and stopped by the impulses of `halting.rs`; parts that have nothing to do with one
-//! another are decided each by itself there (`separate.rs`).
+//! (`plan.rs`). Hinges with friction are members of the groups like sliding joints. The magnitudes of their forces enter,
+//! so that the equations of a pattern in which some turn are not linear and may have several solutions: `turning.rs` finds
+//! them all, as those of a block mode problem, and `system.rs` takes up each by Newton's method.
 
 mod assessment;
 mod bounds;
 mod determined;
 mod elastic;
 mod growth;
-mod halting;
-mod hinged;
 pub(super) mod holding;
 mod impact;
 mod impulse;
@@ -74,23 +76,23 @@ mod parts;
 mod plan;
 pub(super) mod rules;
 mod scale;
-mod separate;
 mod sieve;
 mod state;
 mod sticking;
 mod successors;
 mod system;
 pub(super) mod thorough;
+mod turning;
 mod units;
 mod vanishing;
 
 #[cfg(test)]
 pub(super) use assessment::ASSESSED;
-pub(super) use determined::determined_forces;
-pub(super) use hinged::relative_velocities;
+pub(super) use determined::{DeterminedForces, determined_forces};
+pub(super) use impact::impact_within;
 pub use impact::{Blow, Impact, impact};
 pub use jam::{Impulse, Jam, jam};
-pub(super) use joints::TOUCHES;
+pub(super) use joints::{TOUCHES, relative_velocities};
 pub use rules::Outlook;
 pub use state::PhaseState;
 pub(super) use sticking::sliding_accelerations;

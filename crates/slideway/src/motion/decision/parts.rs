@@ -1,6 +1,6 @@
 //! What a group of joints can do at an instant, decided independently of the others.
 
-use super::assessment::{Assessment, Decisive, assess_group, with_sides};
+use super::assessment::{Assessment, Decisive, assess_group, sliding_sides, with_sides};
 use super::elastic::verdict;
 use super::instant::Instant;
 use super::outputs::Group;
@@ -10,14 +10,16 @@ use super::state::{PhaseState, is_same_phase, state};
 use super::sticking::ENOUGH;
 use super::successors::{Successors, TippingPhase};
 use super::system::{Question, Subject};
+use super::turning::Turning;
 use super::{BOUNDARY, MOST_STATES};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::pattern::{ContactPhase, JointPhase, Phase, Unsolved};
+use crate::pattern::{HingePhase, JointPhase, Phase, Unsolved};
 use crate::report::Verdict;
+use std::cell::RefCell;
 use std::cmp::Reverse;
 
 /// Accelerations and forces that differ by less than this, in units, count as equal.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 /// Once a state has been found, at most this many are tried in all, ...
 const FURTHER_STATES: u64 = 10_000;
 /// ... and with more joints at rest than this, no state in which fewer stick than in one that is at no
@@ -58,11 +60,6 @@ pub(super) struct PhaseSearch<'s> {
 }
 
 impl PhaseSearch<'_> {
-    /// Whether nothing happens in any group.
-    pub(super) fn nothing_happens(&self) -> bool {
-        self.undisturbed().1.iter().all(|undisturbed| *undisturbed)
-    }
-
     /// What each group did before, and whether nothing happens in it.
     fn undisturbed(&self) -> (Vec<Option<Assessment>>, Vec<bool>) {
         let groups = &self.instant.groups;
@@ -98,13 +95,15 @@ impl PhaseSearch<'_> {
 
     /// A phase with those joints sliding that certainly slide.
     pub(super) fn any_phase(&self) -> Phase {
-        let joint = |joint: usize| match self.event.signs[joint] {
-            0.0 if self.instant.joints[joint].has_friction => JointPhase::Sticking,
+        let does = |number: usize| match self.event.sign_of(number) {
+            0.0 if self.instant.may_stick(number) => JointPhase::Sticking,
             sign => JointPhase::Sliding(if sign < 0.0 { -1.0 } else { 1.0 }),
         };
+        let joints = self.instant.joints.len();
+        let hinges = (joints..self.instant.rubbing()).map(does);
         Phase {
-            joints: (0..self.event.signs.len()).map(joint).collect(),
-            hinges: Vec::new(),
+            joints: (0..joints).map(does).collect(),
+            hinges: hinges.map(|state| HingePhase { state, force: [0.0; 2] }).collect(),
             contacts: self.question.sides.iter().map(|sides| sides[0]).collect(),
         }
     }
@@ -123,26 +122,30 @@ impl PhaseSearch<'_> {
     /// Whether nothing happens in a group: none of its joints has just stopped or reversed, and what it did
     /// is at no boundary.
     fn is_undisturbed(&self, group: &Group, before: &Assessment) -> bool {
-        let keeps = |joint: &usize| match before.phase.joints[*joint] {
-            JointPhase::Sticking => self.event.signs[*joint] == 0.0,
+        let keeps = |number: usize| match before.phase.of(number) {
+            JointPhase::Sticking => self.event.sign_of(number) == 0.0,
             JointPhase::Sliding(sign) => {
-                self.event.signs[*joint] == sign || !self.instant.joints[*joint].has_friction
+                self.event.sign_of(number) == sign || !self.instant.may_stick(number)
             }
         };
-        group.joints.iter().all(keeps) && before.least() > BOUNDARY && !before.redundant
+        self.members(group).all(keeps) && before.least() > BOUNDARY && !before.redundant
     }
 
     /// All admissible states of a group, or only those in which most joints stick, which are tried first.
     fn admissible(&self, group: &Group, found: &mut Successors) -> Result<Vec<Assessment>, Faults> {
         let mut list: Vec<Assessment> = Vec::new();
-        let mut sieve =
-            (self.detail == Detail::Order).then(|| SlidingSieve::new(self.question, self.instant, group));
+        let can_sieve = self.detail == Detail::Order && group.hinges.is_empty();
+        let mut sieve = can_sieve.then(|| SlidingSieve::new(self.question, self.instant, group));
         let stuck = |phase: &Phase| {
-            group.joints.iter().filter(|joint| phase.joints[**joint] == JointPhase::Sticking).count()
+            self.members(group).filter(|number| phase.of(*number) == JointPhase::Sticking).count()
         };
         let is_large = stuck(&self.any_phase()) > FEW_RESTING;
         let mut most = 0;
-        for (tried, phase) in (1..).zip(self.patterns(group)) {
+        let undecided = RefCell::new(Vec::new());
+        for (tried, phase) in (1..).zip(self.patterns(group, &undecided)) {
+            if self.event.work.is_over() {
+                break;
+            }
             let limit = if list.is_empty() { MOST_STATES } else { FURTHER_STATES };
             if tried > limit || (is_large && stuck(&phase) < most) {
                 if list.is_empty() {
@@ -166,19 +169,29 @@ impl PhaseSearch<'_> {
                 Ok(Some(assessment)) => {
                     let violated = assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY);
                     let subjects = violated.map(|slack| slack.subject);
-                    found.tipping.extend(self.tipping(&assessment.phase, subjects));
+                    found.tipping.extend(self.instant.tipping(&assessment.phase, subjects));
                 }
             }
         }
+        found.unsolved.extend(undecided.take());
         Ok(list)
     }
 
-    /// All states of the joints of a group with all sides of the sliding contacts, those with most joints
-    /// sticking first; sticking contacts have any side.
-    fn patterns<'p>(&'p self, group: &'p Group) -> impl Iterator<Item = Phase> + 'p {
-        let rests =
-            |joint: &usize| self.event.signs[*joint] == 0.0 && self.instant.joints[*joint].has_friction;
-        let resting: Vec<usize> = group.joints.iter().copied().filter(rests).collect();
+    /// The members of a group, by their numbers among the sliding joints and hinges with friction.
+    fn members<'g>(&self, group: &'g Group) -> impl Iterator<Item = usize> + 'g {
+        group.members(self.instant.joints.len())
+    }
+
+    /// All states of the joints and hinges of a group with all sides of the sliding contacts and all forces of the hinges
+    /// that turn, those with most sticking first; sticking contacts have any side. Those whose
+    /// forces remain undecided are noted.
+    fn patterns<'p>(
+        &'p self,
+        group: &'p Group,
+        undecided: &'p RefCell<Vec<Phase>>,
+    ) -> impl Iterator<Item = Phase> + 'p {
+        let rests = |number: &usize| self.event.sign_of(*number) == 0.0 && self.instant.may_stick(*number);
+        let resting: Vec<usize> = self.members(group).filter(rests).collect();
         let most = u32::try_from(resting.len().min(MOST_RESTING)).unwrap_or(0);
         (0..=most).flat_map(move |count| subsets(most, count)).flat_map(move |slips| {
             let slipping: Vec<usize> = (0..resting.len())
@@ -187,59 +200,58 @@ impl PhaseSearch<'_> {
                 .collect();
             let senses = (0..1_u64 << slipping.len()).map(move |senses| {
                 let mut phase = self.any_phase();
-                for (place, &joint) in slipping.iter().enumerate() {
-                    phase.joints[joint] =
-                        JointPhase::Sliding(if senses >> place & 1 == 1 { -1.0 } else { 1.0 });
+                for (place, &number) in slipping.iter().enumerate() {
+                    phase.set(number, JointPhase::Sliding(if senses >> place & 1 == 1 { -1.0 } else { 1.0 }));
                 }
                 phase
             });
-            senses.filter(|phase| self.can_begin(group, &phase.joints)).flat_map(|phase| {
-                let sliding = group.contacts.iter().filter(|k| {
-                    let joint = self.instant.joint_of(**k);
-                    joint.is_some_and(|joint| phase.joints[joint] != JointPhase::Sticking)
-                });
-                let sides: Vec<(usize, Vec<ContactPhase>)> =
-                    sliding.map(|k| (*k, self.question.sides[*k].clone())).collect();
-                (0..).map_while(move |number| with_sides(&phase, &sides, number))
-            })
+            senses
+                .filter(|phase| self.can_begin(group, phase))
+                .flat_map(|phase| self.with_forces(group, phase, undecided))
         })
     }
 
-    /// Whether the joints that begin to slip can do so: none depends on sticking joints, and joints that
-    /// depend on one another slip in matching directions.
-    fn can_begin(&self, group: &Group, joints: &[JointPhase]) -> bool {
-        let of_group = || group.joints.iter().copied();
-        let held: Vec<usize> = of_group().filter(|&joint| joints[joint] == JointPhase::Sticking).collect();
-        let begins = |joint: usize| match joints[joint] {
-            JointPhase::Sliding(sign) if self.instant.joints[joint].has_friction => {
-                (self.event.signs[joint] == 0.0).then_some((joint, sign))
+    /// A phase with all sides of its sliding contacts; where hinges turn, those of all solutions for their forces.
+    fn with_forces<'p>(
+        &'p self,
+        group: &'p Group,
+        phase: Phase,
+        undecided: &RefCell<Vec<Phase>>,
+    ) -> Box<dyn Iterator<Item = Phase> + 'p> {
+        if group.turns(&phase) {
+            let turning = Turning::new(self.instant, self.question, (&phase, group));
+            let (phases, decided) =
+                turning.map_or((Vec::new(), false), |turning| turning.phases(self.event.work));
+            undecided.borrow_mut().extend((!decided).then_some(phase));
+            return Box::new(phases.into_iter());
+        }
+        let sides = sliding_sides(self.question, &phase, (self.instant, group));
+        Box::new((0..).map_while(move |number| with_sides(&phase, &sides, number)))
+    }
+
+    /// Whether the members that begin to move can do so: none depends on those that stick, and members that
+    /// depend on one another move in matching directions. Beside hinges with friction what no motion moves at once may begin
+    /// to move a little later, at a dead centre.
+    fn can_begin(&self, group: &Group, phase: &Phase) -> bool {
+        let held: Vec<usize> =
+            self.members(group).filter(|number| phase.of(*number) == JointPhase::Sticking).collect();
+        let begins = |number: usize| match phase.of(number) {
+            JointPhase::Sliding(sign) if self.instant.may_stick(number) => {
+                (self.event.sign_of(number) == 0.0).then_some((number, sign))
             }
             _ => None,
         };
-        let slipping: Vec<(usize, f64)> = of_group().filter_map(begins).collect();
+        let moves = |number: usize| {
+            phase.of(number) != JointPhase::Sticking && self.instant.is_movable(number, &held)
+        };
+        let later = !group.hinges.is_empty() && self.members(group).any(moves);
+        let slipping: Vec<(usize, f64)> = self.members(group).filter_map(begins).collect();
         let mut pairs = slipping
             .iter()
             .enumerate()
             .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
-        !slipping.iter().any(|(joint, _)| self.instant.is_held(*joint, &held))
+        (later || !slipping.iter().any(|(number, _)| self.instant.is_held(*number, &held)))
             && pairs.all(|pair| self.instant.can_begin_together(pair))
-    }
-
-    /// The guided sliders that would tip in a phase that violates only these inequalities.
-    pub(super) fn tipping(
-        &self,
-        phase: &Phase,
-        violated: impl Iterator<Item = Decisive>,
-    ) -> Option<TippingPhase> {
-        let mut joints = Vec::new();
-        for subject in violated {
-            let Decisive::One(Subject::Couple(k)) = subject else { return None };
-            let joint = self.instant.contact(k).joint;
-            if !joints.contains(&joint) {
-                joints.push(joint);
-            }
-        }
-        (!joints.is_empty()).then(|| TippingPhase { phase: phase.clone(), joints })
     }
 
     /// What a group can do compared with what it did before; whether motions are continued is not determined
@@ -289,6 +301,11 @@ impl PhaseSearch<'_> {
 
     /// The verdict on what a group does while all others are locked.
     fn verdict(&self, group: &Group, phase: &Phase) -> Verdict {
+        if !group.hinges.is_empty() {
+            let turning = Turning::new(self.instant, self.question, (phase, group));
+            let is_unattainable = turning.is_some_and(|turning| turning.is_unattainable());
+            return if is_unattainable { Verdict::Unattainable } else { Verdict::NotComputed };
+        }
         let mut phase = phase.clone();
         for (joint, found) in phase.joints.iter_mut().enumerate() {
             if !group.joints.contains(&joint) {
@@ -316,8 +333,8 @@ impl PhaseSearch<'_> {
 
     /// Whether accelerations are the same.
     pub(super) fn is_same_motion(&self, group: &Group, [one, other]: [&PhaseState; 2]) -> bool {
-        let Some(&joint) = group.joints.first() else { return true };
-        let units = self.instant.joints[joint].units;
+        let Some(first) = self.members(group).next() else { return true };
+        let units = self.instant.units_of_rubbing(first);
         (0..3 * self.instant.mechanism.bodies.len()).all(|index| {
             let unit = if index % 3 == 2 { units.acceleration / units.length } else { units.acceleration };
             (one.unknowns[index] - other.unknowns[index]).abs() <= SAME * unit
@@ -331,9 +348,9 @@ impl PhaseSearch<'_> {
         part: &GroupPhase,
         follows_unattainable: bool,
     ) -> (Reverse<[usize; 2]>, [u8; 2]) {
-        let sticks = |phase: &Phase, joint: usize| phase.joints[joint] == JointPhase::Sticking;
-        let stuck = || group.joints.iter().filter(|joint| sticks(&part.assessment.phase, **joint));
-        let before = |joint: &&usize| self.event.previous.is_some_and(|previous| sticks(previous, **joint));
+        let sticks = |phase: &Phase, number: usize| phase.of(number) == JointPhase::Sticking;
+        let stuck = || self.members(group).filter(|number| sticks(&part.assessment.phase, *number));
+        let before = |number: &usize| self.event.previous.is_some_and(|previous| sticks(previous, *number));
         let verdict = match part.verdict {
             Verdict::Attainable => 0,
             Verdict::Flutter => 1,
@@ -348,6 +365,25 @@ impl PhaseSearch<'_> {
             _ => 2,
         };
         (Reverse([stuck().filter(before).count(), stuck().count()]), [class, verdict])
+    }
+}
+
+impl Instant<'_> {
+    /// The guided sliders that would tip in a phase that violates only these inequalities.
+    pub(super) fn tipping(
+        &self,
+        phase: &Phase,
+        violated: impl Iterator<Item = Decisive>,
+    ) -> Option<TippingPhase> {
+        let mut joints = Vec::new();
+        for subject in violated {
+            let Decisive::One(Subject::Couple(k)) = subject else { return None };
+            let joint = self.contact(k).joint;
+            if !joints.contains(&joint) {
+                joints.push(joint);
+            }
+        }
+        (!joints.is_empty()).then(|| TippingPhase { phase: phase.clone(), joints })
     }
 }
 

@@ -235,7 +235,7 @@ impl Plan {
 fn slacks(instant: &Instant<'_>, system: &GroupPattern<'_>) -> Option<Vec<Affine>> {
     let question = Question {
         outputs: &instant.outputs,
-        wanted: vec![0.0; instant.joints.len()],
+        wanted: vec![0.0; instant.rubbing()],
         has_preload: true,
         sides: Vec::new(),
         stopped: system.stopped,

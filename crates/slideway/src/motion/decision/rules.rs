@@ -54,10 +54,12 @@ impl<'a> EventInstant<'a> {
         let work = Work::undisturbed();
         Self { mechanism, configuration, signs, spins: &[], zero: &[], rounding: &[], previous, work }
     }
+}
 
-    /// The greatest rounding error of forces on any body (N).
-    pub(crate) fn greatest_rounding(&self) -> f64 {
-        self.rounding.iter().copied().fold(0.0, f64::max)
+impl EventInstant<'_> {
+    /// The sign of the velocity of one of the sliding joints and hinges with friction.
+    pub(super) fn sign_of(&self, number: usize) -> f64 {
+        self.signs.get(number).copied().unwrap_or_else(|| self.spins[number - self.signs.len()])
     }
 }
 

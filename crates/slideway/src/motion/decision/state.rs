@@ -3,6 +3,7 @@
 use super::assessment::Assessment;
 use super::instant::Instant;
 use super::outputs::Group;
+use super::parts::SAME;
 use crate::influence::ContactFriction;
 use crate::kinetics::Layout;
 use crate::pattern::{JointPhase, Phase};
@@ -44,7 +45,12 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
     let frictions: Vec<ContactFriction> = forces.frictions.iter().enumerate().map(scaled).collect();
     let normal_forces: Vec<f64> =
         forces.normal.iter().enumerate().map(|(k, normal)| normal * unit(k)).collect();
-    let unknowns = instant.influence.unknowns(&frictions, &DVector::from_column_slice(&normal_forces));
+    let mut unknowns = instant.influence.unknowns(&frictions, &DVector::from_column_slice(&normal_forces));
+    for ((hinge, couple), column) in
+        instant.hinges.iter().zip(&forces.couples).zip(&instant.influence.couples)
+    {
+        unknowns.axpy(couple * hinge.units.force * hinge.units.length, column, 1.0);
+    }
     let sliding = instant.joints.iter().zip(&assessment.phase.joints);
     let acceleration = |(joint, phase): (&super::joints::SlidingJoint, &JointPhase)| match phase {
         JointPhase::Sticking => 0.0,
@@ -65,7 +71,7 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
 }
 
 /// Whether a group does the same in two phases, apart from the sides of sticking contacts and the signs of
-/// joints without friction, which have no effect.
+/// joints without friction, which have no effect. Hinges that turn have the same forces.
 pub(super) fn is_same_phase(instant: &Instant<'_>, group: &Group, [one, other]: [&Phase; 2]) -> bool {
     let slides = |phase: &Phase, joint: usize| matches!(phase.joints[joint], JointPhase::Sliding(_));
     let same_joint = |joint: usize| {
@@ -76,5 +82,14 @@ pub(super) fn is_same_phase(instant: &Instant<'_>, group: &Group, [one, other]: 
         one.contacts[k] == other.contacts[k]
             || instant.joint_of(k).is_some_and(|joint| one.joints[joint] == JointPhase::Sticking)
     };
-    group.joints.iter().all(|joint| same_joint(*joint)) && group.contacts.iter().all(|k| same_contact(*k))
+    let same_hinge = |hinge: &usize| {
+        let [one, other] = [one, other].map(|phase| phase.hinges[*hinge]);
+        let apart = [0, 1].map(|part| (one.force[part] - other.force[part]).abs());
+        let same = SAME * instant.hinges[*hinge].units.force;
+        one.state == other.state
+            && (one.state == JointPhase::Sticking || apart.iter().all(|apart| *apart <= same))
+    };
+    group.joints.iter().all(|joint| same_joint(*joint))
+        && group.contacts.iter().all(|k| same_contact(*k))
+        && group.hinges.iter().all(same_hinge)
 }

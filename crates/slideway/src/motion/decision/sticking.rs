@@ -52,7 +52,7 @@ pub fn sticking_margin(
 ) -> Result<f64, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
-    let stopped = vec![false; instant.joints.len()];
+    let stopped = vec![false; instant.rubbing()];
     let found = assess(&instant, &instant.question(&stopped, Some(phase)), phase, ENOUGH);
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
@@ -69,7 +69,7 @@ pub fn sticking(
 ) -> Result<Option<Sticking>, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
-    let stopped = vec![false; instant.joints.len()];
+    let stopped = vec![false; instant.rubbing()];
     let question = instant.question(&stopped, Some(phase));
     let Ok(Some(assessment)) = assess(&instant, &question, phase, f64::INFINITY) else {
         return Ok(None);
@@ -87,9 +87,6 @@ pub(in crate::motion) fn sliding_accelerations(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Result<Option<Vec<f64>>, Faults> {
-    if !mechanism.friction_circles.is_empty() {
-        return Ok(super::hinged::sliding_accelerations(mechanism, configuration, phase));
-    }
     let state = phase_state(mechanism, configuration, phase)?;
     Ok(state.map(|state| state.sliding_accelerations))
 }

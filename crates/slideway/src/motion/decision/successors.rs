@@ -1,8 +1,8 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::{Assessment, Decisive};
+use super::assessment::Assessment;
 use super::elastic::attainability;
-use super::growth::standing;
+use super::growth::{Ended, standing};
 use super::instant::Instant;
 use super::parts::{Detail, GroupPhase, PhaseSearch};
 use super::rules;
@@ -17,7 +17,7 @@ use crate::pattern::{JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 
 /// If there are more combinations of what independent groups of joints can do, they are not all listed.
-pub(super) const MOST_COMBINATIONS: usize = 256;
+const MOST_COMBINATIONS: usize = 256;
 const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
@@ -28,11 +28,13 @@ pub struct Successors {
     /// Phases that would be admissible except that a guided slider would tip: unlike a block slider, it has
     /// no state of its own for that.
     pub tipping: Vec<TippingPhase>,
-    /// Phases for which a linear program was not solved.
+    /// Phases for which a linear program was not solved, or not all forces of the hinges that turn were found.
     pub unsolved: Vec<Phase>,
     /// Whether the list is complete; otherwise there are so many states that some in which fewer joints stick
     /// were omitted.
     pub(crate) complete: bool,
+    /// The sliding joints and hinges with friction of the groups that cannot go on, whatever others do.
+    pub(super) blocked: Vec<JointId>,
 }
 
 /// A phase that can follow.
@@ -137,42 +139,28 @@ pub(crate) fn continuations(event: &rules::EventInstant<'_>) -> Result<Successor
     at(instant, event, Detail::Order)
 }
 
-/// Whether nothing happens at an instant: nothing has just stopped or reversed, and the present phase is at no boundary.
-///
-/// # Errors
-/// As [`successors`].
-pub(super) fn is_undisturbed(event: &rules::EventInstant<'_>) -> Result<bool, Faults> {
-    let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
-    let instant = instant.in_units_of_at_least(event.rounding, event.configuration)?;
-    searched(instant, event, Detail::Order, |search| Ok(search.nothing_happens()))
-}
-
-fn at(instant: Instant<'_>, event: &rules::EventInstant<'_>, detail: Detail) -> Result<Successors, Faults> {
-    searched(instant, event, detail, following)
-}
-
-/// What a search at an instant finds.
-fn searched<T>(
+/// What can follow at an instant.
+fn at(
     mut instant: Instant<'_>,
     event: &rules::EventInstant<'_>,
     detail: Detail,
-    find: impl FnOnce(&PhaseSearch<'_>) -> Result<T, Faults>,
-) -> Result<T, Faults> {
+) -> Result<Successors, Faults> {
     instant.check_joints(event.signs.len())?;
     if let Some(previous) = event.previous {
         instant.check(previous)?;
         vanish(&mut instant, event, previous);
     }
     let instant = &instant;
-    let sign = |(joint, sign): (usize, &f64)| match *sign {
-        0.0 => instant.passes(joint).unwrap_or(0.0),
+    let sign = |number: usize| match event.sign_of(number) {
+        0.0 => instant.passes(number).unwrap_or(0.0),
         sign => sign,
     };
-    let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
-    let event = &rules::EventInstant { signs: &signs, ..*event };
-    let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
+    let signs: Vec<f64> = (0..instant.rubbing()).map(sign).collect();
+    let stopped: Vec<bool> = signs.iter().map(|sign| *sign == 0.0).collect();
+    let (signs, spins) = signs.split_at(instant.joints.len());
+    let event = &rules::EventInstant { signs, spins, ..*event };
     let question = instant.question(&stopped, None);
-    find(&PhaseSearch { instant, event, question: &question, detail })
+    following(&PhaseSearch { instant, event, question: &question, detail })
 }
 
 fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
@@ -194,11 +182,14 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
         };
         outcomes.sort_by_cached_key(place);
     }
+    found.blocked = blocked(search.instant, &parts, &outcomes);
     for CombinedPhase { chosen, whole, standing } in outcomes {
         let parts: Vec<&GroupPhase> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
         match standing {
             Ok(standing) => found.list.push(successor(search, &whole, (&parts, standing))),
-            Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
+            Err(Ended { violated, .. }) => {
+                found.tipping.extend(search.instant.tipping(&whole.phase, violated.into_iter()));
+            }
         }
     }
     // Unless there is evidence to the contrary, what has fallen to zero continues to fall.
@@ -223,7 +214,24 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
 struct CombinedPhase {
     chosen: Vec<usize>,
     whole: Assessment,
-    standing: Result<Standing, Vec<Decisive>>,
+    standing: Result<Standing, Ended>,
+}
+
+/// The sliding joints and hinges with friction that cannot go on, whatever others do: those of groups that can do nothing, and
+/// those that end every phase.
+fn blocked(instant: &Instant<'_>, parts: &[Vec<GroupPhase>], outcomes: &[CombinedPhase]) -> Vec<JointId> {
+    let is_empty = |number: &usize| {
+        let mut groups = instant.groups.iter().zip(parts).filter(|(_, parts)| parts.is_empty());
+        groups.any(|(group, _)| group.members(instant.joints.len()).any(|member| member == *number))
+    };
+    let ends = |number: &usize| {
+        let ended = |outcome: &CombinedPhase| {
+            outcome.standing.as_ref().is_err_and(|ended| ended.members.contains(number))
+        };
+        !outcomes.is_empty() && outcomes.iter().all(ended)
+    };
+    let all = 0..instant.rubbing();
+    all.filter(|number| is_empty(number) || ends(number)).filter_map(|number| instant.id_of(number)).collect()
 }
 
 fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usize>) -> CombinedPhase {
@@ -238,7 +246,7 @@ fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usiz
 
 /// Every way to choose one part for each group; if there are so many that an order of preference is given,
 /// only those in which all groups but at most one take their preferred part.
-pub(super) fn choices<T>(parts: &[Vec<T>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
+fn choices<T>(parts: &[Vec<T>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
     let Some(order) = order else {
         let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
         return combinations(&numbers);
@@ -283,7 +291,7 @@ fn successor(
 }
 
 /// Rank of a verdict: the verdict for several independent groups is the one of highest rank.
-pub(super) fn severity(verdict: Verdict) -> u8 {
+fn severity(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::NotComputed => 0,
         Verdict::Attainable => 1,
@@ -302,17 +310,17 @@ fn without_copies(search: &PhaseSearch<'_>, list: &mut Vec<Successor>) {
     let is_copy = |one: &Successor, other: &Successor| {
         let rests = |joint: usize| {
             !one.is_present
-                && one.phase.joints[joint] == JointPhase::Sticking
-                && stays(other, PhaseBound::Slip(instant.joints[joint].id))
+                && one.phase.of(joint) == JointPhase::Sticking
+                && instant.id_of(joint).is_some_and(|id| stays(other, PhaseBound::Slip(id)))
         };
-        let same_joint = |joint: usize| one.phase.joints[joint] == other.phase.joints[joint] || rests(joint);
+        let same_joint = |joint: usize| one.phase.of(joint) == other.phase.of(joint) || rests(joint);
         let same_contact = |k: usize| {
             let zero = PhaseBound::NormalForce(ContactId(k));
             one.phase.contacts[k] == other.phase.contacts[k]
                 || (stays(one, zero) && stays(other, zero))
                 || instant.joint_of(k).is_some_and(rests)
         };
-        (0..one.phase.joints.len()).all(same_joint)
+        (0..instant.rubbing()).all(same_joint)
             && (0..one.phase.contacts.len()).all(same_contact)
             && instant.groups.iter().all(|group| search.is_same_motion(group, [&one.state, &other.state]))
     };

@@ -1,13 +1,20 @@
 //! One pattern of sticking and slipping joints and of sides, as linear equations and inequalities.
 
+use super::assessment::Assessment;
 use super::instant::Instant;
 use super::joints::SlidingJoint;
 use super::outputs::{Group, Outputs};
 use crate::influence::ContactFriction;
 use crate::pattern::{
-    Affine, AffineExpression, AffineSet, Bound, ContactPhase, Friction, JointPhase, Phase, without_tipping,
+    Affine, AffineExpression, AffineSet, Bound, ContactPhase, Friction, JointPhase, Phase, Pin, direction,
+    without_tipping,
 };
 use nalgebra::{DMatrix, DVector};
+
+/// Directions that differ by less are the same.
+const SAME_DIRECTION: f64 = 1e-13;
+/// More steps of Newton's method for the directions of the forces of turning hinges are not taken.
+const MOST_STEPS: usize = 12;
 
 /// What an inequality of a pattern is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,7 +27,9 @@ pub(super) enum Subject {
     Couple(usize),
     /// |F_k| <= mu_static_k |N_k| + F_k0 of a contact that sticks.
     Friction(usize),
-    /// A joint that begins to slip moves against its friction.
+    /// |C_j| <= r_static_j |R_j| of a hinge that sticks.
+    Circle(usize),
+    /// A joint or hinge that begins to move, by its number among both, does so against its friction.
     Slip(usize),
 }
 
@@ -38,15 +47,15 @@ pub(super) struct Inequality {
 pub(super) struct Question<'q> {
     /// How normal forces, sliding accelerations and couples respond to friction.
     pub(super) outputs: &'q Outputs,
-    /// The required sliding acceleration (or jump of the sliding velocity) of every sticking joint, in units.
+    /// The required acceleration (or jump of the velocity) of every sticking joint, then hinge, in units.
     pub(super) wanted: Vec<f64>,
     /// Whether preloads count.
     pub(super) has_preload: bool,
     /// The sides that each contact may take.
     pub(super) sides: Vec<Vec<ContactPhase>>,
-    /// Joints whose velocity is zero; those of them that slide have just begun to.
+    /// Joints, then hinges with friction, whose velocity is zero; those of them that move have just begun to.
     pub(super) stopped: &'q [bool],
-    /// A joint that sticks only at the end, with the sign of the sliding velocity that its friction opposes.
+    /// A joint or hinge that sticks only at the end, with the sign of the sliding velocity that its friction opposes.
     pub(super) opposes: Option<(usize, f64)>,
     /// Sliding joints that are pushed by the stops that they touch, so that they, too, have the required
     /// acceleration.
@@ -63,6 +72,10 @@ pub(super) struct System<'s> {
     friction: Vec<Option<Friction>>,
     /// Forces of the end stops at which joints rest: each joint, with its unknown.
     stops: Vec<(usize, usize)>,
+    /// Couples of the hinges with friction: each hinge, with its unknown.
+    couples: Vec<(usize, usize)>,
+    /// The directions of the forces of the hinges that turn, by the numbers of the hinges.
+    directions: Vec<[f64; 2]>,
     unknowns: usize,
     solutions: AffineSet,
 }
@@ -82,19 +95,58 @@ impl<'s> System<'s> {
             group,
             friction: vec![None; phase.contacts.len()],
             stops: Vec::new(),
+            couples: Vec::new(),
+            directions: phase.hinges.iter().map(|hinge| direction(hinge.force)).collect(),
             unknowns: 0,
             solutions: AffineSet::empty(),
         };
         for &k in &group.contacts {
             system.friction[k] = Some(system.new_friction(k));
         }
-        for joint in system.bound_joints().into_iter().filter(|&joint| instant.joints[joint].stop != 0.0) {
+        let touches = |joint: &usize| instant.joints.get(*joint).is_some_and(|joint| joint.stop != 0.0);
+        for joint in system.bound_joints().into_iter().filter(touches) {
             let unknown = system.new_unknown();
             system.stops.push((joint, unknown));
         }
-        let (matrix, right_hand_side) = system.equations();
-        system.solutions = AffineSet::of(matrix, right_hand_side)?;
+        for &hinge in &group.hinges {
+            let unknown = system.new_unknown();
+            system.couples.push((hinge, unknown));
+        }
+        system.solve()?;
+        for _ in 0..MOST_STEPS {
+            if !system.turn() {
+                break;
+            }
+            system.solve()?;
+        }
         Some(system)
+    }
+
+    fn solve(&mut self) -> Option<()> {
+        let (matrix, right_hand_side) = self.equations();
+        self.solutions = AffineSet::of(matrix, right_hand_side)?;
+        Some(())
+    }
+
+    /// Takes the directions of the forces of hinges that turn from the solution, as far as the equations determine them;
+    /// returns whether that has changed any: a step of Newton's method, since `|R| = t.R` has the gradient `t`.
+    fn turn(&mut self) -> bool {
+        let mut changes = false;
+        for index in 0..self.couples.len() {
+            let (hinge, _) = self.couples[index];
+            if self.phase.hinges[hinge].state == JointPhase::Sticking {
+                continue;
+            }
+            let force = self.force(hinge).map(|component| self.solutions.function(&component));
+            if force.iter().any(Affine::varies) {
+                continue;
+            }
+            let found = direction(force.map(|component| component.constant));
+            let change = found.iter().zip(self.directions[hinge]).map(|(new, old)| (new - old).abs());
+            changes |= change.fold(0.0, f64::max) > SAME_DIRECTION;
+            self.directions[hinge] = found;
+        }
+        changes
     }
 
     /// Dimension of what the equations leave open.
@@ -106,7 +158,8 @@ impl<'s> System<'s> {
     /// another instant: not because sticking joints depend on one another.
     pub(super) fn is_redundant(&self) -> bool {
         let bound = self.bound_joints();
-        let excess = self.group.contacts.len() + bound.len() - (self.unknowns - self.dimension());
+        let equations = self.group.contacts.len() + bound.len() + self.turning().count();
+        let excess = equations - (self.unknowns - self.dimension());
         excess > 0 && excess > self.instant.dependent(&bound)
     }
 
@@ -153,34 +206,100 @@ impl<'s> System<'s> {
             expression =
                 expression.plus(stop * f64::midpoint(plus, minus), &AffineExpression::unknown(force, 1.0));
         }
+        for &(hinge, couple) in &self.couples {
+            let factor = outputs.couples[(row, hinge)];
+            if factor != 0.0 {
+                expression = expression.plus(factor, &AffineExpression::unknown(couple, 1.0));
+            }
+        }
         expression
     }
 
-    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint for
-    /// which it is prescribed.
+    /// The force of a hinge with friction on its first body.
+    fn force(&self, hinge: usize) -> [AffineExpression; 2] {
+        let first = self.instant.turning_output(hinge);
+        [1, 2].map(|component| self.output(first + component))
+    }
+
+    /// The hinges that turn, each with its couple and the sign of its velocity.
+    fn turning(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        let turning = self.couples.iter().map(|&(hinge, couple)| (hinge, couple, self.turns(hinge)));
+        turning.filter(|(.., sign)| *sign != 0.0)
+    }
+
+    fn turns(&self, hinge: usize) -> f64 {
+        self.phase.hinges[hinge].state.sign()
+    }
+
+    /// The acceleration of a joint or hinge by its number among both.
+    fn acceleration(&self, rubbing: usize) -> AffineExpression {
+        match rubbing.checked_sub(self.instant.joints.len()) {
+            None => self.output(self.instant.sliding_output(rubbing)),
+            Some(hinge) => self.output(self.instant.turning_output(hinge)),
+        }
+    }
+
+    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, the acceleration of every joint and hinge for which it is
+    /// prescribed, and C_j = -r_j s_j t_j.R_j of every hinge that turns.
     fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
         let bound = self.bound_joints();
         let contacts = self.group.contacts.len();
-        let mut matrix = DMatrix::zeros(contacts + bound.len(), self.unknowns);
-        let mut right_hand_side = DVector::zeros(contacts + bound.len());
+        let rows = contacts + bound.len() + self.turning().count();
+        let mut matrix = DMatrix::zeros(rows, self.unknowns);
+        let mut right_hand_side = DVector::zeros(rows);
         for (row, (k, friction)) in self.contacts().enumerate() {
             let equation = self.output(k).plus(-1.0, &friction.normal_force());
             write(row, &equation, &mut matrix, &mut right_hand_side);
         }
         for (index, &joint) in bound.iter().enumerate() {
-            let acceleration = self.output(self.instant.sliding_output(joint));
-            let equation = acceleration.shifted(-self.question.wanted[joint]);
+            let equation = self.acceleration(joint).shifted(-self.question.wanted[joint]);
             write(contacts + index, &equation, &mut matrix, &mut right_hand_side);
+        }
+        for (index, (hinge, couple, sign)) in self.turning().enumerate() {
+            let lever = sign * self.radius(hinge, 0);
+            let along = self.force(hinge).into_iter().zip(self.directions[hinge]);
+            let equation = along.fold(AffineExpression::unknown(couple, 1.0), |equation, (component, t)| {
+                equation.plus(lever * t, &component)
+            });
+            write(contacts + bound.len() + index, &equation, &mut matrix, &mut right_hand_side);
         }
         (matrix, right_hand_side)
     }
 
-    /// The joints whose acceleration is prescribed: those that stick, and those that are pushed.
+    /// The radius of the friction circle of a hinge in units: while it turns (0), or the static one (1).
+    fn radius(&self, hinge: usize, which: usize) -> f64 {
+        let hinge = &self.instant.hinges[hinge];
+        hinge.radii[which] / hinge.units.length
+    }
+
+    /// The joints and hinges whose acceleration is prescribed: those that stick, and those that are pushed.
     fn bound_joints(&self) -> Vec<usize> {
         let is_bound = |joint: &usize| {
             self.phase.joints[*joint] == JointPhase::Sticking || self.question.pushed.contains(joint)
         };
-        self.group.joints.iter().copied().filter(is_bound).collect()
+        let hinges = self.group.hinges.iter().filter(|hinge| self.turns(**hinge) == 0.0);
+        let hinges = hinges.map(|hinge| self.instant.number_of(*hinge));
+        self.group.joints.iter().copied().filter(is_bound).chain(hinges).collect()
+    }
+
+    /// The hinges that stick: each with what bounds its couple.
+    fn pins(&self) -> impl Iterator<Item = (usize, Pin)> {
+        let sticking = self.couples.iter().filter(|(hinge, _)| self.turns(*hinge) == 0.0);
+        sticking.map(|&(hinge, couple)| {
+            let pin = Pin {
+                reaction: self.force(hinge).map(|component| self.solutions.function(&component)),
+                couple: self.solutions.function(&AffineExpression::unknown(couple, 1.0)),
+                radius: self.radius(hinge, 1),
+                turning: None,
+                allowance: 0.0,
+            };
+            (hinge, pin)
+        })
+    }
+
+    /// What bounds the couples of hinges that stick where that is no inequality: where the equations leave it open.
+    pub(super) fn open_pins(&self) -> Vec<Pin> {
+        self.pins().map(|(_, pin)| pin).filter(Pin::varies).collect()
     }
 
     /// The normal force and the friction of a contact, in units; `None` if the equations leave it open.
@@ -188,6 +307,19 @@ impl<'s> System<'s> {
         let Some(friction) = &self.friction[k] else { return [None; 2] };
         let both = friction.faces[0].clone().plus(1.0, &friction.faces[1]);
         [friction.normal_force(), both].map(|force| {
+            let force = self.solutions.function(&force);
+            (!force.varies()).then_some(force.constant)
+        })
+    }
+
+    /// Both components of the force of a hinge of the group on its first body, and its friction couple, in units; `None` if
+    /// the equations leave it open.
+    pub(super) fn determined_forces_of_hinge(&self, hinge: usize) -> [Option<f64>; 3] {
+        let Some(&(_, couple)) = self.couples.iter().find(|(other, _)| *other == hinge) else {
+            return [None; 3];
+        };
+        let [x, y] = self.force(hinge);
+        [x, y, AffineExpression::unknown(couple, 1.0)].map(|force| {
             let force = self.solutions.function(&force);
             (!force.varies()).then_some(force.constant)
         })
@@ -230,13 +362,28 @@ impl<'s> System<'s> {
                 && self.question.stopped[joint]
                 && self.instant.joints[joint].has_friction
             {
-                let acceleration = self.output(self.instant.sliding_output(joint));
-                add(Subject::Slip(joint), acceleration.times(sign));
+                add(Subject::Slip(joint), self.acceleration(joint).times(sign));
                 if sign == self.instant.joints[joint].stop && !self.question.pushed.contains(&joint) {
                     // Nothing slides into its stop.
                     add(Subject::Slip(joint), AffineExpression::constant(-1.0));
                 }
             }
+        }
+        for (hinge, _, sign) in self.turning() {
+            let number = self.instant.number_of(hinge);
+            if self.question.stopped[number] {
+                add(Subject::Slip(number), self.acceleration(number).times(sign));
+            }
+        }
+        for &(hinge, couple) in &self.couples {
+            if let Some((_, sign)) =
+                self.question.opposes.filter(|(number, _)| *number == self.instant.number_of(hinge))
+            {
+                add(Subject::Circle(hinge), AffineExpression::unknown(couple, -sign));
+            }
+        }
+        for (hinge, pin) in self.pins().filter(|(_, pin)| !pin.varies()) {
+            add(Subject::Circle(hinge), AffineExpression::constant(pin.slack_of_constants()));
         }
         all
     }
@@ -245,8 +392,9 @@ impl<'s> System<'s> {
         self.solutions.function(expression).at(z)
     }
 
-    /// Adds the forces of this group to those of all contacts.
-    pub(super) fn write_forces(&self, z: &[f64], forces: &mut Forces) {
+    /// Adds the forces of this group to those of all contacts and hinges.
+    pub(super) fn write_forces(&self, z: &[f64], found: &mut Assessment) {
+        let forces = &mut found.forces;
         for (k, friction) in self.contacts() {
             let [positive_face, negative_face] = friction.faces.each_ref().map(|face| self.value(face, z));
             forces.frictions[k] = ContactFriction { positive_face, negative_face };
@@ -260,6 +408,12 @@ impl<'s> System<'s> {
             forces.frictions[contacts[0]].positive_face += half;
             forces.frictions[contacts[0]].negative_face += half;
         }
+        for &(hinge, couple) in &self.couples {
+            forces.couples[hinge] = self.value(&AffineExpression::unknown(couple, 1.0), z);
+            let unit = self.instant.hinges[hinge].units.force;
+            found.phase.hinges[hinge].force =
+                self.force(hinge).map(|component| self.value(&component, z) * unit);
+        }
     }
 }
 
@@ -272,6 +426,8 @@ pub(super) struct Forces {
     pub(super) normal: Vec<f64>,
     /// Shares of the positive faces, for contacts that slide in their preload gaps.
     pub(super) shares: Vec<Option<f64>>,
+    /// Friction couples of the hinges on their first bodies.
+    pub(super) couples: Vec<f64>,
 }
 
 /// Writes the equation `expression = 0` into a row, scaled so that its greatest coefficient is one.

@@ -1,15 +1,16 @@
 //! Every state of joints and contacts is tried.
 
 use super::holding::Holding;
+use super::jam::jam_within;
 use super::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
-use super::separate::{self, separate};
-use super::{halting, hinged};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, body_of};
+use crate::motion::moving::amounts::Amounts;
+use crate::motion::moving::equations::independent;
 use crate::pattern::Phase;
 
 impl Hold for Holding<'_> {
@@ -22,39 +23,30 @@ impl Hold for Holding<'_> {
     }
 }
 
-/// Whether hinges have friction.
-fn has_rough_hinges(mechanism: &Mechanism) -> bool {
-    !mechanism.friction_circles.is_empty()
-}
-
 /// The decisions of this module: every state of joints and contacts is tried.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
-        match separate(instant.mechanism) {
-            Some(parts) => separate::continuations(&parts, instant, continuations),
-            None => continuations(instant),
-        }
+        continuations(instant)
     }
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
-        let Some(parts) = separate(instant.mechanism) else { return tipping(instant) };
-        for part in parts {
-            if part.at(instant, continuations)?.list.is_empty() {
-                let joints = part.at(instant, tipping)?;
-                return Ok(joints.into_iter().map(|joint| part.in_whole(joint)).collect());
-            }
-        }
-        Ok(Vec::new())
+        let found = super::continuations(instant)?;
+        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-        match separate(instant.mechanism) {
-            Some(parts) => separate::jam(&parts, instant, continuations, halting_impulse),
-            None => halting_impulse(instant),
-        }
+        let rests = |number: usize| instant.sign_of(number) == 0.0;
+        let found = jam_within(instant.mechanism, instant.configuration, (&rests, instant.work))?;
+        let super::Jam::Stops(impulses) = found else { return Ok(None) };
+        let blocked = super::continuations(instant)?.blocked;
+        let stops = |impulse: &super::Impulse| blocked.is_empty() || blocked.contains(&impulse.wedged);
+        Ok(impulses.into_iter().find(stops).map(|impulse| HaltingImpulse {
+            velocities: impulse.after.velocities,
+            energy_lost: impulse.energy_lost,
+        }))
     }
 
     fn sticking_margin(
@@ -63,18 +55,7 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults> {
-        let Some(parts) = separate(mechanism) else {
-            return sticking_margin(mechanism, configuration, phase);
-        };
-        let mut least = f64::INFINITY;
-        for part in parts {
-            let phase = part.phase(phase);
-            if phase.sticks() {
-                let configuration = part.configuration(configuration);
-                least = least.min(sticking_margin(&part.part.mechanism, &configuration, &phase)?);
-            }
-        }
-        Ok(least)
+        super::sticking_margin(mechanism, configuration, phase)
     }
 
     fn normal_forces(
@@ -83,16 +64,8 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
-        let Some(parts) = separate(mechanism) else { return normal_forces(mechanism, configuration, phase) };
-        let mut forces = vec![None; mechanism.contacts.len()];
-        for part in parts {
-            let configuration = part.configuration(configuration);
-            let of_part = normal_forces(&part.part.mechanism, &configuration, &part.phase(phase))?;
-            for (contact, force) in part.part.contacts.iter().zip(of_part) {
-                forces[contact.index()] = force;
-            }
-        }
-        Ok(forces)
+        let forces = super::determined_forces(mechanism, configuration, phase)?;
+        Ok(forces.contacts.into_iter().map(|[normal, _]| normal).collect())
     }
 
     fn hold<'m>(
@@ -101,80 +74,33 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
-        if !has_rough_hinges(mechanism) {
-            return Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)));
+        // Friction of hinges is not affine in the loads: what has it is known to stay at rest if nothing changes.
+        let parts = independent(mechanism);
+        let circles = mechanism.friction_circles.iter();
+        let rough: Vec<usize> = circles
+            .filter_map(|circle| body_of(mechanism, circle.joint))
+            .map(|body| parts[body.index()])
+            .collect();
+        let of = |is_rough: bool| -> Vec<bool> {
+            let rests = resting.bodies.iter().zip(&parts);
+            rests.map(|(rests, part)| *rests && rough.contains(part) == is_rough).collect()
+        };
+        if Amounts::new(mechanism, configuration, &of(true)).units().next().is_some() {
+            return Ok(None);
         }
-        let mut of = [resting.bodies.to_vec(), vec![false; resting.bodies.len()]];
-        for part in separate(mechanism).unwrap_or_default().iter().filter(|part| !part.is_rough()) {
-            part.part
-                .bodies
-                .iter()
-                .for_each(|body| of[1][body.index()] = std::mem::take(&mut of[0][body.index()]));
-        }
-        let [rough, smooth] = of.each_ref().map(|bodies| Resting { bodies, ..resting });
-        let forever = hinged::hold(mechanism, configuration, rough);
-        if forever.is_none() || !smooth.bodies.contains(&true) {
-            return Ok(forever);
-        }
+        let smooth = Resting { bodies: &of(false), ..resting };
         Ok(Some(Box::new(Holding::new(mechanism, configuration, smooth)?)))
     }
 }
 
-/// The phases in which a mechanism can go on, taken as a whole.
+/// The phases in which a mechanism can go on.
 fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
-    if has_rough_hinges(instant.mechanism) {
-        return hinged::continuations(instant);
-    }
     let found = super::continuations(instant)?;
     let one = |successor: super::Successor| Continuation {
         phase: successor.phase,
         verdict: successor.attainability.verdict,
         continues: successor.continues,
     };
-    Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
-}
-
-fn tipping(instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
-    if has_rough_hinges(instant.mechanism) {
-        return Ok(Vec::new());
-    }
-    let found = super::continuations(instant)?;
-    Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
-}
-
-fn halting_impulse(instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-    if has_rough_hinges(instant.mechanism) {
-        return halting::halting_impulse(instant);
-    }
-    let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
-        return Ok(None);
-    };
-    let first = impulses.into_iter().next();
-    Ok(first.map(|impulse| HaltingImpulse {
-        velocities: impulse.after.velocities,
-        energy_lost: impulse.energy_lost,
-    }))
-}
-
-fn sticking_margin(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    phase: &Phase,
-) -> Result<f64, Faults> {
-    if has_rough_hinges(mechanism) {
-        return hinged::sticking_margin(mechanism, configuration, phase);
-    }
-    super::sticking_margin(mechanism, configuration, phase)
-}
-
-fn normal_forces(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    phase: &Phase,
-) -> Result<Vec<Option<f64>>, Faults> {
-    if has_rough_hinges(mechanism) {
-        return Ok(vec![None; mechanism.contacts.len()]);
-    }
-    let forces = super::determined_forces(mechanism, configuration, phase)?;
-    Ok(forces.into_iter().map(|[normal, _]| normal).collect())
+    let left_out = !found.complete || !found.unsolved.is_empty();
+    Ok(Continuations { left_out, list: found.list.into_iter().map(one).collect() })
 }

@@ -16,7 +16,7 @@ pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>,
     if event.zero.is_empty() {
         return;
     }
-    let stopped = vec![false; instant.joints.len()];
+    let stopped = vec![false; instant.rubbing()];
     let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, ENOUGH);
     if let Ok(Some(before)) = before {
         let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();

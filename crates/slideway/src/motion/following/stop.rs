@@ -5,7 +5,7 @@ use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::rules::{Decisions, EventInstant};
-use crate::motion::decision::{Impact, TOUCHES, impact, relative_velocities, sliding_accelerations};
+use crate::motion::decision::{Impact, TOUCHES, impact_within, relative_velocities, sliding_accelerations};
 use crate::motion::moving::cause::Cause;
 use crate::progress::Work;
 
@@ -42,7 +42,7 @@ pub(in crate::motion) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hi
 /// given below which it stands still.
 ///
 /// # Errors
-/// As [`impact`], and whatever keeps the next flight from being decided.
+/// As [`impact`](crate::motion::decision::impact()), and whatever keeps the next flight from being decided.
 pub(in crate::motion) fn impact_of(
     hits: &[Hit],
     (mechanism, configuration): (&Mechanism, &Configuration),
@@ -51,7 +51,7 @@ pub(in crate::motion) fn impact_of(
 ) -> Result<Impact, Faults> {
     let mut stops: Vec<(JointId, f64)> = hits.iter().map(|hit| (hit.joint, hit.restitution)).collect();
     loop {
-        let rebound = impact(mechanism, configuration, &stops)?;
+        let rebound = impact_within(mechanism, configuration, &stops, work)?;
         let mut rests = false;
         for (hit, (_, restitution)) in hits.iter().zip(&mut stops) {
             if *restitution > 0.0 && !flies(*hit, (mechanism, &rebound.after), (little, work), decisions)? {

@@ -41,6 +41,13 @@ pub(in crate::motion) struct Resolution<'m> {
 }
 
 impl<'m> Resolution<'m> {
+    /// Those of a mechanism that act on some of its bodies.
+    pub(in crate::motion) fn of_bodies(mechanism: &'m Mechanism, counts: impl Fn(usize) -> bool) -> Self {
+        let mut some = Self::new(mechanism);
+        some.formulas.retain(|changing| counts(changing.body));
+        some
+    }
+
     /// Those of a mechanism.
     pub(in crate::motion) fn new(mechanism: &'m Mechanism) -> Self {
         let parameters = mechanism.values(&[], &[], 0.0).parameters.iter();

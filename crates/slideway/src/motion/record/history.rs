@@ -169,7 +169,8 @@ pub struct ContactSample {
 pub struct HingeSample {
     /// On its first body (N).
     pub force: [f64; 2],
-    /// Whether statics determines the force: what sticks may leave it open.
+    /// Whether the equations of the phase determine the force: not while sliding joints stick. A [series](History::series)
+    /// contains it there, too, if statics determines it.
     pub is_determined: bool,
     /// The friction couple on its first body (N m); nothing where it sticks and statics does not determine it.
     pub couple: Option<f64>,

@@ -6,9 +6,11 @@ use crate::configuration::Configuration;
 use crate::fault::{FaultKind, Faults};
 use crate::ids::JointId;
 use crate::model::Model;
-use crate::motion::decision::{Impact, impact};
+use crate::motion::decision::{Impact, impact, impact_within};
 use crate::motion::moving::energy::kinetic;
 use crate::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
+use crate::progress::{Progress, as_far_as_wanted};
+use std::ops::ControlFlow;
 
 /// The trammel whose rod turns in rough pins, both with the same friction circle.
 fn rough_trammel(mu: f64, radius: f64, upright: &str) -> String {
@@ -90,6 +92,19 @@ fn rough_pins_help_friction_to_wedge_what_moves() {
     let e = (trammel_push(0.73, 0.0) / trammel_push(-0.73, 0.0)).sqrt();
     close(&impact_of(&trammel(0.73, ""), &[("level", 0.5)]).after.rates, &[-3.0 * e], 1e-12);
     close(&impact_of(&rough_trammel(0.73, 0.02, ""), &[("level", 0.5)]).after.rates, &[0.0], 1e-12);
+}
+
+#[test]
+fn an_impact_comes_to_nothing_once_its_work_ends() {
+    let mechanism = mechanism_of(&rough_trammel(0.3, 0.01, ""));
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let level = mechanism.joints.iter().position(|joint| &*joint.name == "level").unwrap();
+    let stops = [(JointId(level), 0.5)];
+    assert!(impact(&mechanism, &configuration, &stops).is_ok());
+    let mut end = |_: &Progress| ControlFlow::Break(());
+    let (found, has_ended) =
+        as_far_as_wanted(&mut end, |work| impact_within(&mechanism, &configuration, &stops, work));
+    assert!(has_ended && found.is_err(), "{found:?}");
 }
 
 const CARRIAGE: f64 = 3.0;

@@ -3,8 +3,9 @@
 use crate::configuration::unit;
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
-use crate::motion::decision::determined_forces;
-use crate::motion::record::history::{History, Sample};
+use crate::motion::decision::{DeterminedForces, determined_forces};
+use crate::motion::record::history::{HingeSample, History, Sample};
+use crate::pattern::{HingePhase, Phase};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -104,7 +105,7 @@ impl History {
         let mut row = Vec::with_capacity(columns.len());
         for sample in times.iter().filter_map(|time| reader.at(*time)) {
             row.clear();
-            values(mechanism, &sample, &self.forces(&sample), &mut row);
+            values(mechanism, &sample, &self.determined_forces(&sample), &mut row);
             columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
             modes.push(patterns.get(sample.phase).cloned().unwrap_or_default());
         }
@@ -114,18 +115,30 @@ impl History {
     /// The normal force and the friction of each contact at a sample (N); nothing where joints stick and statics leaves it
     /// open. Friction is positive against positive sliding.
     pub fn forces(&self, sample: &Sample) -> Vec<[Option<f64>; 2]> {
-        let all = || {
-            let contacts = sample.contacts.iter();
-            contacts.map(|contact| [Some(contact.normal_force), contact.friction_force]).collect()
-        };
+        self.determined_forces(sample).contacts
+    }
+
+    /// The forces at a sample; nothing where statics leaves them open.
+    fn determined_forces(&self, sample: &Sample) -> DeterminedForces {
         let phase = self.phases.get(sample.phase).map(|interval| &interval.phase);
-        let Some(phase) = phase.filter(|phase| phase.sticks()) else { return all() };
-        if !phase.hinges.is_empty() {
-            let determined = sample.hinges.iter().all(|hinge| hinge.is_determined);
-            return if determined { all() } else { vec![[None; 2]; sample.contacts.len()] };
-        }
-        let found = determined_forces(&self.mechanism, &sample.configuration, phase);
-        found.unwrap_or_else(|_| vec![[None; 2]; sample.contacts.len()])
+        let Some(phase) = phase.filter(|phase| phase.sticks()) else {
+            let contacts = sample.contacts.iter();
+            let hinge = |hinge: &HingeSample| [Some(hinge.force[0]), Some(hinge.force[1]), hinge.couple];
+            return DeterminedForces {
+                contacts: contacts
+                    .map(|contact| [Some(contact.normal_force), contact.friction_force])
+                    .collect(),
+                hinges: sample.hinges.iter().map(hinge).collect(),
+            };
+        };
+        let hinges = phase.hinges.iter().zip(&sample.hinges);
+        let hinges = hinges.map(|(hinge, now)| HingePhase { force: now.force, ..*hinge }).collect();
+        let phase = Phase { hinges, ..phase.clone() };
+        let found = determined_forces(&self.mechanism, &sample.configuration, &phase);
+        found.unwrap_or_else(|_| DeterminedForces {
+            contacts: vec![[None; 2]; sample.contacts.len()],
+            hinges: vec![[None; 3]; sample.hinges.len()],
+        })
     }
 }
 
@@ -166,7 +179,7 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
 }
 
 /// The numbers of a row, in the order of the columns.
-fn values(mechanism: &Mechanism, sample: &Sample, forces: &[[Option<f64>; 2]], row: &mut Vec<Option<f64>>) {
+fn values(mechanism: &Mechanism, sample: &Sample, forces: &DeterminedForces, row: &mut Vec<Option<f64>>) {
     let configuration = &sample.configuration;
     row.push(Some(configuration.time));
     let mut equation = ConstraintRow::empty();
@@ -178,12 +191,11 @@ fn values(mechanism: &Mechanism, sample: &Sample, forces: &[[Option<f64>; 2]], r
         let acceleration = terms.sum::<f64>() - equation.right_hand_side;
         row.extend([Some(*value), Some(*rate), Some(acceleration)]);
     }
-    for (contact, [normal_force, friction]) in sample.contacts.iter().zip(forces) {
+    for (contact, [normal_force, friction]) in sample.contacts.iter().zip(&forces.contacts) {
         row.extend([*normal_force, *friction, Some(contact.sliding_velocity)]);
     }
-    for hinge in &sample.hinges {
-        let [x, y] = hinge.force;
-        row.extend([Some(x.hypot(y)).filter(|_| hinge.is_determined), hinge.couple, Some(hinge.spin)]);
+    for (hinge, [x, y, couple]) in sample.hinges.iter().zip(&forces.hinges) {
+        row.extend([x.zip(*y).map(|(x, y)| x.hypot(y)), *couple, Some(hinge.spin)]);
     }
     row.extend(sample.efforts.iter().map(|effort| Some(*effort)));
     let energy = &sample.energy;

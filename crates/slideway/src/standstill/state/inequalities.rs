@@ -4,7 +4,7 @@
 use super::State;
 use crate::ids::ContactId;
 use crate::mechanism::FrictionCircle;
-use crate::pattern::{Affine, AffineExpression, ContactPhase, JointPhase, Pin, Region, without_tipping};
+use crate::pattern::{AffineExpression, ContactPhase, JointPhase, Pin, Region, without_tipping};
 use crate::standstill::setup::{Setup, SlidingJoint};
 
 /// Static friction of contacts and hinges.
@@ -20,26 +20,8 @@ impl State<'_> {
     /// What the equations leave open within every inequality of the state, with this static friction.
     pub(in crate::standstill) fn region(&self, static_friction: &StaticFriction) -> Region<'static> {
         let all = (0..self.setup.sliders.len()).flat_map(|slider| self.bounds_of(slider, static_friction));
-        let slacks = all.chain(self.pushes().into_iter().flatten()).chain(self.beginning());
-        self.within(slacks.map(|slack| self.function(&slack)).collect(), static_friction)
-    }
-
-    /// The same within the inequalities of what sticks alone, and those that depend on what the equations leave open: the
-    /// others bound what slides and turns.
-    pub(in crate::standstill) fn sticking_region(&self, static_friction: &StaticFriction) -> Region<'static> {
-        let sticks = |slider: &usize| self.pattern.joints[*slider] == JointPhase::Sticking;
-        let (sticking, sliding): (Vec<usize>, Vec<usize>) = (0..self.setup.sliders.len()).partition(sticks);
-        let bounds = |sliders: &[usize]| -> Vec<Affine> {
-            let all = sliders.iter().flat_map(|slider| self.bounds_of(*slider, static_friction));
-            all.map(|slack| self.function(&slack)).collect()
-        };
-        let mut slacks = bounds(&sticking);
-        slacks.extend(self.pushes().iter().flatten().map(|slack| self.function(slack)));
-        slacks.extend(bounds(&sliding).into_iter().filter(Affine::varies));
-        self.within(slacks, static_friction)
-    }
-
-    fn within(&self, slacks: Vec<Affine>, static_friction: &StaticFriction) -> Region<'static> {
+        let slacks = all.chain(self.beginning());
+        let slacks = slacks.map(|slack| self.function(&slack)).collect();
         Region::new(self.solutions.dimension(), slacks).with_pins(self.pins(&static_friction.radii))
     }
 
@@ -68,13 +50,11 @@ impl State<'_> {
     /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do.
     pub(in crate::standstill) fn beginning(&self) -> Vec<AffineExpression> {
         let sliders = self.pattern.joints.iter().enumerate();
-        let sliders = sliders.map(|(index, joint)| (index, *joint, self.sliding_acceleration(index)));
-        let hinges = self.pattern.hinges.iter().enumerate().map(|(index, hinge)| {
-            (self.setup.sliders.len() + index, *hinge, self.turning_acceleration(index))
-        });
-        let begins = sliders.chain(hinges).filter(|(index, ..)| self.setup.known[*index].sign.is_none());
-        let moving = begins.filter(|(_, joint, _)| *joint != JointPhase::Sticking);
-        moving.map(|(_, joint, acceleration)| acceleration.times(joint.sign())).collect()
+        let sliders = sliders.map(|(index, joint)| (*joint, self.sliding_acceleration(index)));
+        let hinges = self.pattern.hinges.iter().enumerate();
+        let hinges = hinges.map(|(index, hinge)| (*hinge, self.turning_acceleration(index)));
+        let moving = sliders.chain(hinges).filter(|(joint, _)| *joint != JointPhase::Sticking);
+        moving.map(|(joint, acceleration)| acceleration.times(joint.sign())).collect()
     }
 
     /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones unless

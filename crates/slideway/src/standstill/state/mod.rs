@@ -55,8 +55,6 @@ pub(super) struct State<'s> {
     between: Vec<Option<usize>>,
     /// The couple of each hinge with friction, an unknown.
     couples: Vec<usize>,
-    /// The force of the end stop of each sliding joint that sticks at it or is pushed by it, an unknown.
-    stops: Vec<Option<usize>>,
     columns: usize,
     solutions: AffineSet,
 }
@@ -81,7 +79,6 @@ impl<'s> State<'s> {
             friction: Vec::new(),
             between: Vec::new(),
             couples: Vec::new(),
-            stops: Vec::new(),
             columns: 0,
             solutions: AffineSet::empty(),
         };
@@ -91,7 +88,6 @@ impl<'s> State<'s> {
         let first_couple = state.columns;
         state.columns += setup.mechanism.friction_circles.len();
         state.couples = (first_couple..state.columns).collect();
-        state.stops = (0..setup.sliders.len()).map(|slider| state.new_stop(slider)).collect();
         state.columns += usize::from(question.factor.is_none());
         let (matrix, right_hand_side) = state.equations();
         state.solutions = AffineSet::of(matrix, right_hand_side)?;
@@ -127,14 +123,6 @@ impl<'s> State<'s> {
                 self.columns += 1;
                 self.columns - 1
             })
-        })
-    }
-
-    fn new_stop(&mut self, slider: usize) -> Option<usize> {
-        let is_bound = self.pattern.joints[slider] == JointPhase::Sticking || self.setup.known[slider].pushed;
-        (self.setup.stops[slider] != 0.0 && is_bound).then(|| {
-            self.columns += 1;
-            self.columns - 1
         })
     }
 
@@ -277,12 +265,6 @@ impl<'s> State<'s> {
                 matrix[(row, unknown)] -= sign * unit * setup.units.length;
             }
         }
-        for (slider, &unknown) in self.stops.iter().enumerate() {
-            if let Some(unknown) = unknown {
-                let away = setup.row(slider).transpose() * -setup.stops[slider];
-                matrix.column_mut(unknown).axpy(-unit, &away, 1.0);
-            }
-        }
         if let Some(load) = &setup.load {
             if let Some(factor) = self.question.factor {
                 right_hand_side += &load.forces * factor;
@@ -294,8 +276,7 @@ impl<'s> State<'s> {
         (matrix, right_hand_side)
     }
 
-    /// G a = gamma, C a = prescribed and, for joints and hinges that stick or are pushed by their stops, S_j a + sigma_j = 0;
-    /// what does not depend on accelerations is zero at rest.
+    /// G a = 0, C a = prescribed and, for joints and hinges that stick, S_j a = 0.
     fn kinematics(&self) -> Vec<(DVector<f64>, f64)> {
         let setup = self.setup;
         let rows = setup.equations_of_motion();
@@ -306,9 +287,9 @@ impl<'s> State<'s> {
             let (size, value) = (row.amax(), setup.assembled.load[row_place]);
             found.push(if size > 0.0 { (row / size, value / size) } else { (row, value) });
         }
-        let sticks = |acceleration: AffineExpression| (self.dense(&acceleration), -acceleration.constant);
+        let sticks = |acceleration: AffineExpression| (self.dense(&acceleration), 0.0);
         for (index, joint) in self.pattern.joints.iter().enumerate() {
-            if *joint == JointPhase::Sticking || setup.known[index].pushed {
+            if *joint == JointPhase::Sticking {
                 found.push(sticks(self.sliding_acceleration(index)));
             }
         }
@@ -411,20 +392,14 @@ impl State<'_> {
         let along = (0..self.setup.equations_of_motion())
             .map(|column| (column, -f64::midpoint(positive[column], negative[column])));
         let unit = self.setup.units.acceleration;
-        self.of_accelerations(along, unit).shifted(self.of_velocities(slider) / unit)
+        self.of_accelerations(along, unit)
     }
 
     /// Angular acceleration of the first body of a hinge with friction against the second.
     pub(super) fn turning_acceleration(&self, hinge: usize) -> AffineExpression {
         let circle = &self.setup.mechanism.friction_circles[hinge];
         let unit = self.setup.units.acceleration / self.setup.units.length;
-        let of_velocities = self.of_velocities(self.setup.sliders.len() + hinge);
-        self.of_accelerations(self.setup.couple(circle), unit).shifted(of_velocities / unit)
-    }
-
-    /// What velocities add to the acceleration of a sliding joint or hinge with friction, by its number among these.
-    fn of_velocities(&self, joint: usize) -> f64 {
-        if self.question.moving { self.setup.known[joint].acceleration } else { 0.0 }
+        self.of_accelerations(self.setup.couple(circle), unit)
     }
 
     /// The couple of a hinge with friction, on its first body.
@@ -432,34 +407,9 @@ impl State<'_> {
         AffineExpression::unknown(self.couples[hinge], 1.0)
     }
 
-    /// The force of the end stop of each sliding joint that sticks at it or is pushed by it; nothing of the others.
-    pub(super) fn pushes(&self) -> Vec<Option<AffineExpression>> {
-        self.stops.iter().map(|stop| stop.map(|unknown| AffineExpression::unknown(unknown, 1.0))).collect()
-    }
-
-    /// The force of each hinge with friction on its first body (N).
-    pub(super) fn hinge_forces(&self) -> Vec<[AffineExpression; 2]> {
-        let force = |axis, circle: &FrictionCircle| {
-            self.reaction(self.hinge_place(circle, axis)).times(self.setup.units.force)
-        };
-        self.setup
-            .mechanism
-            .friction_circles
-            .iter()
-            .map(|circle| [force(0, circle), force(1, circle)])
-            .collect()
-    }
-
     fn hinge_place(&self, circle: &FrictionCircle, axis: usize) -> usize {
         let place = self.setup.assembled.layout.reaction(Reaction::Hinge(circle.joint, axis));
         place.expect("every hinge has its reactions")
-    }
-
-    /// The accelerations of the bodies, or the jumps of their velocities: (x, y, angle) of each (m, rad, s).
-    pub(super) fn accelerations(&self) -> Vec<AffineExpression> {
-        (0..self.setup.equations_of_motion())
-            .map(|column| self.of_accelerations([(column, 1.0)], 1.0))
-            .collect()
     }
 
     /// A linear form of the accelerations, in this unit.

@@ -1,29 +1,28 @@
 //! Impacts on end stops: the impulses of the stops, with friction impulses at all sliding joints and turning hinges.
 //!
-//! What a stop does, and the course of an impact, are here; which impulses are possible is in `sliders.rs`, and with friction
-//! in hinges in `hinges.rs`.
+//! What a stop does, and the course of an impact, are here; which impulses are possible is in `pushed.rs`.
 
-mod hinges;
-mod sliders;
+mod pushed;
 
 use super::MOST_STATES;
 use super::impulse::AT_REST;
-use super::separate::{self, separate};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::pattern::phase::sliding_joints;
+use crate::progress::Work;
 use nalgebra::DVector;
+use pushed::Pushed;
+pub(in crate::motion) use pushed::impact_within;
 
 /// The effect of an impact on end stops.
 #[derive(Debug, Clone)]
 pub struct Impact {
     /// The mechanism afterwards: the same positions, new velocities.
     pub(crate) after: Configuration,
-    /// The blows, one for each set of joints that act on one another; they are independent. With friction in hinges one for
-    /// all.
+    /// The blows, one for each set of joints that act on one another; they are independent.
     pub(crate) blows: Vec<Blow>,
 }
 
@@ -52,8 +51,8 @@ pub struct Blow {
 ///
 /// which is the mode problem of impulses. It is constant until a sliding or angular velocity reaches zero, and is then
 /// decided anew. A joint slides first against its stop and then away from it, so its friction reverses within
-/// the impact. If there are several possible answers, the one with the greatest margin is used; with friction in hinges that in
-/// which more of what is at rest stays so. Coefficients of friction are those at the velocities before the impact.
+/// the impact. If there are several possible answers, the one with the greatest margin is used; where hinges turn with
+/// friction, that in which more of what is at rest stays so. Coefficients of friction are those at the velocities before the impact.
 ///
 /// Where pushing makes a joint faster towards its stop, since friction of another turns it round, that goes on until a
 /// sliding or angular velocity reaches zero. Where no impulse of the stop is possible friction wedges the mechanism, as in
@@ -75,23 +74,7 @@ pub fn impact(
     configuration: &Configuration,
     stops: &[(JointId, f64)],
 ) -> Result<Impact, Faults> {
-    match separate(mechanism) {
-        Some(parts) => separate::impact(&parts, (mechanism, configuration), stops, together),
-        None => together(mechanism, configuration, stops),
-    }
-}
-
-/// The impact in a mechanism that is taken as a whole.
-fn together(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    stops: &[(JointId, f64)],
-) -> Result<Impact, Faults> {
-    if mechanism.friction_circles.is_empty() {
-        sliders::impact(mechanism, configuration, stops)
-    } else {
-        hinges::impact(mechanism, configuration, stops)
-    }
+    impact_within(mechanism, configuration, stops, Work::undisturbed())
 }
 
 /// A joint that has reached its stop.
@@ -133,30 +116,6 @@ struct Change {
     jumps: DVector<f64>,
     /// The impulses of the stops of those joints (N s).
     impulses: Vec<f64>,
-}
-
-/// The impulses that are possible in a mechanism some of whose joints are pushed by their stops.
-trait Pushed {
-    /// Whether friction or a stop acts while a velocity is zero.
-    fn rubs(&self, joint: usize) -> bool;
-
-    /// The whole change from these velocities to the targets of the joints that are pushed; `None` if none is admissible. What
-    /// was not decided is counted.
-    ///
-    /// # Errors
-    /// More states than are tried, or several changes.
-    fn change(
-        &self,
-        velocities: &[f64],
-        targets: &[(usize, f64)],
-        unsolved: &mut usize,
-    ) -> Result<Option<Change>, Faults>;
-
-    /// The change by which friction wedges the mechanism where no stop can push, until a velocity reaches zero.
-    ///
-    /// # Errors
-    /// More states than are tried.
-    fn wedged(&self, course: &AfterImpact) -> Result<Option<Change>, Faults>;
 }
 
 /// Joints that reach their stops together.
@@ -291,7 +250,7 @@ impl<'c> Collision<'c> {
     }
 
     /// The outcome of the impact; `None` unless exactly these stops can push.
-    fn outcome(&self, pushed: &dyn Pushed, unsolved: &mut usize) -> Result<Option<AfterImpact>, Faults> {
+    fn outcome(&self, pushed: &Pushed<'_>, unsolved: &mut usize) -> Result<Option<AfterImpact>, Faults> {
         let undecided = *unsolved;
         let whole = self.course(pushed, 1.0, unsolved)?;
         let bounded = match whole {
@@ -329,7 +288,7 @@ impl<'c> Collision<'c> {
     /// courses with each part: no piece of a course is known before the part is, so that it is bisected.
     fn greatest(
         &self,
-        pushed: &dyn Pushed,
+        pushed: &Pushed<'_>,
         unsolved: &mut usize,
     ) -> Result<Option<(f64, AfterImpact)>, Faults> {
         let Some(dead) = self.course(pushed, 0.0, unsolved)? else { return Ok(None) };
@@ -348,7 +307,7 @@ impl<'c> Collision<'c> {
     /// proportion; `None` if there is none.
     fn course(
         &self,
-        pushed: &dyn Pushed,
+        pushed: &Pushed<'_>,
         part: f64,
         unsolved: &mut usize,
     ) -> Result<Option<AfterImpact>, Faults> {
@@ -375,7 +334,7 @@ impl<'c> Collision<'c> {
     /// returned the work that it has taken; `false` if no impulse leads there. Every part except the last brings another joint or hinge to rest.
     fn follow(
         &self,
-        pushed: &dyn Pushed,
+        pushed: &Pushed<'_>,
         course: &mut AfterImpact,
         targets: &[(usize, f64)],
         unsolved: &mut usize,
@@ -411,7 +370,7 @@ impl<'c> Collision<'c> {
     /// stops it goes on until something stops; where no stop can push, friction wedges what moves towards them.
     fn change(
         &self,
-        pushed: &dyn Pushed,
+        pushed: &Pushed<'_>,
         course: &AfterImpact,
         targets: &[(usize, f64)],
         unsolved: &mut usize,
@@ -463,7 +422,7 @@ impl<'c> Collision<'c> {
 
 /// The fraction of a change until a joint or hinge stops, and which, other than those whose target that is; `most` if none does.
 fn until_one_stops(
-    pushed: &dyn Pushed,
+    pushed: &Pushed<'_>,
     velocities: &[f64],
     changes: &[f64],
     (most, targets): (f64, &[(usize, f64)]),

@@ -56,8 +56,9 @@ impl Smooth<'_, '_> {
         phase: &Phase,
         decisions: &mut dyn Decisions,
     ) -> Result<Vec<(ContactId, f64)>, Failure> {
+        let phase = self.equations.with_present_forces(phase);
         let Equations { mechanism, configuration, .. } = &self.equations;
-        let forces = decisions.normal_forces(mechanism, configuration, phase).map_err(Failure::Loads)?;
+        let forces = decisions.normal_forces(mechanism, configuration, &phase).map_err(Failure::Loads)?;
         let mut known = Vec::new();
         for (k, force) in forces.into_iter().enumerate() {
             match force {

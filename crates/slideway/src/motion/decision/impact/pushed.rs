@@ -1,6 +1,6 @@
-//! The impulses of an impact without friction in hinges.
+//! The impulses of an impact.
 
-use super::{AfterImpact, Blow, Change, Collision, Hit, Impact, Pushed, hits, outcome};
+use super::{AfterImpact, Blow, Change, Collision, Hit, Impact, hits, outcome};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -9,22 +9,26 @@ use crate::modes::Side;
 use crate::motion::decision::assessment::Assessment;
 use crate::motion::decision::impulse::Impulses;
 use crate::motion::decision::instant::Instant;
-use crate::motion::decision::jam::{Impulse, Jam, jam};
+use crate::motion::decision::jam::{Impulse, Jam, jam_within};
 use crate::motion::decision::outputs::Group;
+use crate::motion::decision::parts::SAME;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::{ContactPhase, JointPhase};
+use crate::progress::Work;
 
-/// The impact of joints, each group of joints that act on one another by itself.
+/// The impact of joints, each group of joints that act on one another by itself, in work that may end: then it comes to
+/// nothing.
 ///
 /// # Errors
 /// As [`impact`](super::impact).
-pub(super) fn impact(
+pub(in crate::motion) fn impact_within(
     mechanism: &Mechanism,
     configuration: &Configuration,
     stops: &[(JointId, f64)],
+    work: Work<'_>,
 ) -> Result<Impact, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
-    let velocities = Impulses::new(&instant).velocities();
+    let velocities = Impulses::new(&instant, work).velocities();
     let joints: Vec<JointId> = instant.joints.iter().map(|joint| joint.id).collect();
     let hits = hits(stops, &joints, &velocities);
     let mut found = Impact { after: configuration.clone(), blows: Vec::new() };
@@ -34,14 +38,16 @@ pub(super) fn impact(
             continue;
         }
         let size = instant.influence.frictionless.len();
-        let collision = Collision::new(mechanism, &hits, &velocities, size);
+        let mut of_group = vec![0.0; velocities.len()];
+        group.members(joints.len()).for_each(|number| of_group[number] = velocities[number]);
+        let collision = Collision::new(mechanism, &hits, &of_group, size);
         let before = &found.after;
         let course = outcome(collision, |collision, unsolved| {
             let instant = touching(&instant, collision);
-            let impulses = Impulses::new(&instant);
-            collision.outcome(&Sliders { impulses: &impulses, group, before, collision }, unsolved)
+            let impulses = Impulses::new(&instant, work);
+            collision.outcome(&Pushed { impulses: &impulses, group, before, collision }, unsolved)
         })?;
-        let after = Impulses::new(&instant).moved(&found.after, &course.jumps);
+        let after = Impulses::new(&instant, work).moved(&found.after, &course.jumps);
         let stops = hits.iter().map(|hit| hit.id).zip(course.impulses).collect();
         let energy_lost = kinetic(mechanism, &found.after) - kinetic(mechanism, &after);
         found.blows.push(Blow { stops, energy_lost });
@@ -62,7 +68,7 @@ fn touching<'m>(instant: &Instant<'m>, collision: &Collision<'_>) -> Instant<'m>
     instant
 }
 
-struct Sliders<'s> {
+pub(super) struct Pushed<'s> {
     impulses: &'s Impulses<'s>,
     group: &'s Group,
     /// The mechanism before the impact.
@@ -70,49 +76,58 @@ struct Sliders<'s> {
     collision: &'s Collision<'s>,
 }
 
-impl Pushed for Sliders<'_> {
-    fn rubs(&self, joint: usize) -> bool {
-        self.impulses.instant.joints[joint].has_friction
+impl Pushed<'_> {
+    /// Whether friction or a stop acts while a velocity is zero.
+    pub(super) fn rubs(&self, number: usize) -> bool {
+        self.impulses.instant.may_stick(number)
     }
 
-    fn change(
+    /// The whole change from these velocities to the targets of the joints that are pushed; `None` if none is admissible. What
+    /// was not decided is counted.
+    ///
+    /// # Errors
+    /// More states than are tried, or several changes.
+    pub(super) fn change(
         &self,
         velocities: &[f64],
         targets: &[(usize, f64)],
         unsolved: &mut usize,
     ) -> Result<Option<Change>, Faults> {
         let Some(state) = self.state(velocities, targets, unsolved)? else { return Ok(None) };
-        let jumps = self.impulses.instant.influence.of_friction(&self.impulses.frictions(&state));
-        let joints = self.impulses.instant.joints.iter().zip(&state.phase.joints);
-        let change =
-            |(joint, phase): (&crate::motion::decision::joints::SlidingJoint, &JointPhase)| match phase {
-                JointPhase::Sticking => 0.0,
-                JointPhase::Sliding(_) => joint.row.change(&jumps),
-            };
-        let velocities = joints.map(change).collect();
+        let jumps = self.impulses.jumps(&state);
+        let change = |(number, phase): (usize, JointPhase)| match phase {
+            JointPhase::Sticking => 0.0,
+            JointPhase::Sliding(_) => self.impulses.instant.change(number, &jumps),
+        };
+        let velocities = state.phase.joints_and_hinges().enumerate().map(change).collect();
         let impulses = targets.iter().map(|(joint, _)| self.push(&state, *joint)).collect();
         Ok(Some(Change { velocities, jumps, impulses }))
     }
 
-    fn wedged(&self, course: &AfterImpact) -> Result<Option<Change>, Faults> {
-        let Instant { mechanism, influence, joints, .. } = self.impulses.instant;
+    /// The change by which friction wedges the mechanism where no stop can push, until a velocity reaches zero.
+    ///
+    /// # Errors
+    /// More states than are tried.
+    pub(super) fn wedged(&self, course: &AfterImpact) -> Result<Option<Change>, Faults> {
+        let instant = self.impulses.instant;
+        let Instant { mechanism, joints, .. } = instant;
         let configuration = self.impulses.moved(self.before, &course.jumps);
-        let Jam::Stops(all) = jam(mechanism, &configuration)? else { return Ok(None) };
-        let of_group =
-            |impulse: &Impulse| self.group.joints.iter().any(|joint| joints[*joint].id == impulse.wedged);
+        let rests = |number: usize| course.velocities[number] == 0.0;
+        let found = jam_within(mechanism, &configuration, (&rests, self.impulses.work))?;
+        let Jam::Stops(all) = found else { return Ok(None) };
+        let of_group = |impulse: &Impulse| {
+            self.group.members(joints.len()).any(|number| instant.id_of(number) == Some(impulse.wedged))
+        };
         let impulse = all.into_iter().find(of_group);
         Ok(impulse.map(|impulse| {
-            let velocities = impulse.sliding_velocities.iter().zip(&course.velocities);
-            Change {
-                velocities: velocities.map(|(after, before)| after - before).collect(),
-                jumps: influence.of_friction(&impulse.friction_impulses),
-                impulses: vec![0.0; self.collision.pushing().count()],
+            let mut velocities = vec![0.0; course.velocities.len()];
+            for number in self.group.members(joints.len()) {
+                velocities[number] = impulse.velocities[number] - course.velocities[number];
             }
+            Change { velocities, jumps: impulse.jumps, impulses: vec![0.0; self.collision.pushing().count()] }
         }))
     }
-}
 
-impl Sliders<'_> {
     /// The state in which the whole change from these sliding velocities to the targets could take place;
     /// `None` if none is admissible.
     fn state(
@@ -136,9 +151,34 @@ impl Sliders<'_> {
         question.pushed = targets.iter().map(|(joint, _)| *joint).collect();
         let found = self.impulses.admissible(&question, &options, self.group)?;
         *unsolved += found.unsolved;
+        if !self.group.hinges.is_empty() {
+            return self.only(found.list);
+        }
         let better =
             |best: Assessment, other: Assessment| if other.least() > best.least() { other } else { best };
         Ok(found.list.into_iter().reduce(better))
+    }
+
+    /// The state in which most stays at rest.
+    ///
+    /// # Errors
+    /// There are several, with different velocities afterwards.
+    fn only(&self, mut states: Vec<Assessment>) -> Result<Option<Assessment>, Faults> {
+        let stays = |state: &Assessment| {
+            let members = self.group.members(self.impulses.instant.joints.len());
+            members.filter(|number| state.phase.of(*number) == JointPhase::Sticking).count()
+        };
+        let most = states.iter().map(stays).max();
+        states.retain(|state| Some(stays(state)) == most);
+        let bodies = 3 * self.impulses.instant.mechanism.bodies.len();
+        let jumps = |state: &Assessment| self.impulses.jumps(state).rows(0, bodies).into_owned();
+        let mut states = states.into_iter();
+        let Some(first) = states.next() else { return Ok(None) };
+        let found = jumps(&first);
+        if states.any(|other| (jumps(&other) - &found).amax() > SAME * found.amax()) {
+            return Err(self.collision.several());
+        }
+        Ok(Some(first))
     }
 
     /// The impulse with which the stop of a joint pushes in a state (N s): half of it acts at the
