@@ -1766,7 +1766,8 @@ class HoldReport(_mixins.HoldReport, Report):
     release_patterns: int
     """States of joints and contact sides that were tried for release."""
     undecided: int
-    """Patterns of both kinds of which a linear program could not be solved."""
+    """Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be
+    solved."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1906,6 +1907,8 @@ class LoadReport(Record):
     """The factor at which everything else in the report is told: 1 for a load, 0 for a drive."""
     held: tuple[Range, ...]
     """The factors with which it can stay at rest, in ascending order."""
+    undecided: int
+    """Patterns of contact sides in which that was not decided: they may hold it with others."""
     self_locking: bool
     """Whether it can stay at rest with every factor that is great enough."""
     threshold: Threshold
@@ -2913,6 +2916,8 @@ class Threshold(Record):
     value: float | None
     """Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
     needed, nothing if no friction suffices."""
+    undecided: int
+    """Patterns of contact sides in which that was not decided: with them it may lie lower, or there may be one."""
     coefficients: tuple[Coefficients, ...]
     """Static coefficients of every contact at the threshold."""
 

@@ -22,7 +22,7 @@ pub enum HoldVerdict {
     Moves,
     /// It can neither stay at rest nor begin to move with finite accelerations.
     Neither,
-    /// Friction may hold it; motions without inertia keep the states of sliding from being known.
+    /// It stays at rest; whether it also keeps sliding once pushed is not known, since motions are without inertia.
     MayHold,
     /// It cannot stay at rest; motions without inertia keep its accelerations from being known.
     DoesNotHold,
@@ -90,11 +90,18 @@ pub struct HoldReport {
     pub rest_patterns: usize,
     /// States of joints and contact sides that were tried for release.
     pub release_patterns: usize,
-    /// Patterns of both kinds of which a linear program could not be solved.
+    /// Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be solved.
     pub undecided: usize,
 }
 
 impl HoldReport {
+    /// Whether it is known that it holds, or that it does not: what is open concerns the varied load or wedging at most.
+    pub fn is_decided(&self) -> bool {
+        let of_load = self.load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
+        let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
+        self.holds || self.undecided == of_load + of_wedging
+    }
+
     /// Has its forces and moments shown in units in which they read well.
     pub(super) fn suit_units(&mut self) {
         let reactions = self.at_rest.iter().map(|rest| &rest.reactions);
@@ -140,10 +147,15 @@ pub struct LoadReport {
     pub factor: f64,
     /// The factors with which it can stay at rest, in ascending order.
     pub held: Vec<Range>,
+    /// Patterns of contact sides in which that was not decided: they may hold it with others.
+    pub undecided: usize,
     /// Whether it can stay at rest with every factor that is great enough.
     pub self_locking: bool,
-    /// From which static friction on it is self-locking.
+    /// From which static friction on it is held alone, however great: at least where the guides are wedged.
     pub threshold: Threshold,
+    /// From which value of the same on it holds by itself, since there it cannot slide, not even where nothing wedged it
+    /// before; nothing if it never does, or where that was not sought.
+    pub certain_from: Option<f64>,
 }
 
 /// Whether redundant guides can be wedged: pressed against each other without any load, however hard.
@@ -168,6 +180,8 @@ pub struct Threshold {
     /// Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
     /// needed, nothing if no friction suffices.
     pub value: Option<f64>,
+    /// Patterns of contact sides in which that was not decided: with them it may lie lower, or there may be one.
+    pub undecided: usize,
     /// Static coefficients of every contact at the threshold.
     pub coefficients: Vec<Coefficients>,
     /// Whether hinges have static friction, too, so that these coefficients are not all of it.

@@ -107,7 +107,7 @@ impl Text<'_> {
             return;
         }
         report.motions_without_inertia.iter().for_each(|motion| self.line(&format!("  {motion}")));
-        if let Some(load) = &report.load {
+        if let Some(load) = report.load.as_ref().filter(|load| load.threshold.undecided == 0) {
             let coefficients = coefficients_in_words(&load.threshold).map(|list| format!(": {list}"));
             self.line(&format!("{}{}.", threshold_in_words(load), coefficients.unwrap_or_default()));
         }
