@@ -4,6 +4,9 @@ use crate::report::{CoordinateState, LoadSharing};
 use crate::units::Units;
 use serde::Serialize;
 
+/// Ends of intervals that differ by less than this, relative to the greater, are the same.
+const SAME_END: f64 = 1e-9;
+
 /// Version of the layout of a [`HoldReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/hold/1";
 
@@ -236,6 +239,9 @@ pub struct ContactRange {
     pub name: String,
     /// Normal force on the block, along n (N).
     pub normal_force: Range,
+    /// The parts of that range in which it can lie; absent where no value between is impossible.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub normal_force_parts: Vec<Range>,
     /// Friction force on the block, against u (N).
     pub friction_force: Range,
     /// Couple of a guided slider (N m).
@@ -330,6 +336,36 @@ impl Range {
     }
 }
 
+/// The union of intervals, in ascending order.
+pub(super) fn union(mut intervals: Vec<Range>) -> Vec<Range> {
+    let least = |range: &Range| range.least.unwrap_or(f64::NEG_INFINITY);
+    let greatest = |range: &Range| range.greatest.unwrap_or(f64::INFINITY);
+    intervals.sort_by(|a, b| least(a).total_cmp(&least(b)));
+    let mut union: Vec<Range> = Vec::new();
+    for interval in intervals {
+        let touches = |last: &&mut Range| {
+            let end = greatest(last);
+            least(&interval) <= end + SAME_END * end.abs().min(f64::MAX)
+        };
+        match union.last_mut().filter(touches) {
+            Some(last) => *last = last.hull(interval),
+            None => union.push(interval),
+        }
+    }
+    union
+}
+
+impl ContactRange {
+    /// The parts in which its normal force can lie: one, unless values between are impossible.
+    pub(super) fn normal_forces(&self) -> &[Range] {
+        if self.normal_force_parts.is_empty() {
+            std::slice::from_ref(&self.normal_force)
+        } else {
+            &self.normal_force_parts
+        }
+    }
+}
+
 impl Reactions {
     /// The contacts whose normal forces have no bound.
     pub(super) fn unbounded(&self) -> Vec<String> {
@@ -342,6 +378,8 @@ impl Reactions {
     /// The least ranges that hold both.
     pub(super) fn hull(mut self, other: &Self) -> Self {
         for (one, other) in self.contacts.iter_mut().zip(&other.contacts) {
+            let parts = union([one.normal_forces(), other.normal_forces()].concat());
+            one.normal_force_parts = if parts.len() > 1 { parts } else { Vec::new() };
             one.normal_force = one.normal_force.hull(other.normal_force);
             one.friction_force = one.friction_force.hull(other.friction_force);
             one.couple = one.couple.zip(other.couple).map(|(a, b)| a.hull(b));
