@@ -199,18 +199,19 @@ fn from(known: &Threshold, value: f64) -> String {
 }
 
 /// "mu = 0.6 (now 0.3)", "mu_static = 0.1667 (now 0.2)", "1.2 times this static friction"
-fn threshold(threshold: &Threshold, value: f64) -> String {
+fn threshold(known: &Threshold, value: f64) -> String {
     let now = |name: &str, at: f64, present: f64| match [at, present].map(brief) {
         [at, present] if at == present => format!("{name} = {at}, its present value"),
         [at, present] => format!("{name} = {at} (now {present})"),
     };
-    if threshold.varied != "static friction" {
-        return now(&threshold.varied, value, threshold.present);
+    if known.varied != "static friction" {
+        return now(&known.varied, value, known.present);
     }
-    let mut coefficients = threshold.coefficients.iter().flat_map(|one| one.mu_static);
+    let mut coefficients = known.coefficients.iter().flat_map(|one| one.mu_static);
     match coefficients.next() {
-        Some(first) if !threshold.friction_in_hinges && coefficients.all(|other| other == first) => {
-            now("mu_static", first, first / value)
+        Some(first) if !known.friction_in_hinges && coefficients.all(|other| other == first) => {
+            let present = first / known.value.unwrap_or(value);
+            now("mu_static", present * value, present)
         }
         _ => format!("{} times this static friction", brief(value)),
     }
