@@ -113,7 +113,7 @@ impl Watch {
 
     /// Work whose answer is whole or none: past the limit it ends with the program, even within a step that does not look
     /// at the time.
-    pub(crate) fn whole_or_none(self, color: ColorChoice) -> Self {
+    pub(crate) fn whole_or_none(mut self, color: ColorChoice) -> Self {
         let Some(limit) = self.limit else { return self };
         let left = (limit + GIVEN_UP).saturating_sub(self.start.elapsed());
         let (over, is_over) = channel::<()>();
@@ -125,7 +125,8 @@ impl Watch {
                 std::process::exit(i32::from(failure.outcome() as u8));
             }
         });
-        Self { over: Some(over), ..self }
+        self.over = Some(over);
+        self
     }
 
     /// Starts now, as [`Self::new`], but shows no progress where the answer itself appears bit by bit on the
