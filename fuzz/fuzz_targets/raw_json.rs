@@ -1,12 +1,2 @@
-//! Any bytes as a raw problem (json): no panic, and what is accepted is answered within the limits.
 #![no_main]
-
-use libfuzzer_sys::fuzz_target;
-use slideway::raw_problem::RawProblem;
-
-fuzz_target!(|bytes: &[u8]| {
-    match RawProblem::from_json(bytes) {
-        Ok(problem) => slideway_fuzz::answer(&problem),
-        Err(faults) => assert!(!faults.to_string().is_empty()),
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| slideway_fuzz::raw_json(bytes));

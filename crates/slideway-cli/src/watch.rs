@@ -3,19 +3,24 @@
 use crate::failure::Failure;
 use crate::halt::{Halt, rough};
 use crate::outcome::Outcome;
-use crate::output::{ProgressLine, clear_progress};
+use crate::output::{ProgressLine, clear_progress, complain};
+use anstream::ColorChoice;
 use slideway::progress::Progress;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Work that takes less time shows no progress.
 const QUIET: Duration = Duration::from_secs(1);
 /// Time between two lines of progress.
 const BETWEEN: Duration = Duration::from_millis(200);
+/// Work whose answer is whole or none, and that does not end by itself so long after its limit, is given up with the program.
+const GIVEN_UP: Duration = Duration::from_secs(1);
 /// Characters of the bar.
 const BAR: usize = 24;
 
@@ -77,6 +82,8 @@ pub(crate) struct Watch {
     told: Option<[(Duration, f64); 2]>,
     line: ProgressLine,
     halt: Option<Halt>,
+    /// Tells whoever gives the work up that it is over, by being dropped.
+    over: Option<Sender<()>>,
 }
 
 impl Watch {
@@ -93,7 +100,33 @@ impl Watch {
             let _ = ctrlc::set_handler(interrupt);
         });
         WATCHED.store(true, Ordering::Relaxed);
-        Self { start, shown: Duration::ZERO, limit, told: None, line: ProgressLine::new(), halt: None }
+        Self {
+            start,
+            shown: Duration::ZERO,
+            limit,
+            told: None,
+            line: ProgressLine::new(),
+            halt: None,
+            over: None,
+        }
+    }
+
+    /// Work whose answer is whole or none: past the limit it ends with the program, even within a step that does not look
+    /// at the time.
+    pub(crate) fn whole_or_none(mut self, color: ColorChoice) -> Self {
+        let Some(limit) = self.limit else { return self };
+        let left = (limit + GIVEN_UP).saturating_sub(self.start.elapsed());
+        let (over, is_over) = channel::<()>();
+        thread::spawn(move || {
+            if is_over.recv_timeout(left) == Err(RecvTimeoutError::Timeout) {
+                let failure = Failure::Halted { halt: Halt::TimeLimit(limit), path: None };
+                clear_progress();
+                complain(&failure.to_string(), color);
+                std::process::exit(i32::from(failure.outcome() as u8));
+            }
+        });
+        self.over = Some(over);
+        self
     }
 
     /// Starts now, as [`Self::new`], but shows no progress where the answer itself appears bit by bit on the

@@ -55,6 +55,42 @@ fn a_time_limit_ends_every_long_command_in_time_and_nothing_is_written() {
     }
 }
 
+/// A cart with so many bars, one hanging from the other: some steps of every question on hundreds of bodies take seconds.
+fn bars(folder: &Path, number: usize) -> String {
+    let mut points = String::from("[parameters]\nmu = 0.2\n[points]\np0 = [0, 0]\n");
+    let mut rest = String::from(
+        "[bodies.b0]\npoints = ['p0']\nmass = 1\nmoment_of_inertia = 0.01\ncentre_of_mass = 'p0'\n[joints.s]\ntype = 'block_slider'\n\
+         block = 'b0'\nat = 'p0'\nalong = 0\nlength = 0.1\nmu = 'mu'\n[coordinates.x]\nslide = 's'\nrate = 1\n",
+    );
+    for bar in 1..=number {
+        let above = bar - 1;
+        points += &format!("p{bar} = [{}, 0]\n", 0.1 * bar as f64);
+        rest += &format!(
+            "[bodies.b{bar}]\npoints = ['p{above}', 'p{bar}']\nmass = 1\nmoment_of_inertia = 0.01\ncentre_of_mass = 'p{bar}'\n\
+             [joints.h{bar}]\ntype = 'hinge'\nbetween = ['b{bar}.p{above}', 'b{above}.p{above}']\n\
+             [coordinates.q{bar}]\nrotation = 'b{bar}'\nrate = 0.1\n"
+        );
+    }
+    let path = folder.join("bars.toml");
+    fs::write(&path, points + &rest).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// Within a step that does not look at the time the program ends a second past the limit.
+#[test]
+fn a_time_limit_ends_questions_on_hundreds_of_bodies() {
+    let folder = tempfile::tempdir().unwrap();
+    let bars = bars(folder.path(), 400);
+    for words in [&["limits", &bars, "--vary", "mu"][..], &["hold", &bars]] {
+        let begun = Instant::now();
+        let run = slideway(&[words, &["--time-limit", "100ms"]].concat());
+        let took = begun.elapsed();
+        let told = "error: ended by the time limit of 100 ms before there was an answer; nothing is written";
+        assert!(run.code == 3 && run.stderr.starts_with(told), "{words:?}: {} {}", run.code, run.stderr);
+        assert!(took < Duration::from_secs(5), "{words:?} took {took:?}");
+    }
+}
+
 /// `hold` refuses what would take minutes: its 20,736 states take half a second with this build.
 #[test]
 fn a_time_limit_ends_hold_between_states() {

@@ -246,6 +246,15 @@ fn a_drawing_with_a_gap_is_told_with_its_joint() {
     let found = with("12 mm");
     let [(Doubt::GapClosed { joint, gap }, Some(_))] = found.as_slice() else { panic!("{found:?}") };
     assert_eq!((joint.as_str(), gap.as_str()), ("A", "12 mm"));
+    // (5, 12) mm beside it in both components: 13 mm.
+    let text = text
+        .replace("[points]", "[points]\nA_2 = [\"r*cos(phi_drawn) + 5 mm\", \"r*sin(phi_drawn) + 12 mm\"]");
+    let text = text.replace("points = [\"A\", \"B\"]", "points = [\"A_2\", \"B\"]");
+    let both = of_text(&text.replace("rod.A\"", "rod.A_2\""));
+    assert!(
+        both.iter().any(|(doubt, _)| matches!(doubt, Doubt::GapClosed { gap, .. } if gap == "13 mm")),
+        "{both:?}"
+    );
     assert_eq!(with("0.01 mm"), []);
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outco
     let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model_without_warnings()?;
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let report = check_with(&model, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     output.tell(&report, arguments.format)?;

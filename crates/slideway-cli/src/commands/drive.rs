@@ -28,7 +28,7 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let vary = arguments.vary.as_deref().map(|vary| input.vary(&model, vary)).transpose()?;
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let mut of_rows = |rows: usize| {
         let options = DriveOptions::default().vary(vary.clone()).rows(rows);
         let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));

@@ -17,7 +17,7 @@ pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome
     let model = input.model()?;
     let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
     options.load.clone_from(&arguments.load);
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let vary = arguments.vary.as_ref().map(|text| input.vary(&model, text)).transpose()?;
     if let Some(vary) = vary.as_ref().filter(|vary| vary.range.is_some()) {
         let report = rest_limits_with(&model, vary, &options, &mut |progress| watch.look(progress));
@@ -29,9 +29,9 @@ pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome
     let report = standstill::hold_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     output.tell(&report, arguments.format)?;
-    Ok(match (report.holds, report.undecided) {
+    Ok(match (report.holds, report.is_decided()) {
         (true, _) => Outcome::Done,
-        (false, 0) => Outcome::NoSolution,
-        (false, _) => Outcome::Unknown,
+        (false, true) => Outcome::NoSolution,
+        (false, false) => Outcome::Unknown,
     })
 }

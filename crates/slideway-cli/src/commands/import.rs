@@ -21,7 +21,7 @@ pub(crate) fn import(arguments: &ImportArguments, output: &Output) -> Result<Out
     let text = String::from_utf8(bytes).map_err(|_| refused(ImportFault::Encoding))?;
     let title = path.file_stem().and_then(|stem| stem.to_str()).filter(|stem| *stem != "-");
     let options = ImportOptions { title: title.map(str::to_owned), unit: arguments.unit };
-    let mut watch = Watch::since(begun, arguments.time.time_limit);
+    let mut watch = Watch::since(begun, arguments.time.time_limit).whole_or_none(output.color());
     let model = dxf_with(&text, &options, &mut |progress| watch.look(progress)).map_err(refused)?;
     output.write(&watch.whole(model)?)?;
     Ok(Outcome::Done)

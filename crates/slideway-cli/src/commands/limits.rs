@@ -23,7 +23,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         .max_reaction(arguments.max_reaction)
         .both_directions(arguments.both_directions)
         .effort(arguments.effort);
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let mut look = |progress: &Progress| watch.look(progress);
     let report = if let Some((picture, file)) = plot {
         let found = limits::curves_with(&model, &options, arguments.quantity, &mut look);

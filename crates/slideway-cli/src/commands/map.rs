@@ -31,7 +31,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
         .size(width, height)
         .colour_by(arguments.colour_by)
         .probe(usize::from(arguments.probe));
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let report = map_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {

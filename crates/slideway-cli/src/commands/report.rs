@@ -24,7 +24,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let document = Document::new(&mut files, &arguments.destination, named_after, arguments.open.open)?;
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let wanted = arguments.vary.iter().map(|vary| input.vary(&model, vary)).collect::<Result<Vec<_>, _>>()?;
     let found = Findings::of(&model, wanted, &mut |progress| watch.look(progress));
     let found = watch.whole(found.map_err(|faults| input.refused(faults))?)?;

@@ -19,7 +19,7 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let vary = input.wanted(&model, arguments.vary.as_deref())?;
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let report = arguments.against(&model).and_then(|against| {
         let options = SizeOptions::new(vary, arguments.wanted())
             .against(against)

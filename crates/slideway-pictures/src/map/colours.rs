@@ -69,10 +69,11 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Moves { as_in_model: true, .. } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
         ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
-        ClassMeaning::Rest { holds: Some(true) } => plain(numbers[1]),
-        ClassMeaning::Rest { holds: Some(false) } => plain(SLIPS),
+        ClassMeaning::Rest { holds: Some(true), may_slip: true } => plain(LOCKED_IN_OPPOSITE),
+        ClassMeaning::Rest { holds: Some(true), .. } => plain(numbers[1]),
+        ClassMeaning::Rest { holds: Some(false), .. } => plain(SLIPS),
         ClassMeaning::Continuum => plain(theme.ink),
-        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } | ClassMeaning::Rest { holds: None } => {
+        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } | ClassMeaning::Rest { holds: None, .. } => {
             let fill = if *theme == DARK { "#30363d" } else { "#e1e4e8" };
             Paint { fill, hatching: Some(Hatching::Falling) }
         }

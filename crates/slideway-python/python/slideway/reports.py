@@ -386,7 +386,8 @@ static friction.
 (Painleve's paradox at rest).
 - `"moves"`: It cannot stay at rest, and begins to move.
 - `"neither"`: It can neither stay at rest nor begin to move with finite accelerations.
-- `"may_hold"`: Friction may hold it; motions without inertia keep the states of sliding from being known.
+- `"may_hold"`: It stays at rest; whether it also keeps sliding once pushed is not known, since motions are
+without inertia.
 - `"does_not_hold"`: It cannot stay at rest; motions without inertia keep its accelerations from being known."""
 
 JointForm = Literal["hinge", "block slider", "guided slider", "pin in slot"]
@@ -953,6 +954,8 @@ class ContactRange(Record):
     """Its name."""
     normal_force: Range
     """Normal force on the block, along n (N)."""
+    normal_force_parts: tuple[Range, ...] = ()
+    """The parts of that range in which it can lie; absent where no value between is impossible."""
     friction_force: Range
     """Friction force on the block, against u (N)."""
     couple: Range | None
@@ -1766,7 +1769,8 @@ class HoldReport(_mixins.HoldReport, Report):
     release_patterns: int
     """States of joints and contact sides that were tried for release."""
     undecided: int
-    """Patterns of both kinds of which a linear program could not be solved."""
+    """Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be
+    solved."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1906,10 +1910,15 @@ class LoadReport(Record):
     """The factor at which everything else in the report is told: 1 for a load, 0 for a drive."""
     held: tuple[Range, ...]
     """The factors with which it can stay at rest, in ascending order."""
+    undecided: int
+    """Patterns of contact sides in which that was not decided: they may hold it with others."""
     self_locking: bool
     """Whether it can stay at rest with every factor that is great enough."""
     threshold: Threshold
-    """From which static friction on it is self-locking."""
+    """From which static friction on it is held alone, however great: at least where the guides are wedged."""
+    certain_from: float | None
+    """From which value of the same on it holds by itself, since there it cannot slide, not even where nothing
+    wedged it before; nothing if it never does, or where that was not sought."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2798,6 +2807,8 @@ class SpanOfRest(Record):
     """Where it ends."""
     holds: bool | None
     """Whether it can stay at rest; null where that was not decided, and where there is no answer."""
+    may_slip: bool = False
+    """Whether it can also begin to slide: it rests only where something wedged it before. Absent if not."""
     reason: str | None = None
     """Why there is no answer, if there is none."""
 
@@ -2913,6 +2924,8 @@ class Threshold(Record):
     value: float | None
     """Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
     needed, nothing if no friction suffices."""
+    undecided: int
+    """Patterns of contact sides in which that was not decided: with them it may lie lower, or there may be one."""
     coefficients: tuple[Coefficients, ...]
     """Static coefficients of every contact at the threshold."""
 

@@ -210,11 +210,16 @@ pub(crate) fn widest_gap_of_drawing(mechanism: &Mechanism) -> Option<Gap> {
 }
 
 fn widest_gap(equations: &JointEquations) -> Option<Gap> {
-    let open = (0..equations.joints.len())
-        .filter_map(|row| equations.joints[row].map(|joint| (joint, row)))
-        .max_by(|a, b| equations.residual[a.1].abs().total_cmp(&equations.residual[b.1].abs()));
-    let (joint, row) = open?;
-    Some(Gap { joint, relative: equations.residual[row].abs(), is_angle: equations.are_angles[row] })
+    let of_row = |row: usize| Some((equations.joints[row]?, equations.are_angles[row]));
+    let rows = 0..equations.joints.len();
+    // Both components of the distance between the points of a hinge make one gap.
+    let gap = |row: usize| {
+        let (joint, is_angle) = of_row(row)?;
+        let same = rows.clone().filter(|&other| of_row(other) == Some((joint, is_angle)));
+        let relative = same.map(|row| equations.residual[row]).fold(0.0, f64::hypot);
+        Some(Gap { joint, relative, is_angle })
+    };
+    rows.clone().filter_map(gap).max_by(|one, other| one.relative.total_cmp(&other.relative))
 }
 
 /// The joints of a shortest loop through `joint`, that one first; none if it closes no loop.

@@ -146,8 +146,16 @@ impl Tabulated<'_> {
         let [from, to] = self.range;
         let room = SAME_ROW * (to - from);
         let is_free = |value: &f64| self.blow_ups.iter().all(|blow_up| (blow_up.at - value).abs() > room);
-        let even = evenly(self.range, steps).filter(is_free);
-        let rows = even.flat_map(|value| self.rows_at(value)).collect();
+        // There one solution grows without bound, and others may go on.
+        let goes_on = |row: &CourseRow| {
+            let grows = |blow_up: &BlowUp| Some(&blow_up.pattern) == row.pattern.as_ref();
+            row.efforts.is_some()
+                && !self.blow_ups.iter().any(|one| (one.at - row.at).abs() <= room && grows(one))
+        };
+        let even = evenly(self.range, steps).map(|value| (self.rows_at(value), is_free(&value)));
+        let rows =
+            even.flat_map(|(rows, is_free)| rows.into_iter().filter(move |row| is_free || goes_on(row)));
+        let rows = rows.collect();
         with_blow_ups(rows, self.blow_ups)
     }
 

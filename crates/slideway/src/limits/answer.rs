@@ -11,7 +11,7 @@ use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
 use crate::fault::Faults;
 use crate::ids::JointId;
-use crate::mechanism::{JointKind, Mechanism, Slider};
+use crate::mechanism::{Coordinate, JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::branches::Branch;
@@ -26,9 +26,17 @@ impl VariedQuantity {
     }
 }
 
-/// The coordinates of a mechanism in its state, but for what is varied.
-pub(crate) fn held_state(mechanism: &Mechanism, varied: &Varied) -> Vec<CoordinateState> {
-    let held = mechanism.coordinates.iter().filter(|coordinate| *coordinate.name != *varied.name);
+/// The coordinates of a mechanism in its state, but for what is varied in a range and what depends on it.
+pub(crate) fn held_state(mechanism: &Mechanism, varied: &Varied, range: [f64; 2]) -> Vec<CoordinateState> {
+    let at_ends = range.map(|end| varied.model_at(end).and_then(|model| Mechanism::new(&model)).ok());
+    let is_held = |(index, coordinate): &(usize, &Coordinate)| {
+        let same = |other: &Mechanism| {
+            let other = &other.coordinates[*index];
+            (other.value, other.rate) == (coordinate.value, coordinate.rate)
+        };
+        *coordinate.name != *varied.name && at_ends.iter().flatten().all(same)
+    };
+    let held = mechanism.coordinates.iter().enumerate().filter(is_held).map(|(_, coordinate)| coordinate);
     held.map(|coordinate| CoordinateState {
         name: coordinate.name.to_string(),
         unit: unit(&coordinate.kind),
@@ -251,7 +259,7 @@ pub(super) fn report(
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
         vary: VariedQuantity::new(varied, range, value),
-        state: held_state(&naming.mechanism, varied),
+        state: held_state(&naming.mechanism, varied, range),
         units: varied.model().units.clone(),
         steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
         method: match found.method {

@@ -293,6 +293,9 @@ pub struct SpanOfRest {
     pub to: f64,
     /// Whether it can stay at rest; null where that was not decided, and where there is no answer.
     pub holds: Option<bool>,
+    /// Whether it can also begin to slide: it rests only where something wedged it before. Absent if not.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub may_slip: bool,
     /// Why there is no answer, if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,

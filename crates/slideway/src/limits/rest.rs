@@ -14,10 +14,10 @@ use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::scan::{Sample, Scan, Stretch, evenly, samples};
-use crate::standstill::{CoordinateValue, HoldOptions, can_rest};
+use crate::standstill::{CoordinateValue, HoldOptions, Rests, rests};
 
-/// The answer at a value: whether it can rest, if that was decided, or why there is no answer.
-type Found = Result<Option<bool>, Faults>;
+/// The answer at a value: whether it can rest, or why there is no answer.
+type Found = Result<Rests, Faults>;
 
 /// The stretches of a range in which a mechanism can stay at rest, and those in which it cannot.
 ///
@@ -63,7 +63,7 @@ fn rest_limits_of(
 ) -> Result<RestLimitsReport, Faults> {
     let varied = vary.at_rest(model)?;
     let range = vary.ends(&varied, || Err(varied.range_needed()))?;
-    let found = |at: f64| -> Found { can_rest(&varied.model_at(at)?, options, work) };
+    let found = |at: f64| -> Found { rests(&varied.model_at(at)?, options, work) };
     let same_ends = SameEnds::bisected(range);
     let tried = samples(evenly(range, STEPS), work, |at, _| found(at));
     let spans = spans(&tried, &found, &same_ends);
@@ -75,7 +75,10 @@ fn rest_limits_of(
         schema: REST_SCHEMA,
         title: model.title.clone(),
         vary: VariedQuantity::new(&varied, range, varied.present().unwrap_or_default()),
-        state: held_state(&Mechanism::new(model)?, &varied).into_iter().map(CoordinateValue::from).collect(),
+        state: held_state(&Mechanism::new(model)?, &varied, range)
+            .into_iter()
+            .map(CoordinateValue::from)
+            .collect(),
         units: model.units.clone(),
         load: options.load.clone(),
         guarantee: format!(
@@ -91,11 +94,11 @@ fn rest_limits_of(
 fn spans(tried: &[Sample<Found>], answer: &dyn Fn(f64) -> Found, same_ends: &SameEnds) -> Vec<SpanOfRest> {
     let scan = Scan { answer, is_like: is_same, narrowest: same_ends.within };
     let span = |Stretch { from, to, found, .. }: Stretch<Found>| {
-        let (holds, reason) = match found {
-            Ok(holds) => (holds, None),
-            Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
+        let (Rests { holds, may_slip }, reason) = match found {
+            Ok(rests) => (rests, None),
+            Err(faults) => (Rests::default(), faults.sorted().first().map(|fault| fault.kind.to_string())),
         };
-        SpanOfRest { from: same_ends.told(from), to: same_ends.told(to), holds, reason }
+        SpanOfRest { from: same_ends.told(from), to: same_ends.told(to), holds, may_slip, reason }
     };
     scan.adjoining(tried).into_iter().map(span).collect()
 }

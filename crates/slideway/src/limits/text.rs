@@ -61,12 +61,15 @@ impl Report for RestLimitsReport {
 }
 
 impl RestLimitsReport {
-    /// "mu from 0.2 to 1: it can stay at rest."
-    fn in_words(&self, SpanOfRest { from, to, holds, reason }: &SpanOfRest) -> String {
+    /// "mu from 0.2 to 1: it holds."
+    fn in_words(&self, SpanOfRest { from, to, holds, may_slip, reason }: &SpanOfRest) -> String {
         let unit = &self.vary.shown_in;
         let verdict = match (holds, reason) {
             (_, Some(reason)) => format!("there is no answer: {reason}"),
-            (Some(true), _) => "it can stay at rest".to_owned(),
+            (Some(true), _) if *may_slip => {
+                "it holds only if something has wedged it: do not rely on it".to_owned()
+            }
+            (Some(true), _) => "it holds".to_owned(),
             (Some(false), _) => "it does not hold".to_owned(),
             (None, _) => "not decided".to_owned(),
         };

@@ -65,6 +65,9 @@ pub enum ClassMeaning {
     Rest {
         /// Whether it can; null where that was not decided.
         holds: Option<bool>,
+        /// Whether it can also begin to slide: it rests only where something wedged it before.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        may_slip: bool,
     },
     /// Infinitely many solutions.
     Continuum,

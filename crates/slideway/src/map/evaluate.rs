@@ -10,7 +10,7 @@ use crate::limits::mechanism_with;
 use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::solve::{LastSolution, Parts, SolveOptions, Stages, Trail, states_between_faces};
-use crate::standstill::{HoldOptions, can_rest};
+use crate::standstill::{HoldOptions, Rests, rests};
 
 /// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least
 /// accurate of them is known.
@@ -77,14 +77,14 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Whether it can stay at rest at a point.
-    fn rests(&self, values: [f64; 2], work: Work<'_>) -> Result<Option<bool>, Faults> {
-        can_rest(&model_at(self.model, self.axes, values)?, &HoldOptions::default(), work)
+    fn rests(&self, values: [f64; 2], work: Work<'_>) -> Result<Rests, Faults> {
+        rests(&model_at(self.model, self.axes, values)?, &HoldOptions::default(), work)
     }
 
     fn class(&self, values: [f64; 2], [there, back]: &mut [Before; 2], work: Work<'_>) -> ClassKey {
         let Some(source) = &self.forwards else {
             return ClassKey(match self.rests(values, work) {
-                Ok(holds) => ClassMeaning::Rest { holds },
+                Ok(Rests { holds, may_slip }) => ClassMeaning::Rest { holds, may_slip },
                 Err(faults) => ClassMeaning::NotSolved { reason: reason(&faults) },
             });
         };

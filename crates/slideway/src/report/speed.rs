@@ -59,9 +59,8 @@ impl SpeedChange {
     }
 }
 
-/// Of a solution that slows down although the loads push it: that it is no jam, and how to ask whether it
-/// jams.
-pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.";
+/// Of a solution that slows down although the loads push it: how to ask whether it jams.
+pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads. Whether it jams, however hard it is pushed, is a question about a drive: add one, or see `slideway hold`.";
 
 /// Of limits where no drive prescribes the motion: that slowing down is no jam, and how to ask whether it
 /// jams.

@@ -106,10 +106,9 @@ fn interval([from, to]: &[End; 2], same_ends: SameEnds, told: Told<'_>) -> MetIn
         MetCause::Jump(margin) => told(margin).1,
         _ => None,
     };
-    let place = |end: &End| if end.cause == MetCause::NoPosition { same_ends.told(end.at) } else { end.at };
     MetInterval {
-        from: place(from),
-        to: place(to),
+        from: same_ends.told(from.at),
+        to: same_ends.told(to.at),
         from_is: cause(from),
         to_is: cause(to),
         from_jumps_to: jumps_to(from),

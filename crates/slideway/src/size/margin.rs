@@ -91,9 +91,9 @@ impl MarginQuestion<'_> {
                 self.both(|varied| Ok(self.kept(level(varied, self.against, value, work)?)))
             }
             Against::SelfLocking { load } => {
-                Ok(self.threshold(load, value, work)?.map_or(Margin::Infinite, Margin::Finite))
+                Ok(self.threshold((load, false), value, work)?.map_or(Margin::Infinite, Margin::Finite))
             }
-            Against::Hold { load } => Ok(match self.threshold(load, value, work)? {
+            Against::Hold { load } => Ok(match self.threshold((load, true), value, work)? {
                 None => Margin::Finite(0.0),
                 Some(0.0) => Margin::Infinite,
                 Some(factor) => Margin::Finite(factor.recip()),
@@ -132,11 +132,11 @@ impl MarginQuestion<'_> {
         }
     }
 
-    /// The factor of static friction at which the mechanism becomes self-locking.
-    fn threshold(&self, load: &str, value: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
-        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?, load, work)?;
+    /// The factor of static friction from which on a load is held, however great: where the guides are wedged, or certainly.
+    fn threshold(&self, asked: (&str, bool), value: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
+        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?, asked, work)?;
         if undecided > 0 {
-            return Err(Fault::general(FaultKind::UndecidedAtRest { load: load.to_owned() }).into());
+            return Err(Fault::general(FaultKind::UndecidedAtRest { load: asked.0.to_owned() }).into());
         }
         Ok(threshold.filter(|factor| factor.is_finite()))
     }

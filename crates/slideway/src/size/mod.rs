@@ -263,7 +263,7 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
         // Nowhere an answer: the faults in the middle say why.
         question.margin(f64::midpoint(range[0], range[1]), work)?;
     }
-    let state = held_state(&Mechanism::new(model)?, &varied);
+    let state = held_state(&Mechanism::new(model)?, &varied, range);
     let sought = answer::Sought { question, range, steps, value, present, tipping, found };
     finite(answer::report(model, state, options, &sought))
 }

@@ -89,22 +89,25 @@ impl Words<'_> {
         let report = self.report;
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
         let bare = report.vary.shown_in.precise_number(interval.from);
+        // Beyond an end of the range nothing was examined: there is no answer there alone.
+        let below = if interval.from == report.vary.from { "where" } else { "below which" };
+        let above = if interval.to == report.vary.to { "where" } else { "above which" };
         match (interval.from_is, interval.to_is) {
             (MetEnd::Range, MetEnd::Range) => format!("can have any value from {bare} to {to}"),
             (MetEnd::NoPosition, MetEnd::Range) => {
-                format!("at least {from}, below which there is no answer (examined up to {to})")
+                format!("at least {from}, {below} there is no answer (examined up to {to})")
             }
             (MetEnd::Range, MetEnd::NoPosition) => {
-                format!("at most {to}, above which there is no answer (examined down to {from})")
+                format!("at most {to}, {above} there is no answer (examined down to {from})")
             }
             (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
             (MetEnd::Range, _) => format!("at most {to} (examined down to {from})"),
             _ if interval.from == interval.to => format!("{from} alone"),
             (MetEnd::NoPosition, MetEnd::NoPosition) => {
-                format!("from {bare} to {to}, beyond which there is no answer")
+                format!("from {from}, {below} there is no answer, to {to}, {above} there is none")
             }
-            (MetEnd::NoPosition, _) => format!("from {from}, below which there is no answer, to {to}"),
-            (_, MetEnd::NoPosition) => format!("from {bare} to {to}, above which there is no answer"),
+            (MetEnd::NoPosition, _) => format!("from {from}, {below} there is no answer, to {to}"),
+            (_, MetEnd::NoPosition) => format!("from {bare} to {to}, {above} there is no answer"),
             _ => format!("from {bare} to {to}"),
         }
     }
@@ -170,7 +173,7 @@ impl Words<'_> {
                 format!("it holds the load {load}, however great, with a safety factor of {factor}, {enough}")
             }
             (_, false) => format!(
-                "a great {load} is not held; static friction would have to be {} times greater",
+                "it does not hold every {load}; it needs {} times its static friction",
                 brief(margin.recip())
             ),
         }
@@ -186,7 +189,7 @@ impl Words<'_> {
         let never_told =
             least == f64::INFINITY && greatest == f64::INFINITY && !self.report.against.is_limit();
         (is_same || never_told)
-            .then(|| format!("The {} does not depend on {}.", subject(self.report), self.report.vary.name))
+            .then(|| format!("The {} is the same throughout this range.", subject(self.report)))
     }
 }
 

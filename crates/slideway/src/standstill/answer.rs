@@ -1,5 +1,6 @@
 //! The answer of `hold`, in sentences.
 
+use super::TOLERANCE;
 use super::report::{
     CoordinateRange, HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging,
 };
@@ -9,12 +10,11 @@ use crate::units::number::brief;
 /// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from
 /// mu_static = 0.1667 (now 0.2)."
 pub(super) fn answer(report: &HoldReport) -> String {
-    let is_decided = report.undecided == 0 || report.holds;
-    let Some(load) = report.load.as_ref().filter(|_| is_decided) else { return verdict(report) };
+    let Some(load) = &report.load else { return verdict(report) };
     let is_all = load.held == [Range { least: None, greatest: None }];
     let mut sentences = Vec::new();
     // That it holds is said by what it holds.
-    if !(report.holds && is_sure(report) && load.self_locking && is_all) {
+    if !(report.holds && is_sure(load) && is_all) {
         let verdict = verdict(report);
         sentences.push(match verdict.strip_prefix("It ") {
             // A drive is a load that is absent.
@@ -25,13 +25,13 @@ pub(super) fn answer(report: &HoldReport) -> String {
     if !is_all {
         sentences.push(held(report, load));
     }
-    sentences.push(locks(report, load, is_all));
+    sentences.push(locks(load, is_all));
     sentences.join(" ")
 }
 
 /// The verdict on rest.
 fn verdict(report: &HoldReport) -> String {
-    if report.undecided > 0 && !report.holds {
+    if !report.is_decided() {
         return "Not decided: no state of rest was found, but some states could not be examined. Ask again with \
                 slightly more or less friction or load."
             .to_owned();
@@ -71,11 +71,10 @@ fn moves(report: &HoldReport) -> String {
     }
 }
 
-/// True if the load itself sees to it that it is held: no sliding is possible.
-fn is_sure(report: &HoldReport) -> bool {
-    let verdict = matches!(report.verdict, HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed);
-    let is_wedged = report.at_rest.as_ref().is_some_and(|rest| !rest.wedging.is_empty());
-    !is_wedged || verdict && report.load.as_ref().is_some_and(|load| load.factor == 1.0)
+/// Whether every load that is great enough is held by itself: it cannot slide, whether or not it was wedged before.
+fn is_sure(load: &LoadReport) -> bool {
+    let reached = |from: f64| from <= load.threshold.present * (1.0 + TOLERANCE);
+    load.self_locking && load.certain_from.is_some_and(reached)
 }
 
 /// The loads that it holds: "It holds with `cam` from 193 to 286.1 N.", "It holds -1.2 to 1.2 times `W`.",
@@ -102,15 +101,19 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
             format!("`{name}` from {} to {}", unit.brief_number(least), unit.brief(greatest))
         }
     };
+    let is_open = load.undecided > 0;
     let holds = match (load.unit, report.holds) {
+        (_, true) if is_open => "holds at least",
+        (_, false) if is_open => "would hold at least with",
         ("", true) => "holds",
         ("", false) => "would hold with",
         _ => "holds with",
     };
     match load.held.as_slice() {
+        [] if is_open => format!("Which `{name}` it holds was not decided."),
         [] if load.unit.is_empty() => format!("It does not hold with any multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
-        held if holds_none(held) => format!("It holds no `{name}`, however small."),
+        held if holds_none(held) && !is_open => format!("It holds no `{name}`, however small."),
         ranges => format!("It {holds} {}.", ranges.iter().map(one).collect::<Vec<_>>().join(", or ")),
     }
 }
@@ -120,49 +123,64 @@ fn holds_none(held: &[Range]) -> bool {
     held == [Range { least: Some(0.0), greatest: Some(0.0) }]
 }
 
-/// The friction from which on it is self-locking, and whether it is now.
-fn locks(report: &HoldReport, load: &LoadReport, holds_all: bool) -> String {
-    let name = &load.name;
-    let from = match load.threshold.value {
-        None => None,
-        Some(0.0) => Some("even without friction".to_owned()),
-        Some(value) => Some(format!("from {}", threshold(&load.threshold, value))),
+/// The friction from which on it is self-locking, and whether it is now: with any load that is great enough, and by itself.
+fn locks(load: &LoadReport, holds_all: bool) -> String {
+    let (name, known) = (&load.name, &load.threshold);
+    let Some(first) = known.value else { return never_locks(load) };
+    let is_same = |certain: f64| certain <= first * (1.0 + TOLERANCE);
+    let at = |value: f64| if value == 0.0 { "even without friction".to_owned() } else { from(known, value) };
+    if let Some(certain) = load.certain_from.filter(|&certain| is_sure(load) || is_same(certain)) {
+        let (from, is_just) = (at(certain), certain >= known.present * (1.0 - TOLERANCE));
+        return match (load.self_locking, load.held.as_slice()) {
+            // Together with the other loads it does not hold every multiple of this one.
+            (true, _) if !holds_all => format!("By itself `{name}` is held, however great, {from}."),
+            (true, _) if is_just => format!("Just self-locking, {from}: with any less it slips."),
+            (true, _) => format!("Self-locking: it holds any `{name}` {from}."),
+            // That a great enough one moves it has been said.
+            (false, []) => format!("`{name}` alone would be held, however great, {from}."),
+            (false, held) if load.undecided > 0 || holds_none(held) => {
+                format!("It would be self-locking {from}.")
+            }
+            (false, _) => {
+                format!(
+                    "Not self-locking: a great enough `{name}` moves it. It would be self-locking {from}."
+                )
+            }
+        };
+    }
+    let by_itself = match load.certain_from {
+        Some(certain) => format!("`{name}` by itself is held only {}.", at(certain)),
+        None => format!("`{name}` by itself need not wedge it: do not rely on it."),
     };
-    match (load.self_locking, is_sure(report), from) {
-        // Together with the other loads it does not hold every multiple of this one.
-        (true, true, Some(from)) if !holds_all => {
-            format!("By itself `{name}` is held, however great, {from}.")
-        }
-        (true, true, Some(from)) => format!("Self-locking: it holds any `{name}` {from}."),
-        (true, true, None) => {
-            format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load.")
-        }
-        (true, false, from) => {
-            let from = from.map_or_else(String::new, |from| format!(" {from}"));
-            format!("While wedged it holds any `{name}`{from}, but `{name}` alone need not wedge it.")
-        }
-        // That a great enough one moves it has been said.
-        (false, _, Some(from)) if load.held.is_empty() => {
-            format!("`{name}` alone would be held, however great, {from}.")
-        }
-        (false, _, Some(from)) if holds_none(&load.held) => format!("It would be self-locking {from}."),
-        (false, _, None) => format!("Not self-locking: no {} makes it so.", load.threshold.varied),
-        (false, _, Some(from)) => {
-            format!("Not self-locking: a great enough `{name}` moves it. It would be self-locking {from}.")
-        }
+    let wedges = if load.self_locking { "While wedged it holds" } else { "If it were wedged it would hold" };
+    format!("{wedges} any `{name}` {}. {by_itself}", at(first))
+}
+
+/// That no friction was found with which a load is held, however great.
+fn never_locks(
+    LoadReport { name, threshold: Threshold { varied, undecided, .. }, self_locking, .. }: &LoadReport,
+) -> String {
+    match (self_locking, undecided) {
+        (true, 0) => format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load."),
+        (true, _) => format!("Self-locking: it holds any `{name}`. From which {varied} on was not decided."),
+        (false, 0) => format!("Not self-locking: no {varied} makes it so."),
+        (false, _) => format!("Whether any {varied} makes it self-locking was not decided."),
     }
 }
 
 /// From which friction on guides that share a load wedge.
 pub(super) fn wedges(Wedging { possible, threshold: known }: &Wedging) -> Vec<String> {
     let Some(value) = known.value else {
-        return vec![format!("No {} wedges the guides.", known.varied)];
+        return vec![match known.undecided {
+            0 => format!("No {} wedges the guides.", known.varied),
+            _ => format!("Whether any {} wedges the guides was not decided.", known.varied),
+        }];
     };
-    let from = threshold(known, value);
-    let mut sentences = vec![if *possible {
-        format!("The guides can wedge, from {from}.")
-    } else {
-        format!("The guides cannot wedge; they could from {from}.")
+    let from = from(known, value);
+    let mut sentences = vec![match (possible, known.undecided) {
+        (true, _) => format!("The guides can wedge, {from}."),
+        (false, 0) => format!("The guides cannot wedge; they could {from}."),
+        (false, _) => format!("The guides could wedge {from}."),
     }];
     if *possible {
         sentences.push(
@@ -174,19 +192,26 @@ pub(super) fn wedges(Wedging { possible, threshold: known }: &Wedging) -> Vec<St
     sentences
 }
 
+/// "from mu_static = 0.1667 (now 0.2)", "at the latest from mu_static = 0.1667 (now 0.2)" where some patterns are open.
+fn from(known: &Threshold, value: f64) -> String {
+    let at_the_latest = if known.undecided > 0 { "at the latest " } else { "" };
+    format!("{at_the_latest}from {}", threshold(known, value))
+}
+
 /// "mu = 0.6 (now 0.3)", "mu_static = 0.1667 (now 0.2)", "1.2 times this static friction"
-fn threshold(threshold: &Threshold, value: f64) -> String {
+fn threshold(known: &Threshold, value: f64) -> String {
     let now = |name: &str, at: f64, present: f64| match [at, present].map(brief) {
         [at, present] if at == present => format!("{name} = {at}, its present value"),
         [at, present] => format!("{name} = {at} (now {present})"),
     };
-    if threshold.varied != "static friction" {
-        return now(&threshold.varied, value, threshold.present);
+    if known.varied != "static friction" {
+        return now(&known.varied, value, known.present);
     }
-    let mut coefficients = threshold.coefficients.iter().flat_map(|one| one.mu_static);
+    let mut coefficients = known.coefficients.iter().flat_map(|one| one.mu_static);
     match coefficients.next() {
-        Some(first) if !threshold.friction_in_hinges && coefficients.all(|other| other == first) => {
-            now("mu_static", first, first / value)
+        Some(first) if !known.friction_in_hinges && coefficients.all(|other| other == first) => {
+            let present = first / known.value.unwrap_or(value);
+            now("mu_static", present * value, present)
         }
         _ => format!("{} times this static friction", brief(value)),
     }

@@ -162,8 +162,8 @@ fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<H
     let wedging = threshold::wedging(model, options, &setup, part(1 + loads))?;
     let beginning = Beginning::new(&setup, is_held, part(1 + loads + sharings));
     let original = Mechanism::new(model)?;
-    let undecided =
-        [load.as_ref().map(|load| load.undecided), wedging.as_ref().map(|wedging| wedging.undecided)];
+    let of_load = load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
+    let of_wedging = wedging.as_ref().map_or(0, |threshold| threshold.undecided);
     let mut report = HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
@@ -175,15 +175,13 @@ fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<H
         rates_ignored: original.coordinates.iter().any(|coordinate| coordinate.rate != 0.0),
         released_drives: drives(&original, options, false),
         holding_drives: drives(&original, options, true),
-        undecided: rest.undecided
-            + beginning.releases.undecided
-            + undecided.into_iter().flatten().sum::<usize>(),
+        undecided: rest.undecided + beginning.releases.undecided + of_load + of_wedging,
         sharing: match &setup.shared {
             Some(shared) => load_sharing(&setup.mechanism, &shared.self_stress)?,
             None => None,
         },
-        wedging: wedging.map(|wedging| told_wedging(wedging.found)),
-        load: load.map(|load| load.found),
+        wedging: wedging.map(told_wedging),
+        load,
         at_rest: rest.found,
         releases: beginning.releases.found,
         release_patterns: beginning.directions * rest_patterns,
@@ -215,6 +213,8 @@ impl Beginning {
         let verdict = if has_inertia {
             let moves = !releases.found.is_empty();
             verdict(is_held, moves, || slips_against_static_friction(setup, &directions, work.part(1, 2)))
+        } else if is_held && slides_with_inertia(setup, work.part(1, 2)) {
+            HoldVerdict::HoldsOrSlips
         } else if is_held {
             HoldVerdict::MayHold
         } else {
@@ -246,32 +246,46 @@ pub(crate) fn beginning_within(
     Ok((beginning.releases.undecided == 0).then_some(beginning))
 }
 
-/// Returns `true` if a mechanism can stay at rest in its position, and none where that could not be decided.
+/// Whether a mechanism rests in its position, if that is all that is asked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Rests {
+    /// Whether it can stay at rest; none where that could not be decided.
+    pub(crate) holds: Option<bool>,
+    /// Whether it can also begin to slide under the same loads: it rests only where something wedged it before.
+    pub(crate) may_slip: bool,
+}
+
+/// Whether a mechanism rests in its position.
 ///
 /// # Errors
 /// As [`hold`].
-pub(crate) fn can_rest(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Option<bool>, Faults> {
+pub(crate) fn rests(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Rests, Faults> {
     let setup = Setup::new(model, options, work)?;
     check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
-    Ok(rest::is_possible(&setup, nominal, work))
+    let holds = rest::is_possible(&setup, nominal, work.part(0, 2));
+    let may_slip = holds == Some(true) && slides_with_inertia(&setup, work.part(1, 2));
+    Ok(Rests { holds, may_slip })
 }
 
 /// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no
-/// factor suffices. Beside it the number of patterns that could not be decided.
+/// factor suffices. With `certain` it is that from which on nothing can slide, otherwise wedged guides count, too.
+/// Beside it the number of patterns that could not be decided.
 ///
 /// # Errors
 /// As [`hold`].
 pub(crate) fn self_locking_factor(
     model: &Model,
-    load: &str,
+    (load, certain): (&str, bool),
     work: Work<'_>,
 ) -> Result<(Option<f64>, usize), Faults> {
     let options = HoldOptions::default().load(load);
     let setup = Setup::new(model, &options, work)?;
     check_states(&setup, MOST_STATES)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
-    Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
+    Ok(threshold.map_or((None, 0), |(threshold, by_itself)| {
+        (if certain { by_itself } else { threshold.value }, threshold.undecided)
+    }))
 }
 
 /// The same question; a parameter that is varied without a load is varied for the only load.
@@ -321,22 +335,23 @@ fn load_report(
     options: &HoldOptions,
     setup: &Setup,
     work: Work<'_>,
-) -> Result<Option<Over<LoadReport>>, Faults> {
+) -> Result<Option<LoadReport>, Faults> {
     let Some(load) = &setup.load else { return Ok(None) };
-    let Some(threshold) = threshold::threshold(model, options, setup, work.part(0, 2))? else {
+    let Some((threshold, certain_from)) = threshold::threshold(model, options, setup, work.part(0, 2))?
+    else {
         return Ok(None);
     };
     let held = rest::held_factors(setup, work.part(1, 2));
-    let undecided = held.undecided + threshold.undecided;
-    let report = LoadReport {
+    Ok(Some(LoadReport {
         name: load.name.clone(),
         unit: load.unit,
         factor: load.nominal,
         self_locking: held.found.last().is_some_and(|last| last.greatest.is_none()),
         held: held.found,
-        threshold: threshold.found,
-    };
-    Ok(Some(Over { found: report, undecided }))
+        undecided: held.undecided,
+        threshold,
+        certain_from,
+    }))
 }
 
 /// Whether the threshold is reached.
@@ -355,6 +370,23 @@ fn verdict(holds: bool, moves: bool, slips_against_static_friction: impl FnOnce(
     }
 }
 
+/// [`slips_against_static_friction`] in any direction, with an inertia for whatever has none.
+fn slides_with_inertia(setup: &Setup, work: Work<'_>) -> bool {
+    let slides = |setup: &Setup| {
+        slips_against_static_friction(setup, &directions(setup, &held_motions(setup), false), work)
+    };
+    with_inertia(setup).is_ok_and(|setup| slides(&setup))
+}
+
+/// A setup whose motions all have inertia.
+///
+/// # Errors
+/// As [`Setup::new`].
+fn with_inertia(setup: &Setup) -> Result<Setup, Faults> {
+    let has_inertia = undriven_without_inertia(setup, &held_motions(setup)).is_empty();
+    if has_inertia { Ok(setup.clone()) } else { setup.with_inertia() }
+}
+
 /// Whether it begins to slide even where kinetic friction is as great as static friction.
 fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], work: Work<'_>) -> bool {
     let mut rough = setup.clone();
@@ -364,7 +396,7 @@ fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], work: Wo
     for circle in &mut rough.mechanism.friction_circles {
         circle.radius = circle.static_radius;
     }
-    !release::releases(&rough, directions, true, work).found.is_empty()
+    release::is_released(&rough, directions, work)
 }
 
 fn state(setup: &Setup) -> Vec<CoordinateValue> {

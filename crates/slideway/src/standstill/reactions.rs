@@ -78,6 +78,7 @@ fn contact(
     Ok(ContactRange {
         name: setup.mechanism.contacts[k].name.to_string(),
         normal_force: range(state, region, &state.normal_force(k), unit)?,
+        normal_force_parts: Vec::new(),
         friction_force: range(state, region, &state.friction_force(k), unit)?,
         couple,
     })

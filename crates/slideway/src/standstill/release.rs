@@ -49,6 +49,12 @@ pub(super) fn releases(
     over
 }
 
+/// Whether something begins to move in one of these directions in which a joint slips.
+pub(super) fn is_released(setup: &Setup, directions: &[Pattern], work: Work<'_>) -> bool {
+    let all = directions.len();
+    (0..all).any(|at| !releases(setup, &directions[at..=at], true, work.part(at, all)).found.is_empty())
+}
+
 impl Over<Vec<Release>> {
     fn note(&mut self, setup: &Setup, releases: Result<Vec<Release>, Unsolved>) {
         match releases {

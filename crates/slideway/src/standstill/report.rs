@@ -4,6 +4,9 @@ use crate::report::{CoordinateState, LoadSharing};
 use crate::units::Units;
 use serde::Serialize;
 
+/// Ends of intervals that differ by less than this, relative to the greater, are the same.
+const SAME_END: f64 = 1e-9;
+
 /// Version of the layout of a [`HoldReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/hold/1";
 
@@ -22,7 +25,7 @@ pub enum HoldVerdict {
     Moves,
     /// It can neither stay at rest nor begin to move with finite accelerations.
     Neither,
-    /// Friction may hold it; motions without inertia keep the states of sliding from being known.
+    /// It stays at rest; whether it also keeps sliding once pushed is not known, since motions are without inertia.
     MayHold,
     /// It cannot stay at rest; motions without inertia keep its accelerations from being known.
     DoesNotHold,
@@ -90,11 +93,18 @@ pub struct HoldReport {
     pub rest_patterns: usize,
     /// States of joints and contact sides that were tried for release.
     pub release_patterns: usize,
-    /// Patterns of both kinds of which a linear program could not be solved.
+    /// Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be solved.
     pub undecided: usize,
 }
 
 impl HoldReport {
+    /// Whether it is known that it holds, or that it does not: what is open concerns the varied load or wedging at most.
+    pub fn is_decided(&self) -> bool {
+        let of_load = self.load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
+        let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
+        self.holds || self.undecided == of_load + of_wedging
+    }
+
     /// Has its forces and moments shown in units in which they read well.
     pub(super) fn suit_units(&mut self) {
         let reactions = self.at_rest.iter().map(|rest| &rest.reactions);
@@ -140,10 +150,15 @@ pub struct LoadReport {
     pub factor: f64,
     /// The factors with which it can stay at rest, in ascending order.
     pub held: Vec<Range>,
+    /// Patterns of contact sides in which that was not decided: they may hold it with others.
+    pub undecided: usize,
     /// Whether it can stay at rest with every factor that is great enough.
     pub self_locking: bool,
-    /// From which static friction on it is self-locking.
+    /// From which static friction on it is held alone, however great: at least where the guides are wedged.
     pub threshold: Threshold,
+    /// From which value of the same on it holds by itself, since there it cannot slide, not even where nothing wedged it
+    /// before; nothing if it never does, or where that was not sought.
+    pub certain_from: Option<f64>,
 }
 
 /// Whether redundant guides can be wedged: pressed against each other without any load, however hard.
@@ -168,6 +183,8 @@ pub struct Threshold {
     /// Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
     /// needed, nothing if no friction suffices.
     pub value: Option<f64>,
+    /// Patterns of contact sides in which that was not decided: with them it may lie lower, or there may be one.
+    pub undecided: usize,
     /// Static coefficients of every contact at the threshold.
     pub coefficients: Vec<Coefficients>,
     /// Whether hinges have static friction, too, so that these coefficients are not all of it.
@@ -222,6 +239,9 @@ pub struct ContactRange {
     pub name: String,
     /// Normal force on the block, along n (N).
     pub normal_force: Range,
+    /// The parts of that range in which it can lie; absent where no value between is impossible.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub normal_force_parts: Vec<Range>,
     /// Friction force on the block, against u (N).
     pub friction_force: Range,
     /// Couple of a guided slider (N m).
@@ -316,6 +336,36 @@ impl Range {
     }
 }
 
+/// The union of intervals, in ascending order.
+pub(super) fn union(mut intervals: Vec<Range>) -> Vec<Range> {
+    let least = |range: &Range| range.least.unwrap_or(f64::NEG_INFINITY);
+    let greatest = |range: &Range| range.greatest.unwrap_or(f64::INFINITY);
+    intervals.sort_by(|a, b| least(a).total_cmp(&least(b)));
+    let mut union: Vec<Range> = Vec::new();
+    for interval in intervals {
+        let touches = |last: &&mut Range| {
+            let end = greatest(last);
+            least(&interval) <= end + SAME_END * end.abs().min(f64::MAX)
+        };
+        match union.last_mut().filter(touches) {
+            Some(last) => *last = last.hull(interval),
+            None => union.push(interval),
+        }
+    }
+    union
+}
+
+impl ContactRange {
+    /// The parts in which its normal force can lie: one, unless values between are impossible.
+    pub(super) fn normal_forces(&self) -> &[Range] {
+        if self.normal_force_parts.is_empty() {
+            std::slice::from_ref(&self.normal_force)
+        } else {
+            &self.normal_force_parts
+        }
+    }
+}
+
 impl Reactions {
     /// The contacts whose normal forces have no bound.
     pub(super) fn unbounded(&self) -> Vec<String> {
@@ -328,6 +378,8 @@ impl Reactions {
     /// The least ranges that hold both.
     pub(super) fn hull(mut self, other: &Self) -> Self {
         for (one, other) in self.contacts.iter_mut().zip(&other.contacts) {
+            let parts = union([one.normal_forces(), other.normal_forces()].concat());
+            one.normal_force_parts = if parts.len() > 1 { parts } else { Vec::new() };
             one.normal_force = one.normal_force.hull(other.normal_force);
             one.friction_force = one.friction_force.hull(other.friction_force);
             one.couple = one.couple.zip(other.couple).map(|(a, b)| a.hull(b));

@@ -2,14 +2,11 @@
 
 use super::TOLERANCE;
 use super::reactions::{ranges, reactions};
-use super::report::{AtRest, Range, Reactions};
+use super::report::{AtRest, Range, Reactions, union};
 use super::setup::Setup;
 use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
 use crate::pattern::{ContactPhase, JointPhase, Region, Unsolved};
 use crate::progress::Work;
-
-/// Ends of intervals that differ by less than this, relative to the greater, are the same.
-const SAME_END: f64 = 1e-9;
 
 /// Something found over all patterns, and how many of them could not be decided.
 pub(super) struct Over<T> {
@@ -142,27 +139,8 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
             Err(Unsolved) => over.undecided += 1,
         }
     }
-    over.found = merged(over.found);
+    over.found = union(over.found);
     over
-}
-
-/// The union of intervals, in ascending order.
-fn merged(mut intervals: Vec<Range>) -> Vec<Range> {
-    let least = |range: &Range| range.least.unwrap_or(f64::NEG_INFINITY);
-    let greatest = |range: &Range| range.greatest.unwrap_or(f64::INFINITY);
-    intervals.sort_by(|a, b| least(a).total_cmp(&least(b)));
-    let mut union: Vec<Range> = Vec::new();
-    for interval in intervals {
-        let touches = |last: &&mut Range| {
-            let end = greatest(last);
-            least(&interval) <= end + SAME_END * end.abs().min(f64::MAX)
-        };
-        match union.last_mut().filter(touches) {
-            Some(last) => *last = last.hull(interval),
-            None => union.push(interval),
-        }
-    }
-    union
 }
 
 #[cfg(test)]
@@ -172,7 +150,7 @@ mod tests {
     #[test]
     fn intervals_that_touch_are_one() {
         let range = |least, greatest| Range { least, greatest };
-        let found = merged(vec![
+        let found = union(vec![
             range(Some(2.0), Some(3.0)),
             range(None, Some(-1.0)),
             range(Some(-1.0), Some(0.0)),

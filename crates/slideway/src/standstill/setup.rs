@@ -120,6 +120,21 @@ impl Setup {
         alone
     }
 
+    /// It with a mass for every body without one, at the mean of the places of its joints: loads stay as they are, so that
+    /// this decides whether it can slide, not how fast.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn with_inertia(&self) -> Result<Self, Faults> {
+        let mut heavy = self.clone();
+        let size = heavy.mechanism.size;
+        for body in heavy.mechanism.bodies.iter_mut().filter(|body| body.mass == 0.0) {
+            (body.mass, body.moment_of_inertia) = (1.0, size * size);
+        }
+        heavy.assembled = Assembled::new(&heavy.mechanism, &heavy.configuration)?;
+        Ok(heavy)
+    }
+
     /// Whether a contact takes part in a self-stress.
     pub(super) fn shares(&self, k: usize) -> bool {
         self.shared.as_ref().is_some_and(|shared| shared.shares(k))

@@ -107,7 +107,7 @@ impl Text<'_> {
             return;
         }
         report.motions_without_inertia.iter().for_each(|motion| self.line(&format!("  {motion}")));
-        if let Some(load) = &report.load {
+        if let Some(load) = report.load.as_ref().filter(|load| load.threshold.undecided == 0) {
             let coefficients = coefficients_in_words(&load.threshold).map(|list| format!(": {list}"));
             self.line(&format!("{}{}.", threshold_in_words(load), coefficients.unwrap_or_default()));
         }
@@ -195,7 +195,7 @@ impl Text<'_> {
         let rows = reactions.contacts.iter().map(|contact| {
             let mut row = vec![
                 contact.name.clone(),
-                words(contact.normal_force, scale, &force),
+                in_parts(contact.normal_forces(), scale, &force),
                 words(contact.friction_force, scale, &force),
             ];
             row.extend(
@@ -314,6 +314,11 @@ pub(super) fn greatest(ranges: &[Range]) -> f64 {
 /// True if both ends are the same but for what the linear programs leave over.
 fn is_one_value(range: Range, scale: f64) -> bool {
     range.least.zip(range.greatest).is_some_and(|(least, greatest)| greatest - least <= 1e-10 * scale)
+}
+
+/// "any", "-118 or less, or 47.2 or more"
+fn in_parts(parts: &[Range], scale: f64, unit: &Unit) -> String {
+    parts.iter().map(|part| words(*part, scale, unit)).collect::<Vec<_>>().join(", or ")
 }
 
 /// "3", "1 to 3", "1 or more", "3 or less" or "any".

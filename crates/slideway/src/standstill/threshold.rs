@@ -17,11 +17,13 @@
 //! keeps them pressed against each other, however hard. Play and misalignment are negligible beside the deflections of
 //! such forces, so that they move no threshold.
 
-use super::HoldOptions;
+use super::directions::directions;
+use super::release::is_released;
 use super::report::{Coefficients, Threshold};
 use super::rest::{Over, resting, static_friction, until_over};
 use super::setup::Setup;
 use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
+use super::{HoldOptions, held_motions, with_inertia};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::mechanism::FrictionCircle;
@@ -72,7 +74,7 @@ fn on([constant, slope]: [f64; 2], value: f64) -> f64 {
     (constant + slope * value).max(0.0)
 }
 
-/// The threshold for the varied load of a setup, or nothing if none is varied.
+/// The threshold for the varied load of a setup, and from which value on that holds by itself; nothing if none is varied.
 ///
 /// # Errors
 /// A parameter that is unknown, or on which other things than friction coefficients depend.
@@ -81,11 +83,16 @@ pub(super) fn threshold(
     options: &HoldOptions,
     setup: &Setup,
     work: Work<'_>,
-) -> Result<Option<Over<Threshold>>, Faults> {
+) -> Result<Option<(Threshold, Option<f64>)>, Faults> {
     let Some(load) = &setup.load else { return Ok(None) };
     let law = law(model, options, setup)?;
-    let least = least_value(&setup.alone(load.forces.clone()), &law, StateQuestion::rest(Some(0.0)), work);
-    Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
+    let alone = setup.alone(load.forces.clone());
+    let least = least_value(&alone, &law, StateQuestion::rest(Some(0.0)), work.part(0, 2));
+    let certain = match least.found {
+        Some(from) => certain_from(&alone, &law, from, work.part(1, 2))?,
+        None => None,
+    };
+    Ok(Some((told(setup, &law, &least), certain)))
 }
 
 /// The threshold from which on guides that share a load wedge; nothing if there are none.
@@ -97,7 +104,7 @@ pub(super) fn wedging(
     options: &HoldOptions,
     setup: &Setup,
     work: Work<'_>,
-) -> Result<Option<Over<Threshold>>, Faults> {
+) -> Result<Option<Threshold>, Faults> {
     if setup.shared.is_none() {
         return Ok(None);
     }
@@ -105,7 +112,7 @@ pub(super) fn wedging(
     let unloaded = setup.alone(setup.given.map(|_| 0.0));
     let wedged = StateQuestion { wedged: true, ..StateQuestion::rest(Some(0.0)) };
     let least = least_value(&unloaded, &law, wedged, work);
-    Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
+    Ok(Some(told(setup, &law, &least)))
 }
 
 /// How static friction depends on what is varied.
@@ -125,18 +132,54 @@ fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Fault
     }
 }
 
-fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
+fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Option<f64>>) -> Threshold {
     let coefficients = value.map_or_else(Vec::new, |value| law.coefficients(value));
     let named = setup.mechanism.contacts.iter().zip(coefficients);
     Threshold {
         varied: law.varied.clone(),
         present: law.present,
         value,
+        undecided,
         coefficients: named
             .map(|(contact, mu_static)| Coefficients { contact: contact.name.to_string(), mu_static })
             .collect(),
         friction_in_hinges: setup.mechanism.friction_circles.iter().any(FrictionCircle::is_rough),
     }
+}
+
+/// The least value, from `from` on, at which the load alone cannot slide: there it holds by itself. With kinetic friction as
+/// great as the static one, it slides in some state below. Nothing if that is so at every value tried.
+///
+/// # Errors
+/// As [`Setup::new`].
+fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
+    let motions = held_motions(alone);
+    let mut rough = with_inertia(alone)?;
+    let mut slides = |value: f64| {
+        let StaticFriction { mu, radii } = law.friction(alone, value);
+        for (contact, mu) in rough.mechanism.contacts.iter_mut().zip(mu) {
+            (contact.mu, contact.mu_static) = (mu, mu);
+        }
+        for (circle, radius) in rough.mechanism.friction_circles.iter_mut().zip(radii) {
+            (circle.radius, circle.static_radius) = (radius, radius);
+        }
+        is_released(&rough, &directions(&rough, &motions, false), work)
+    };
+    let (mut below, mut above) = (from, from * (1.0 + NEAR));
+    while slides(above) {
+        (below, above) = (above, 2.0 * above);
+        if above > GREATEST || work.is_over() {
+            return Ok(None);
+        }
+    }
+    if below == from {
+        return Ok(Some(from));
+    }
+    while above - below > NEAR * above && !work.is_over() {
+        let middle = f64::midpoint(below, above);
+        if slides(middle) { below = middle } else { above = middle }
+    }
+    Ok(Some(above))
 }
 
 /// The least value for which some pattern answers the question.

@@ -21,6 +21,7 @@ mod gallery;
 mod gallery_frictionless;
 mod gap_states;
 mod guided_slider;
+mod held_by_itself;
 mod klepp_2002;
 mod limits;
 mod limits_between_faces;

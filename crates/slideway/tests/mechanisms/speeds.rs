@@ -90,7 +90,7 @@ fn a_peg_that_slows_down_stops_and_stays() {
     let text = report.text(Style::PLAIN.verbose(true).width(200));
     for sentence in [
         "It slows down and would stop after 4.545e-7 s and 2.273e-7 mm.",
-        "It slows down because friction exceeds the loads; that is no jam. To ask whether it jams, add a drive, or see `slideway hold`.",
+        "It slows down because friction exceeds the loads. Whether it jams, however hard it is pushed, is a question about a drive: add one, or see `slideway hold`.",
         "Once it is at rest, these loads would not move it again.",
         "This contact mode remains however much friction grows, but the motion slows down in it.",
     ] {

@@ -49,7 +49,7 @@ fn entry(byte: u8) -> f64 {
 }
 
 /// A small mode problem and options from bytes: the size, the form, then entries; what is missing is 0.
-pub fn problem(bytes: &[u8]) -> Option<(ModeProblem, SearchOptions)> {
+pub(crate) fn problem(bytes: &[u8]) -> Option<(ModeProblem, SearchOptions)> {
     let (&head, rest) = bytes.split_first()?;
     let (&switches, entries) = rest.split_first()?;
     let size = 1 + usize::from(head) % MOST_CONTACTS;
@@ -82,7 +82,11 @@ pub fn problem(bytes: &[u8]) -> Option<(ModeProblem, SearchOptions)> {
 }
 
 /// The arrays of a raw problem of a type, with sizes from 1 to 3, from bytes; what is missing is 0.
-pub fn arrays(kind: RawKind, [n, m]: [usize; 2], bytes: &[u8]) -> Vec<(&'static str, Vec<usize>, Vec<f64>)> {
+pub(crate) fn arrays(
+    kind: RawKind,
+    [n, m]: [usize; 2],
+    bytes: &[u8],
+) -> Vec<(&'static str, Vec<usize>, Vec<f64>)> {
     let mut entries = bytes.iter().copied().map(entry).chain(std::iter::repeat(0.0));
     // One block of one component, the others of two.
     let components = 2 * n - 1;
@@ -110,7 +114,7 @@ pub fn arrays(kind: RawKind, [n, m]: [usize; 2], bytes: &[u8]) -> Vec<(&'static 
 }
 
 /// All patterns, with the gap where there is a jump.
-pub fn patterns(problem: &ModeProblem) -> Vec<Vec<ContactState>> {
+pub(crate) fn patterns(problem: &ModeProblem) -> Vec<Vec<ContactState>> {
     let mut all = vec![Vec::new()];
     for contact in 0..problem.contacts() {
         let mut states = vec![ContactState::Positive, ContactState::Negative];

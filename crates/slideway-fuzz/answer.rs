@@ -8,7 +8,7 @@ use slideway::raw_problem::{RawProblem, solve, to_npz};
 use slideway::report::Style;
 
 /// Solves the problem and writes the answer in all forms.
-pub fn answer(problem: &RawProblem) {
+pub(crate) fn answer(problem: &RawProblem) {
     let limits = Limits { solutions: 100, singular: 20, bases: 1000, ..Limits::default() };
     let options = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
     let Ok(report) = solve(problem, &options, 10, &mut |_| ControlFlow::Continue(())) else { return };

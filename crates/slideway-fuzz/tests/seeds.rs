@@ -1,0 +1,57 @@
+//! What the fuzz targets check holds of the gallery, of the book's raw problems and of some random inputs.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use std::fs;
+
+use proptest::prelude::*;
+use slideway::gallery;
+use slideway_fuzz::{expression, limits, model, ranges, raw_extremes, raw_json, raw_npz, search, terminal};
+
+#[test]
+fn files_of_the_project_pass() {
+    for found in gallery::MODELS {
+        model(found.text);
+        terminal(found.text.lines().next().unwrap());
+    }
+    for entry in fs::read_dir("../../docs/src/examples").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "json") {
+            raw_json(&fs::read(path).unwrap());
+        }
+    }
+}
+
+/// Ends of ranges as a user may write them: ordinary ones, very great and small ones, and none at all.
+fn end() -> impl Strategy<Value = f64> {
+    prop_oneof![-10.0..10.0, any::<f64>(), Just(0.0), Just(f64::MAX), Just(-f64::MAX), Just(f64::NAN)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20))]
+
+    #[test]
+    fn ranges_pass(asked in any::<(u8, u8, [u8; 2])>(), ends in [end(), end()]) {
+        let (model, question, numbers) = asked;
+        ranges((model, question, numbers, ends));
+        limits((model, question % 2 == 0, &format!("friction={}..{}", ends[0], ends[1])));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn bytes_pass(bytes in prop::collection::vec(any::<u8>(), 0..60)) {
+        raw_extremes(&bytes);
+        search(&bytes);
+        raw_npz(&bytes);
+        raw_json(&bytes);
+    }
+
+    #[test]
+    fn texts_pass(text in any::<String>(), formula in "[-+*/^()., 0-9a-z]{1,12}") {
+        model(&text);
+        expression(&text);
+        expression(&formula);
+    }
+}
