@@ -3,6 +3,7 @@
 
 use crate::arguments::CheckFormat;
 use crate::failure::Failure;
+use crate::own_file::wrote;
 use crate::places::{followed, is_regular};
 use anstream::{AutoStream, ColorChoice};
 use slideway::report::{Report, Style};
@@ -66,6 +67,17 @@ impl Output {
         let path = beside(&file.target, PARTIAL);
         *file = OutputFile { path: path.clone(), target: path.clone(), overwrite: true, is_stream: false };
         Some(path)
+    }
+
+    /// Says on a terminal that its file was written; elsewhere the reader is a program.
+    ///
+    /// # Errors
+    /// As [`Output::write`].
+    pub(crate) fn announce(&self) -> Result<(), Failure> {
+        match &self.file {
+            Some(file) if io::stdout().is_terminal() => Self::standard(self.look).write(&wrote(&file.path)),
+            _ => Ok(()),
+        }
     }
 
     /// When to use colours.
