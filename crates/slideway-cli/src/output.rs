@@ -139,8 +139,10 @@ impl Output {
         if self.file.is_some() {
             return style;
         }
-        let columns =
-            terminal_size_of(io::stdout()).map_or(style.width, |(Width(columns), _)| columns.into());
+        // A terminal that does not say how wide it is may be described by its environment.
+        let told = || std::env::var("COLUMNS").ok()?.parse().ok().filter(|_| io::stdout().is_terminal());
+        let columns = terminal_size_of(io::stdout()).map(|(Width(columns), _)| columns.into()).or_else(told);
+        let columns = columns.unwrap_or(style.width);
         style.colour(choice != ColorChoice::Never).width(columns)
     }
 

@@ -194,14 +194,14 @@ fn what_coincides_is_one_line_with_both_names() {
     // So does the line below each frame where there is no page around it.
     let moving = animation(&history, &AnimationOptions::default(), &LIGHT).to_svg().expect("finite places");
     assert!(
-        moving.contains("mode + +: floor is flat on the lower guide, sliding to the right</text>"),
+        moving.contains("mode + +: block is flat on the lower guide, sliding to the right</text>"),
         "{moving}"
     );
     // The page of the moving picture tells modes in words, once each, and has a scale of forces.
     let page = animation(&history, &AnimationOptions::default(), &LIGHT).to_html().expect("finite places");
     let words = page.split("const words = ").nth(1).and_then(|rest| rest.split(';').next()).expect("words");
     for direction in ["to the right", "to the left"] {
-        let told = format!("\"floor is flat on the lower guide, sliding {direction}\"");
+        let told = format!("\"block is flat on the lower guide, sliding {direction}\"");
         assert_eq!(words.matches(&told).count(), 1, "{words}");
     }
     // Its key names the colour of each kind of arrow that occurs.

@@ -14,7 +14,8 @@ use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{CoordinateState, SolveReport};
+use slideway::report::{CoordinateState, Report, SolveReport};
+use slideway::standstill::HoldReport;
 use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
@@ -91,6 +92,12 @@ impl Sheet {
     pub fn unsolved(self, faults: &Faults) -> Self {
         let reasons: Vec<String> = faults.sorted().iter().map(|fault| fault.kind.to_string()).collect();
         self.headed(&format!("Forces at contacts are not drawn: {}.", reasons.join("; ")))
+    }
+
+    /// Writes below the title whether it stays at rest.
+    #[must_use]
+    pub fn at_rest(self, report: &HoldReport) -> Self {
+        self.headed(&format!("At rest: {}", report.answer()))
     }
 
     /// The same, with a further paragraph at the end of the heading.

@@ -333,3 +333,22 @@ pub(super) fn at_most(value: f64, shown_in: &Unit) -> String {
     let text = if (-4.0..6.0).contains(&exponent) { number(rounded) } else { format!("{rounded:.1e}") };
     shown_in.with(&text)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::no_answers;
+    use crate::units::Unit;
+
+    #[test]
+    fn ranges_without_answer_that_meet_are_one_with_the_reason_of_the_widest() {
+        let near = f64::from_bits(1.0_f64.to_bits() + 1);
+        let ranges = [([0.0, 1.0], "out of its guide"), ([1.0, near], "ill-conditioned"), ([2.0, 2.0], "singular")];
+        let told = |details| no_answers(&ranges, &Unit::default(), details);
+        let joined = [
+            "From 0 to 1 there is no answer, which is no jam: out of its guide.",
+            "At 2 there is no answer, which is no jam: singular.",
+        ];
+        assert_eq!(told(false), joined);
+        assert_eq!(told(true).len(), 3);
+    }
+}

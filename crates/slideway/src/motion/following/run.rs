@@ -4,7 +4,7 @@ use super::smooth::{Ended, Smooth};
 use super::stop::{self, Hit};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::motion::decision::Blow;
 use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};

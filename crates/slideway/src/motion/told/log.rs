@@ -80,3 +80,56 @@ fn dying_bounces(events: &[EventReport]) -> usize {
     });
     bounces.count()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::told::report::CauseReport;
+
+    /// An event of the joint "guide", at the number of its place.
+    fn event((place, (kind, energy_lost)): (usize, &(CauseKind, f64))) -> EventReport {
+        EventReport {
+            time: place as f64,
+            causes: vec![CauseReport { kind: *kind, of: Some("guide".to_owned()) }],
+            words: String::new(),
+            mode: None,
+            branches: Vec::new(),
+            branches_left_out: false,
+            energy_lost: *energy_lost,
+        }
+    }
+
+    fn told(kinds: &[(CauseKind, f64)], all: bool) -> Vec<String> {
+        let events: Vec<EventReport> = kinds.iter().enumerate().map(event).collect();
+        let line = |line: &LogLine<'_>| match line {
+            LogLine::Event(event) => event.time.to_string(),
+            LogLine::LeftOut(events) => format!("{events} left out"),
+            LogLine::Bounces { hits, events } => format!("{hits} hits in {events}"),
+        };
+        lines(&events, all).iter().map(line).collect()
+    }
+
+    #[test]
+    fn bounces_that_die_away_are_one_line_between_the_first_and_the_last() {
+        let [hit, turn] = [CauseKind::Hits, CauseKind::Stops];
+        let dying = [(hit, 8.0), (turn, 0.0), (hit, 4.0), (turn, 0.0), (hit, 2.0), (turn, 0.0), (hit, 1.0)];
+        let dying = [&[(CauseKind::Start, 0.0)], &dying[..], &[(turn, 0.0), (hit, 0.5)]].concat();
+        assert_eq!(told(&dying, false), ["0", "1", "3 hits in 7", "9"]);
+        assert_eq!(told(&dying, true).len(), dying.len());
+        // Of three bounces the middle one is no line longer than they are.
+        assert_eq!(told(&dying[..8], false).len(), 8);
+        // A stop that loses as much each time is no bouncing that dies away, nor one at two stops in turn.
+        let steady: Vec<(CauseKind, f64)> =
+            (0..9).map(|place| if place % 2 == 0 { (hit, 1.0) } else { (turn, 0.0) }).collect();
+        let between: Vec<(CauseKind, f64)> = (0..9).map(|place| (hit, 9.0 - f64::from(place))).collect();
+        assert_eq!([told(&steady, false).len(), told(&between, false).len()], [9, 9]);
+    }
+
+    #[test]
+    fn of_a_long_log_the_middle_is_left_out() {
+        let long = vec![(CauseKind::Slips, 0.0); FIRST + LAST + 1];
+        let lines = told(&long, false);
+        assert_eq!((lines.len(), &*lines[FIRST]), (FIRST + LAST + 1, "1 left out"));
+        assert_eq!(told(&long[1..], false).len(), FIRST + LAST);
+    }
+}
