@@ -16,7 +16,7 @@ use crate::picture;
 use crate::watch::Watch;
 use plot::Plotting;
 use slideway::progress::Progress;
-use slideway::solve::{SolveOptions, solve};
+use slideway::solve::solve;
 use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_tables::{Control, Encoder, Layout, PartialFile, Resume, RowSource, TableFormat, Written};
 use std::io::{self, IsTerminal, Write};
@@ -68,7 +68,7 @@ fn table(model: &ModelArguments, arguments: &SweepArguments, output: &Output) ->
     let outcome = work.write(arguments, &destination, watch)?;
     match outcome {
         // What is refused everywhere is most often the model, and then there is advice.
-        Outcome::Refused => solve(&model, &SolveOptions::default())
+        Outcome::Refused => solve(&model)
             .map(|_| outcome)
             .map_err(|faults| input.refused(faults)),
         outcome => Ok(outcome),

@@ -227,6 +227,13 @@ pub struct Named {
     pub value: f64,
 }
 
+impl Named {
+    /// The name and the number.
+    pub(super) fn parts(&self) -> (&str, f64) {
+        (&self.name, self.value)
+    }
+}
+
 /// Cost of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]

@@ -223,13 +223,12 @@ impl Page<'_, SimulateReport> {
         };
         let is_pad = |named: &&Named| energy.pads.iter().any(|pad| pad.name == named.name);
         let (pads, loads): (Vec<&Named>, Vec<&Named>) = energy.loads.iter().partition(is_pad);
-        let named = |named: &Named| (named.name.as_str(), named.value);
-        add("  of which stored in", &mut energy.pads.iter().map(named));
-        add("dissipated by friction at", &mut energy.friction.iter().map(named));
-        add("dissipated by friction in", &mut energy.hinges.iter().map(named));
+        add("  of which stored in", &mut energy.pads.iter().map(Named::parts));
+        add("dissipated by friction at", &mut energy.friction.iter().map(Named::parts));
+        add("dissipated by friction in", &mut energy.hinges.iter().map(Named::parts));
         add("dissipated by the damper of", &mut pads.into_iter().map(|pad| (pad.name.as_str(), -pad.value)));
-        add("work of", &mut loads.into_iter().map(named));
-        add("work of", &mut energy.drives.iter().map(named));
+        add("work of", &mut loads.into_iter().map(Named::parts));
+        add("work of", &mut energy.drives.iter().map(Named::parts));
         if energy.impulses != 0.0 {
             rows.push(row("lost in impulses", vec![String::new(), unit.number(energy.impulses)]));
         }
