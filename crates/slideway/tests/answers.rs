@@ -286,7 +286,7 @@ fn simulate_answers() {
         ),
         (
             simulated(&with("mu = 0.25", "mu = 0.25\ntravel = [-1, 0.5]"), &options(2.0)),
-            "It ends at 0.3101 s: block reaches the end of its travel at 1.225 m/s, and guide has no stop there.",
+            "It ends at 0.3101 s: block reaches the end of its travel with 1.225 m/s, and guide has no stop there.",
         ),
         (
             simulated(&model("drawer", &[("v", "-0.1 m/s")]), &options(6.0)),

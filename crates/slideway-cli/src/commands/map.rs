@@ -40,7 +40,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
             let svg = to_svg(&report, &input.settings, arguments.theme.colours());
             picture.write_scaled(svg, SHARPNESS, &document.output)?;
             if document.output.path().is_some() {
-                output.write(&report.text(output.style()))?;
+                output.write(&format!("{}\n", report.answer()))?;
             }
         }
     }

@@ -138,16 +138,16 @@ impl Words<'_> {
                 let hits = format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
                 let [before, after] = speeds.map(|speed| self.mechanism.units.of("m/s").brief(speed));
                 let bounces = if against(speeds[1], speeds[0]) != "0" {
-                    format!("and bounces back at {after}")
+                    format!("and bounces back with {after}")
                 } else {
                     "without bouncing".to_owned()
                 };
                 match energy_lost {
                     Some(energy) => {
                         let lost = self.mechanism.units.of("J").brief(*energy);
-                        format!("{hits} at {before} {bounces} ({lost} lost)")
+                        format!("{hits} with {before} {bounces} ({lost} lost)")
                     }
-                    None => format!("{hits} in the same impact, at {before}, {bounces}"),
+                    None => format!("{hits} in the same impact, with {before}, {bounces}"),
                 }
             }
             Cause::MeetsPad { joint, greatest } => {

@@ -76,12 +76,12 @@ fn finished(history: &History, time: &str) -> String {
     format!("It comes to rest at {from} and stays so until {time}.{jams}")
 }
 
-/// " at 628 mm/s", of the last state.
+/// " with 628 mm/s", of the last state.
 fn at_speed(history: &History, joint: JointId) -> String {
     let mechanism = &history.mechanism;
     let Some(slider) = mechanism.slider(joint) else { return String::new() };
     let speed = history.at_end().0.sliding(mechanism, slider).1.abs();
-    format!(" at {}", mechanism.units.of("m/s").brief(speed))
+    format!(" with {}", mechanism.units.of("m/s").brief(speed))
 }
 
 fn jams(event: &Event) -> bool {

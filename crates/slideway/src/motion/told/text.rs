@@ -40,8 +40,8 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
         text.line("");
         text.state("At the end", &report.last);
         text.energy();
+        text.quality();
     }
-    text.quality();
     text
 }
 
