@@ -139,8 +139,8 @@ impl Output {
         if self.file.is_some() {
             return style;
         }
-        // A terminal that does not say how wide it is may be described by its environment.
-        let told = || std::env::var("COLUMNS").ok()?.parse().ok().filter(|_| io::stdout().is_terminal());
+        // Where there is no terminal, or one that does not say how wide it is, the environment may.
+        let told = || std::env::var("COLUMNS").ok()?.parse().ok().filter(|columns| *columns > 0);
         let columns = terminal_size_of(io::stdout()).map(|(Width(columns), _)| columns.into()).or_else(told);
         let columns = columns.unwrap_or(style.width);
         style.colour(choice != ColorChoice::Never).width(columns)

@@ -8,7 +8,7 @@ use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
 use super::units::in_units_of;
 use super::{NAME_SIZE, VALUE_SIZE, View, dimensions, quantity};
-use crate::changes::changes;
+use crate::changes::changes_beside_state;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
@@ -80,10 +80,10 @@ impl Sheet {
         Frame { bounds: self.bounds, title: &self.title, description: &self.description, width, colours }
     }
 
-    /// The same, with what settings changed in its model below the title.
+    /// The same, with what settings changed in its model, other than its state, below the title.
     #[must_use]
     pub fn changed_by(self, settings: &Settings) -> Self {
-        let changes = changes(settings);
+        let changes = changes_beside_state(settings);
         if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
     }
 

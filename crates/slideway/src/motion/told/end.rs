@@ -71,9 +71,21 @@ fn finished(history: &History, time: &str) -> String {
     }
     let jams = jams_on_the_way(jams.len());
     if rest.from <= history.start() {
-        return format!("It stays at rest until {time}.{jams}");
+        return format!("It stays at rest until {time}{}.{jams}", held_by_drives(history));
     }
     format!("It comes to rest at {from} and stays so until {time}.{jams}")
+}
+
+/// ", as the drive motor prescribes", where drives prescribe all motion: what rests then does so with or without friction.
+fn held_by_drives(history: &History) -> String {
+    let mechanism = &history.mechanism;
+    let names: Vec<&str> = mechanism.drives.iter().map(|drive| &*drive.name).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        all if all.len() < mechanism.coordinates.len() => String::new(),
+        [one] => format!(", as the drive {one} prescribes"),
+        several => format!(", as the drives {} prescribe", several.join(", ")),
+    }
 }
 
 /// " with 628 mm/s", of the last state.

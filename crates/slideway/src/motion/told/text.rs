@@ -194,7 +194,8 @@ impl Page<'_, SimulateReport> {
             let jump = if branch.continues { "" } else { "; its forces jump" };
             let sticks = branch.mode.chars().all(|sign| sign == '=');
             let otherwise = if sticks { "stick" } else { "go on in another contact mode" };
-            let signs = if details { format!(", signs {}", spaced(&branch.mode)) } else { String::new() };
+            let signs = format!(", signs {}", spaced(&branch.mode));
+            let signs = if details || !sticks { signs } else { String::new() };
             line(&format!(
                 "or branch {}: it could also {otherwise}{}{signs}{jump}",
                 branch.number,
