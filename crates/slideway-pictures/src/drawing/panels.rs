@@ -42,7 +42,7 @@ fn pins(solution: &Solution, mechanism: &Mechanism) -> Vec<[String; 4]> {
     let one = |hinge: &slideway::report::Hinge| {
         let friction = hinge.friction?;
         let size = quantity(hinge.force[0].hypot(hinge.force[1]), &force);
-        let couple = quantity(friction.couple.abs(), &moment);
+        let couple = quantity(friction.couple, &moment);
         Some([hinge.name.clone(), size, couple, hinge.on.clone()])
     };
     let pins: Vec<[String; 4]> = solution.hinges.iter().filter_map(one).collect();

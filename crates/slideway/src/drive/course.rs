@@ -14,7 +14,7 @@ use crate::solve::{Stages, pattern};
 use std::ops::ControlFlow;
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
-const SAME_ROW: f64 = 1e-9;
+pub(super) const SAME_ROW: f64 = 1e-9;
 /// Places nearer to zero than this share of the range are zero.
 const ROUNDING: f64 = 1e-12;
 /// Steps between which efforts that pass through infinity, and changes of the number of solutions, are sought.

@@ -1,9 +1,11 @@
 //! Where over a range an effort is greatest.
 
+use super::course::SAME_ROW;
 use super::efforts::Efforts;
 use super::report::{BlowUp, CourseRow, PeakEffort};
 use crate::limits::ModesFound;
 use crate::modes::ContactState;
+use crate::modes::existence::ModeInterval;
 use crate::report::Verdict;
 
 /// Steps of the golden section search: the last bracket is within rounding of the first.
@@ -23,23 +25,32 @@ pub(super) fn peaks(
         row.range.is_none()
             && !matches!(row.attainability, Some(Verdict::Unattainable | Verdict::Flutter))
     };
+    let ([(start, _), ..], [.., (stop, _)]) = (places, places) else { return Vec::new() };
+    let modes = &found.existence.modes;
+    // Where one mode ends and the next begins, both have the same state.
+    let overlap = |one: &ModeInterval, other: &ModeInterval| {
+        one.to.at.min(other.to.at) - one.from.at.max(other.from.at) > SAME_ROW * (stop - start)
+    };
+    let are_apart = (1..modes.len()).all(|next| modes[..next].iter().all(|one| !overlap(one, &modes[next])));
     let is_one = rows.windows(2).all(|pair| pair[0].at < pair[1].at) && rows.iter().all(settles);
     let drives = places.iter().find_map(|(_, efforts)| efforts.as_ref().map(Efforts::drives));
-    if !blow_ups.is_empty() || !is_one {
+    if !blow_ups.is_empty() || !is_one || !are_apart {
         return Vec::new();
     }
     let effort = |efforts: &Efforts, pattern: &[ContactState], drive: usize| {
         efforts.of(pattern).map_or(f64::NEG_INFINITY, |all| all[drive].abs())
     };
     let peak = |drive: usize| {
-        let of_mode = found.existence.modes.iter().filter_map(|mode| {
-            let [from, to] = [mode.from.at, mode.to.at];
+        let of_mode = modes.iter().filter_map(|mode| {
+            let [from, to] = [mode.from.at.max(*start), mode.to.at.min(*stop)];
             let inside = places.iter().filter(|(value, _)| from <= *value && *value <= to);
             let known = inside.filter_map(|(value, efforts)| Some((*value, effort(efforts.as_ref()?, &mode.pattern, drive))));
             let known: Vec<(f64, f64)> = known.collect();
             let best = (0..known.len()).max_by(|one, other| known[*one].1.total_cmp(&known[*other].1))?;
-            let near = |index: usize| known.get(index).map_or(known[best].0, |(value, _)| *value);
-            let ends = [near(best.saturating_sub(1)), near(best + 1)];
+            let ends = [
+                best.checked_sub(1).map_or(from, |before| known[before].0),
+                known.get(best + 1).map_or(to, |(value, _)| *value),
+            ];
             let value = |value: f64| at(value).map_or(f64::NEG_INFINITY, |all| effort(&all, &mode.pattern, drive));
             let place = greatest(ends, known[best].0, value);
             let effort = at(place)?.of(&mode.pattern)?[drive];
