@@ -43,7 +43,9 @@ fn the_greatest_torque_of_a_press_is_told_with_its_place() {
     let options = DriveOptions::default().vary(Vary::between("phi", "5 deg", "175 deg"));
     let report = drive(&model("slider-crank", &sizes), &options).unwrap();
     let course = report.course.as_ref().unwrap();
-    for (direction, (place, torque)) in course.directions.iter().zip([(77.0902, 1275.4856), (76.3555, 1200.9369)]) {
+    for (direction, (place, torque)) in
+        course.directions.iter().zip([(77.0902, 1275.4856), (76.3555, 1200.9369)])
+    {
         let [peak] = direction.peaks[..] else { panic!("{:?}", direction.peaks) };
         assert!((peak.at.to_degrees() - place).abs() < 1e-3, "{}", peak.at.to_degrees());
         assert!((peak.effort - torque).abs() < 1e-4, "{}", peak.effort);

@@ -45,7 +45,8 @@ mod words;
 pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
-    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, LockedRange, PeakEffort, SCHEMA, Sense,
+    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, LockedRange, PeakEffort, SCHEMA,
+    Sense,
 };
 
 use crate::fault::{Fault, FaultKind, Faults};

@@ -22,8 +22,7 @@ pub(super) fn peaks(
     at: impl Fn(f64) -> Option<Efforts>,
 ) -> Vec<PeakEffort> {
     let settles = |row: &CourseRow| {
-        row.range.is_none()
-            && !matches!(row.attainability, Some(Verdict::Unattainable | Verdict::Flutter))
+        row.range.is_none() && !matches!(row.attainability, Some(Verdict::Unattainable | Verdict::Flutter))
     };
     let ([(start, _), ..], [.., (stop, _)]) = (places, places) else { return Vec::new() };
     let modes = &found.existence.modes;
@@ -44,14 +43,17 @@ pub(super) fn peaks(
         let of_mode = modes.iter().filter_map(|mode| {
             let [from, to] = [mode.from.at.max(*start), mode.to.at.min(*stop)];
             let inside = places.iter().filter(|(value, _)| from <= *value && *value <= to);
-            let known = inside.filter_map(|(value, efforts)| Some((*value, effort(efforts.as_ref()?, &mode.pattern, drive))));
+            let known = inside.filter_map(|(value, efforts)| {
+                Some((*value, effort(efforts.as_ref()?, &mode.pattern, drive)))
+            });
             let known: Vec<(f64, f64)> = known.collect();
             let best = (0..known.len()).max_by(|one, other| known[*one].1.total_cmp(&known[*other].1))?;
             let ends = [
                 best.checked_sub(1).map_or(from, |before| known[before].0),
                 known.get(best + 1).map_or(to, |(value, _)| *value),
             ];
-            let value = |value: f64| at(value).map_or(f64::NEG_INFINITY, |all| effort(&all, &mode.pattern, drive));
+            let value =
+                |value: f64| at(value).map_or(f64::NEG_INFINITY, |all| effort(&all, &mode.pattern, drive));
             let place = greatest(ends, known[best].0, value);
             let effort = at(place)?.of(&mode.pattern)?[drive];
             Some(PeakEffort { drive, at: place, effort })

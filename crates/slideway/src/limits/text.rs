@@ -209,7 +209,8 @@ pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool
         let ([first, _], _) = chunk.first()?;
         let ([_, last], _) = chunk.last()?;
         let width = |([from, to], _): &([f64; 2], &str)| to - from;
-        let (_, reason) = chunk.iter().reduce(|one, other| if width(other) > width(one) { other } else { one })?;
+        let (_, reason) =
+            chunk.iter().reduce(|one, other| if width(other) > width(one) { other } else { one })?;
         let place = match [shown(*first), shown(*last)] {
             [from, to] if from == to => format!("At {}", unit.with(&from)),
             [from, to] => format!("From {from} to {}", unit.with(&to)),
@@ -342,7 +343,8 @@ mod tests {
     #[test]
     fn ranges_without_answer_that_meet_are_one_with_the_reason_of_the_widest() {
         let near = f64::from_bits(1.0_f64.to_bits() + 1);
-        let ranges = [([0.0, 1.0], "out of its guide"), ([1.0, near], "ill-conditioned"), ([2.0, 2.0], "singular")];
+        let ranges =
+            [([0.0, 1.0], "out of its guide"), ([1.0, near], "ill-conditioned"), ([2.0, 2.0], "singular")];
         let told = |details| no_answers(&ranges, &Unit::default(), details);
         let joined = [
             "From 0 to 1 there is no answer, which is no jam: out of its guide.",

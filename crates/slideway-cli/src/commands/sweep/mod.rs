@@ -68,9 +68,7 @@ fn table(model: &ModelArguments, arguments: &SweepArguments, output: &Output) ->
     let outcome = work.write(arguments, &destination, watch)?;
     match outcome {
         // What is refused everywhere is most often the model, and then there is advice.
-        Outcome::Refused => solve(&model)
-            .map(|_| outcome)
-            .map_err(|faults| input.refused(faults)),
+        Outcome::Refused => solve(&model).map(|_| outcome).map_err(|faults| input.refused(faults)),
         outcome => Ok(outcome),
     }
 }

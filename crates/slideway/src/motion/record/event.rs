@@ -135,7 +135,8 @@ impl Words<'_> {
                 format!("{} reaches the {} displacement of its travel", self.name(*joint), end(*greatest))
             }
             Cause::Hits { joint, greatest, speeds, energy_lost } => {
-                let hits = format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
+                let hits =
+                    format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
                 let [before, after] = speeds.map(|speed| self.mechanism.units.of("m/s").brief(speed));
                 let bounces = if against(speeds[1], speeds[0]) != "0" {
                     format!("and bounces back with {after}")
@@ -177,7 +178,8 @@ impl Words<'_> {
                 }
                 (JointPhase::Sliding(old), JointPhase::Sliding(new)) if old != new => {
                     // That it bounces back says so already.
-                    let bounces = |cause: &Cause| matches!(cause, Cause::Hits { joint: hit, .. } if hit == joint);
+                    let bounces =
+                        |cause: &Cause| matches!(cause, Cause::Hits { joint: hit, .. } if hit == joint);
                     if before.contacts == after.contacts && causes.iter().any(bounces) {
                         return None;
                     }

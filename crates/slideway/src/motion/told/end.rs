@@ -19,7 +19,9 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             at_speed(history, *id),
             joint(id)
         ),
-        End::OverlapVanished(id) => format!("It ends at {time}: {} leaves its guide.", moving(mechanism, *id)),
+        End::OverlapVanished(id) => {
+            format!("It ends at {time}: {} leaves its guide.", moving(mechanism, *id))
+        }
         End::ReactionLimit(id) => format!(
             "It ends at {time}: the normal force of {} reaches its limit, which counts as a jam.",
             mechanism.contacts[id.index()].name

@@ -155,7 +155,9 @@ impl Page<'_, SimulateReport> {
             self.headline("Events");
         }
         let lines = lines(events, all || self.is_verbose());
-        let shown = || lines.iter().filter_map(|line| if let LogLine::Event(event) = line { Some(*event) } else { None });
+        let shown = || {
+            lines.iter().filter_map(|line| if let LogLine::Event(event) = line { Some(*event) } else { None })
+        };
         let modes = shown().filter_map(|event| event.mode.as_ref()).map(|mode| spaced(mode).len());
         let widths = (
             shown().map(|event| when(event, &self.seconds()).len()).max().unwrap_or(0),
