@@ -3,6 +3,7 @@
 
 use crate::arguments::CheckFormat;
 use crate::failure::Failure;
+use crate::own_file::wrote;
 use crate::places::{followed, is_regular};
 use anstream::{AutoStream, ColorChoice};
 use slideway::report::{Report, Style};
@@ -68,6 +69,17 @@ impl Output {
         Some(path)
     }
 
+    /// Says on a terminal that its file was written; elsewhere the reader is a program.
+    ///
+    /// # Errors
+    /// As [`Output::write`].
+    pub(crate) fn announce(&self) -> Result<(), Failure> {
+        match &self.file {
+            Some(file) if io::stdout().is_terminal() => Self::standard(self.look).write(&wrote(&file.path)),
+            _ => Ok(()),
+        }
+    }
+
     /// When to use colours.
     pub(crate) fn color(&self) -> ColorChoice {
         self.look.color
@@ -127,8 +139,10 @@ impl Output {
         if self.file.is_some() {
             return style;
         }
-        let columns =
-            terminal_size_of(io::stdout()).map_or(style.width, |(Width(columns), _)| columns.into());
+        // Where there is no terminal, or one that does not say how wide it is, the environment may.
+        let told = || std::env::var("COLUMNS").ok()?.parse().ok().filter(|columns| *columns > 0);
+        let columns = terminal_size_of(io::stdout()).map(|(Width(columns), _)| columns.into()).or_else(told);
+        let columns = columns.unwrap_or(style.width);
         style.colour(choice != ColorChoice::Never).width(columns)
     }
 

@@ -42,19 +42,25 @@ impl Document {
         Ok(Self { output, own, open })
     }
 
-    /// Says which file was written if nobody has named it, and opens it if it is to be.
+    /// Says which file was written, on a terminal and if nobody has named it, and opens it if it is to be.
     ///
     /// # Errors
     /// If no program opens it.
     pub(crate) fn finish(self, standard: &Output) -> Result<(), Failure> {
-        if let Some(own) = &self.own {
-            standard.write(&format!("Wrote {}.\n", printable::line(&own.display().to_string())))?;
+        match &self.own {
+            Some(own) => standard.write(&wrote(own))?,
+            None => self.output.announce()?,
         }
         match self.output.path() {
             Some(path) if self.open => open(&path),
             _ => Ok(()),
         }
     }
+}
+
+/// "Wrote drawer.svg."
+pub(crate) fn wrote(path: &Path) -> String {
+    format!("Wrote {}.\n", printable::line(&path.display().to_string()))
 }
 
 /// NAME with this ending, NAME-2, NAME-3 and so on: the first that does not exist. The name is that of the model, the

@@ -51,12 +51,13 @@ impl Picture {
         })
     }
 
-    /// Writes a picture that was made as SVG, with two pixels for each of its units if it is to have pixels.
+    /// Writes a picture that was made as SVG, with two pixels for each of its units if it is to have pixels, and says so.
     ///
     /// # Errors
     /// If it could not be made, or cannot be converted or written.
     pub(crate) fn write(self, svg: Result<String, NotFinite>, output: &Output) -> Result<(), Failure> {
-        self.write_scaled(svg, SHARPNESS, output)
+        self.write_scaled(svg, SHARPNESS, output)?;
+        output.announce()
     }
 
     /// Writes a picture that was made as SVG, with so many pixels for each of its units if it is to have

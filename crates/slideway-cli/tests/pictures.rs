@@ -105,3 +105,11 @@ fn endings_choose_the_format() {
     );
     assert!(write(&["draw", model, "-o"], "a.svg").starts_with(b"<svg "));
 }
+
+/// A drawing without forces in motion says what there is to say at rest.
+#[test]
+fn a_drawing_about_rest_is_headed_by_whether_it_holds() {
+    let run = slideway(&["draw", "models/bracket-on-pole.toml"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("At rest: ") && run.stdout.contains("mu_static = 0.25"), "{}", run.stdout);
+}

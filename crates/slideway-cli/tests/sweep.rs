@@ -539,3 +539,14 @@ fn bad_arguments_are_told() {
     let run = slideway(&["limits", DRAWER, "--vary", "mu=0..abc"]);
     assert!(run.code == 2 && run.stderr.contains("unknown name `abc`"), "{}", run.stderr);
 }
+
+/// A table without a single answer is no success: the reason is that of the model, with advice.
+#[test]
+fn a_sweep_that_is_refused_everywhere_says_why() {
+    let run = slideway(&["sweep", "models/bracket-on-pole.toml", "--vary", "x=0.1..0.4:5"]);
+    assert_eq!(run.code, 2, "{}", run.stderr);
+    assert_eq!(lines(&run.stdout).len(), 1 + 5, "{}", run.stdout);
+    for told in ["None of 5 points could be solved.", "the moving parts have no mass", "`slideway hold`"] {
+        assert!(run.stderr.contains(told), "{told}: {}", run.stderr);
+    }
+}

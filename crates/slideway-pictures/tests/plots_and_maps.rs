@@ -301,7 +301,7 @@ fn numbers_of_a_tall_frame_have_room() {
         |name: &str, range| plot::Axis { name: name.to_owned(), range: Some(range), ..plot::Axis::default() };
     let panel = plot::Panel {
         x: axis("x", [0.0, 1.0]),
-        y: axis("factor of friction", [0.0, 3.2]),
+        y: axis("safety factor", [0.0, 3.2]),
         curves: vec![curve],
         ..plot::Panel::default()
     };
@@ -310,7 +310,7 @@ fn numbers_of_a_tall_frame_have_room() {
     let svg = plot::to_svg(&figure, &LIGHT).expect("finite places");
     let texts = texts(&svg);
     let find = |wanted: &str| texts.iter().find(|text| text.text == wanted).expect(wanted);
-    assert!(find("factor of friction").edges[2] + 4.0 < find("2.5").edges[0]);
+    assert!(find("safety factor").edges[2] + 4.0 < find("2.5").edges[0]);
 }
 
 /// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as

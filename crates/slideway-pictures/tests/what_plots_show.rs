@@ -194,14 +194,14 @@ fn what_coincides_is_one_line_with_both_names() {
     // So does the line below each frame where there is no page around it.
     let moving = animation(&history, &AnimationOptions::default(), &LIGHT).to_svg().expect("finite places");
     assert!(
-        moving.contains("mode + +: floor is flat on the lower guide, sliding to the right</text>"),
+        moving.contains("mode + +: block is flat on the lower guide, sliding to the right</text>"),
         "{moving}"
     );
     // The page of the moving picture tells modes in words, once each, and has a scale of forces.
     let page = animation(&history, &AnimationOptions::default(), &LIGHT).to_html().expect("finite places");
     let words = page.split("const words = ").nth(1).and_then(|rest| rest.split(';').next()).expect("words");
     for direction in ["to the right", "to the left"] {
-        let told = format!("\"floor is flat on the lower guide, sliding {direction}\"");
+        let told = format!("\"block is flat on the lower guide, sliding {direction}\"");
         assert_eq!(words.matches(&told).count(), 1, "{words}");
     }
     // Its key names the colour of each kind of arrow that occurs.
@@ -310,7 +310,7 @@ fn efforts_and_efficiency_over_friction() {
     let titles: Vec<&str> = figure.panels.iter().map(|panel| &*panel.title).collect();
     // Beyond 2/3 friction holds what the load would push, so there is no efficiency.
     assert_eq!(titles, ["Effort", "Efficiency; \u{2212} +: held by friction"]);
-    let ways = ["moving as in the model", "moving in the opposite direction with the same loads"];
+    let ways = ["moving as in the model", "moving backwards with the same loads"];
     assert_eq!(figure.quantities, ways);
     let of = |panel: usize, quantity: usize, value: &dyn Fn(f64) -> f64| {
         let mut curves = figure.panels[panel].curves.iter();
@@ -329,7 +329,7 @@ fn efforts_and_efficiency_over_friction() {
         (2, 1)
     );
     let [zone] = &figure.panels[0].zones[..] else { panic!("one excluded interval") };
-    assert_eq!(zone.meaning, "excluded: no solution, moving as in the model");
+    assert_eq!(zone.meaning, "no solution moving as in the model");
     assert!((zone.from - 2.0 / 3.0).abs() < 1e-12 && zone.to == 1.0, "{zone:?}");
     assert!(texts(&svg(&figure)).iter().any(|text| text == "0.66666667: grows without bound"));
     assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report")), None);
@@ -338,7 +338,13 @@ fn efforts_and_efficiency_over_friction() {
         figure.branches.iter().find(|branch| branch.stroke == Stroke::Dashed).expect("a threshold");
     assert!(threshold.name.ends_with("(threshold, not attainable)"), "{}", threshold.name);
     let settled = figure.branches.iter().filter(|branch| branch.stroke == Stroke::Solid).count();
-    assert_eq!(settled, 1);
+    assert_eq!(settled, 2);
+    // The directions are told apart by colour, not by markers alone.
+    let colour = |quantity: usize| {
+        let curve = figure.panels[0].curves.iter().find(|curve| curve.quantity == quantity).expect("a curve");
+        figure.branches[curve.branch].colour
+    };
+    assert_ne!(colour(0), colour(1));
 }
 
 /// A mode has the same colour whichever question is plotted, and whatever other modes the plot has.

@@ -145,7 +145,7 @@ def test_several_panels_are_several_axes(klepp):
 def test_a_design_shows_its_band_and_the_model():
     ax = Model.gallery("drawer").size("L", "200 mm", "900 mm", margin=2).plot()
     assert ax.get_xlabel() == "L in mm"
-    assert {"margin", "wanted: 2", "the model", "the wanted margin is met"} <= set(legend_texts(ax))
+    assert {"safety factor", "wanted: 2", "the model", "the wanted safety factor is reached"} <= set(legend_texts(ax))
     # 4 mu a = 360 mm.
     (band,) = [each for each in ax.get_children() if each.get_gid() == "band"]
     assert list(band.get_xdata()) == pytest.approx([360.0, 900.0])

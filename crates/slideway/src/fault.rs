@@ -418,7 +418,7 @@ pub enum FaultKind {
     #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
     NotFollowed { state: String, reached: String, steps: usize },
     #[error(
-        "the overlap of {joint} has shrunk to {} at a displacement of {}",
+        "the block of {joint} is out of its guide: an overlap of {} at a displacement of {}",
         unit.precise(*overlap),
         unit.precise(*displacement)
     )]
@@ -500,6 +500,14 @@ pub enum FaultKind {
 }
 
 impl FaultKind {
+    /// As it is said of a whole range: without the place at which it was seen.
+    pub(crate) fn of_range(&self) -> String {
+        match self {
+            Self::OverlapVanished { joint, .. } => format!("the block of {joint} is out of its guide"),
+            other => other.to_string(),
+        }
+    }
+
     /// Whether a formula has no value at its arguments, as the root of a negative number.
     pub(crate) fn is_without_value(&self) -> bool {
         matches!(self, Self::Expression(ExpressionFaultKind::NotFinite { .. }))
@@ -648,7 +656,7 @@ impl FaultKind {
                 face.option("at")
             ),
             Self::OverlapVanished { .. } => {
-                format!("the block has left its guide; choose {} closer to the drawing", face.option("at"))
+                format!("choose {} closer to the drawing", face.option("at"))
             }
             Self::MotionWithoutInertia { .. } => format!(
                 "`{}` says whether it stays at rest, and with {} from which friction on; `{}` with {} finds dimensions that hold. For its motion, add a drive or give a mass to the bodies that move",

@@ -18,7 +18,8 @@ Examples:
 
 Exit codes:
   0    reached the end time, an event that ends the motion, or a limit of travel
-  1    friction locks the mechanism: it cannot continue
+  1    friction locks the mechanism: it cannot continue; a jam after which it
+       stays at rest is an event, and no end
   2    invalid input: the model, the settings, the arguments, or a load without
        a value at some time
   3    not finished: too many steps or events, no time left, or what follows

@@ -25,9 +25,9 @@ Examples:
 The margin is a factor on friction. Its meaning depends on --against:
   locking       kinetic friction may grow by it before no motion is possible
   self-locking  static friction may grow by it before the load is held however
-                great it is
+                great it is: for what must come loose, as a cam or a wedge
   hold          static friction may be divided by it while the load is held
-                however great it is
+                however great it is: for what must hold, as a clamp
 The load of a margin at rest can be the effort of a drive. --max-pressure needs
 a `pad`, the area in contact, at the sliding joints of the model.
 

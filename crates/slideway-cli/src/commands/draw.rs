@@ -15,6 +15,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
+use slideway::standstill::{HoldOptions, HoldReport, hold_with, only_load};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
@@ -36,6 +37,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         Ok(report) => (report, None),
         Err(faults) => (None, Some(faults)),
     };
+    let rest = refused.as_ref().and_then(|_| held(&model, &mut watch));
     let halt = watch.finish();
     let shown = match arguments.solution {
         None | Some(Which::All) => Shown::All,
@@ -49,7 +51,8 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         let count = report.map_or(0, |report| report.solutions.len());
         return Err(Failure::NoSuchSolution { count });
     };
-    let sheet = if let Some(faults) = &refused { sheet.unsolved(faults) } else { sheet };
+    let sheet = rest.iter().fold(sheet, Sheet::at_rest);
+    let sheet = refused.iter().fold(sheet, Sheet::unsolved);
     let sheet = sheet.changed_by(&input.settings);
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
@@ -73,6 +76,13 @@ fn solutions(
         None => Ok(Some(solve())),
         Some(_) => solve().map(|report| Some(Ok(report))),
     }
+}
+
+/// What has no answer in motion may have one at rest: whether it holds, and its only load up to which size.
+fn held(model: &Model, watch: &mut Watch) -> Option<HoldReport> {
+    let mut options = HoldOptions::default();
+    options.load = only_load(model).ok();
+    hold_with(model, &options, &mut |progress| watch.look(progress)).ok().flatten()
 }
 
 fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {

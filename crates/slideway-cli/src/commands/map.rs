@@ -7,7 +7,7 @@ use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::own_file::Document;
-use crate::picture::Picture;
+use crate::picture::{Picture, SHARPNESS};
 use crate::watch::Watch;
 use slideway::Report;
 use slideway::map::{MapOptions, map_with};
@@ -37,7 +37,11 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     match picture {
         None => document.output.write(&report.json())?,
         Some(picture) => {
-            picture.write(to_svg(&report, &input.settings, arguments.theme.colours()), &document.output)?;
+            let svg = to_svg(&report, &input.settings, arguments.theme.colours());
+            picture.write_scaled(svg, SHARPNESS, &document.output)?;
+            if document.output.path().is_some() {
+                output.write(&format!("{}\n", report.answer()))?;
+            }
         }
     }
     document.finish(output)?;

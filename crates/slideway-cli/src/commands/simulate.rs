@@ -270,6 +270,7 @@ impl<'a> Written<'a> {
                 return Err(Failure::Halted { halt, path: output.path() });
             };
             output.write_bytes(&bytes)?;
+            output.announce()?;
         }
         Ok(())
     }

@@ -42,7 +42,7 @@ fn pins(solution: &Solution, mechanism: &Mechanism) -> Vec<[String; 4]> {
     let one = |hinge: &slideway::report::Hinge| {
         let friction = hinge.friction?;
         let size = quantity(hinge.force[0].hypot(hinge.force[1]), &force);
-        let couple = quantity(friction.couple.abs(), &moment);
+        let couple = quantity(friction.couple, &moment);
         Some([hinge.name.clone(), size, couple, hinge.on.clone()])
     };
     let pins: Vec<[String; 4]> = solution.hinges.iter().filter_map(one).collect();
@@ -167,8 +167,7 @@ impl Drawn<'_> {
         lines.extend(joint_modes(&locking.joints));
         lines.push("The arrows show proportions, not sizes.".to_owned());
         lines.extend(scale_of_play(&scene));
-        let heading = format!("Why it jams:  {}", signs(&locking.pattern));
-        let caption = Caption { heading, lines, ..Caption::default() };
+        let caption = Caption { heading: "Why it jams".to_owned(), lines, ..Caption::default() };
         Some(Panel { scene, caption, force_scale: None })
     }
 
@@ -207,8 +206,8 @@ impl Drawn<'_> {
             format!("{name} would need a couple, and nothing presses it.")
         };
         let lines = std::iter::once(why).chain(scale_of_play(&scene)).collect();
-        let heading = format!("Why it tips:  {}", signs(&rejection.pattern));
-        Panel { scene, caption: Caption { heading, lines, ..Caption::default() }, force_scale }
+        let caption = Caption { heading: "Why it tips".to_owned(), lines, ..Caption::default() };
+        Panel { scene, caption, force_scale }
     }
 
     /// Returns the drawing units for a newton where this is the greatest force, those that can be stated, and
@@ -251,7 +250,9 @@ impl Drawn<'_> {
         let options = SceneOptions { names, velocities: names, longest_arrow, ..mode };
         let states = ContactStates::of(solution);
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let signs = signs(&solution.pattern);
+        // The signs tell several solutions apart.
+        let is_only = self.report.is_some_and(|report| report.solutions.len() == 1);
+        let signs = if is_only { String::new() } else { signs(&solution.pattern) };
         let mut lines: Vec<String> = joint_modes(&solution.joints).collect();
         lines.push(solution.attainability.in_words());
         lines.extend(scale_of_play(&scene));

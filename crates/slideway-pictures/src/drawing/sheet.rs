@@ -8,13 +8,14 @@ use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
 use super::units::in_units_of;
 use super::{NAME_SIZE, VALUE_SIZE, View, dimensions, quantity};
-use crate::changes::changes;
+use crate::changes::changes_beside_state;
 use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{CoordinateState, SolveReport};
+use slideway::report::{CoordinateState, Report, SolveReport};
+use slideway::standstill::HoldReport;
 use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
@@ -79,10 +80,10 @@ impl Sheet {
         Frame { bounds: self.bounds, title: &self.title, description: &self.description, width, colours }
     }
 
-    /// The same, with what settings changed in its model below the title.
+    /// The same, with what settings changed in its model, other than its state, below the title.
     #[must_use]
     pub fn changed_by(self, settings: &Settings) -> Self {
-        let changes = changes(settings);
+        let changes = changes_beside_state(settings);
         if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
     }
 
@@ -91,6 +92,12 @@ impl Sheet {
     pub fn unsolved(self, faults: &Faults) -> Self {
         let reasons: Vec<String> = faults.sorted().iter().map(|fault| fault.kind.to_string()).collect();
         self.headed(&format!("Forces at contacts are not drawn: {}.", reasons.join("; ")))
+    }
+
+    /// Writes below the title whether it stays at rest.
+    #[must_use]
+    pub fn at_rest(self, report: &HoldReport) -> Self {
+        self.headed(&format!("At rest: {}", report.answer()))
     }
 
     /// The same, with a further paragraph at the end of the heading.

@@ -227,10 +227,10 @@ fn draws_model(report: &MapReport) -> bool {
 fn share(pixels: usize, all: usize) -> String {
     let percent = 100.0 * pixels as f64 / all.max(1) as f64;
     if percent < 0.1 {
-        "below 0.1\u{a0}%".to_owned()
+        "below 0.1\u{a0}% of the map".to_owned()
     } else if percent < 10.0 {
-        format!("{percent:.1}\u{a0}%")
+        format!("{percent:.1}\u{a0}% of the map")
     } else {
-        format!("{percent:.0}\u{a0}%")
+        format!("{percent:.0}\u{a0}% of the map")
     }
 }

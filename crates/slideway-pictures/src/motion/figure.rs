@@ -44,7 +44,7 @@ pub fn motion_figure(history: &History) -> Figure {
             let curves: Vec<(String, String)> =
                 together.into_iter().map(|name| (name.clone(), name)).collect();
             panels.push(match &curves[..] {
-                [(name, _)] => builder.panel("Coordinate", (name, unit), &curves),
+                [(name, _)] => builder.panel(&format!("Coordinate {name}"), (name, unit), &curves),
                 _ => builder.panel("Coordinates", ("coordinate", unit), &curves),
             });
         }

@@ -85,7 +85,7 @@ fn answer_at(parameters: &[String], report: &SolveReport) -> String {
     let followed =
         report.steps_from_drawing.map_or_else(String::new, |steps| format!("; {}", text(&followed(steps))));
     let complete = if report.complete == Proof::Proven {
-        "The list is proven complete."
+        "This is proven."
     } else {
         "That these are all is not proven."
     };

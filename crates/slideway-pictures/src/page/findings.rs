@@ -14,7 +14,7 @@ use slideway::model::{Model, ParameterRange, Setting, Settings};
 use slideway::progress::{Callback, Progress};
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::standstill::{HoldOptions, HoldReport, hold_with};
+use slideway::standstill::{HoldOptions, HoldReport, hold_with, only_load};
 
 /// The answers about a model that a page shows.
 #[derive(Debug, Clone)]
@@ -63,7 +63,7 @@ impl Findings {
             (title(&mechanism), pieces(&mechanism, &configuration, answer.as_ref().ok(), None));
         let limits = varied(model, wanted, &mut look)?;
         let efficiency = efficiency(model, &mut look);
-        let rest = rest(model, &mut look);
+        let rest = rest(model, answer.is_err(), &mut look);
         let limits = limits.filter(|_| is_whole);
         let at_middle = at_middle(model)?;
         Ok(limits.map(|limits| Self { title, at_middle, drawings, answer, efficiency, rest, limits }))
@@ -127,9 +127,12 @@ fn efficiency(model: &Model, callback: &mut Callback<'_>) -> Vec<String> {
     }
 }
 
-/// Whether it stays at rest, or why that is not known; no reason where the work was ended.
-fn rest(model: &Model, callback: &mut Callback<'_>) -> Result<HoldReport, Vec<String>> {
-    let found = hold_with(model, &HoldOptions::default(), callback);
+/// Whether it stays at rest, or why that is not known; no reason where the work was ended. Where rest is the question, as there
+/// is no answer in motion, also up to which size it holds the load, if there is only one.
+fn rest(model: &Model, is_question: bool, callback: &mut Callback<'_>) -> Result<HoldReport, Vec<String>> {
+    let mut options = HoldOptions::default();
+    options.load = only_load(model).ok().filter(|_| is_question);
+    let found = hold_with(model, &options, callback);
     found.map_err(|faults| reasons(&faults))?.ok_or_else(Vec::new)
 }
 

@@ -13,6 +13,10 @@ use slideway::report::{Verdict, precise};
 pub fn drive_figure(report: &DriveReport) -> Option<Figure> {
     let course = report.course.as_ref()?;
     let mut builder = Builder { report, course, branches: Vec::new(), colours: ModeColours::default() };
+    // Modes have the colours that they have in other plots before anything else has one.
+    for mode in course.directions.iter().flat_map(|direction| &direction.modes) {
+        builder.colours.of(&mode.pattern);
+    }
     let mut units: Vec<&str> = report.drives.iter().map(|drive| drive.unit).collect();
     units.dedup();
     let mut panels: Vec<Panel> = units.iter().map(|unit| builder.efforts(unit)).collect();
@@ -47,7 +51,7 @@ fn quantities(report: &DriveReport, course: &Course) -> Vec<String> {
 fn way(direction: &CourseDirection) -> &'static str {
     match direction.direction {
         Sense::Model => "as in the model",
-        Sense::Reversed => "in the opposite direction with the same loads",
+        Sense::Reversed => "backwards with the same loads",
     }
 }
 
@@ -181,8 +185,14 @@ impl Builder<'_> {
         let mode = direction.modes.iter().find(|mode| mode.pattern == pattern);
         let words = mode.map_or_else(String::new, |mode| format!(":\u{a0}{}", mode.words));
         let verdict = stretch.verdict();
-        let name = format!("{}{words}{}", signs(pattern), in_parentheses(std::iter::once(verdict)));
-        let colour = self.colours.of(pattern);
+        // A mode of both directions has a colour of its own backwards.
+        let occurs = |direction: &CourseDirection| direction.modes.iter().any(|mode| mode.pattern == pattern);
+        let [before, behind] = match direction.direction {
+            Sense::Reversed if self.course.directions.iter().all(occurs) => ["backwards, ", "<"],
+            _ => [""; 2],
+        };
+        let name = format!("{before}{}{words}{}", signs(pattern), in_parentheses(std::iter::once(verdict)));
+        let colour = self.colours.of(&format!("{pattern}{behind}"));
         self.entry(&name, colour, stroke_of(verdict))
     }
 
@@ -210,7 +220,9 @@ impl Builder<'_> {
     fn zones(&self, direction: &CourseDirection) -> Vec<Zone> {
         let scale = self.course.vary.shown_in.scale();
         let is_single = self.course.directions.len() == 1;
-        let way = if is_single { String::new() } else { format!(", moving {}", way(direction)) };
+        let way = if is_single { String::new() } else { format!(" moving {}", way(direction)) };
+        // What is excluded in one direction is not in the other.
+        let no_solution = if is_single { "excluded: no solution" } else { "no solution" };
         let zone = |from: f64, to: f64, hatching: Hatching, meaning: &str| Zone {
             from: from / scale,
             to: to / scale,
@@ -229,7 +241,7 @@ impl Builder<'_> {
                 let after = runs.peek().map(|next| &next[0]).filter(|row| grown(row));
                 let from = before.filter(|row| grown(row)).map_or(run[0].at, |row| row.at);
                 let to = after.map_or(run[run.len() - 1].at, |row| row.at);
-                zones.push(zone(from, to, Hatching::Rising, "excluded: no solution"));
+                zones.push(zone(from, to, Hatching::Rising, no_solution));
             }
             before = run.last();
         }

@@ -58,7 +58,12 @@ impl FrameAxis {
     /// The name with the unit.
     fn named(&self) -> String {
         let unit = self.unit.replace("^2", "\u{b2}").replace("^3", "\u{b3}").replace("^4", "\u{2074}");
-        if unit.is_empty() { self.name.clone() } else { format!("{} in {unit}", self.name) }
+        match unit.as_str() {
+            "" => self.name.clone(),
+            // "L in in" reads like a slip.
+            _ if unit.starts_with("in") => format!("{} ({unit})", self.name),
+            _ => format!("{} in {unit}", self.name),
+        }
     }
 }
 

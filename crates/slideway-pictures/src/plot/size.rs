@@ -94,18 +94,18 @@ impl Told {
     fn of(against: MarginKind) -> Self {
         let margin = |what, of| Self {
             what,
-            branch: "margin",
-            axis: "factor of friction",
+            branch: "safety factor",
+            axis: "safety factor",
             wanted: "wanted",
-            met: "the wanted margin is met",
+            met: "the wanted safety factor is reached",
             of,
         };
         let limit =
             |what, wanted, of| Self { what, branch: what, axis: what, wanted, met: "the limit is kept", of };
         match against {
-            MarginKind::Locking => margin("margin against locking", "Load"),
-            MarginKind::SelfLocking => margin("margin against self-locking", "Load"),
-            MarginKind::Hold => margin("margin of holding", "Load"),
+            MarginKind::Locking => margin("safety factor against jamming", "Load"),
+            MarginKind::SelfLocking => margin("safety factor against self-locking", "Load"),
+            MarginKind::Hold => margin("safety factor of holding", "Load"),
             MarginKind::Effort => limit("greatest effort", "at most", "Drive"),
             MarginKind::NormalForce => limit("greatest normal force", "at most", "Contact"),
             MarginKind::Pressure => limit("greatest bearing pressure", "at most", "Contact"),

@@ -133,6 +133,7 @@ __all__ = [
     "OpenRange",
     "Panel",
     "PatternSummary",
+    "PeakEffort",
     "Persistence",
     "PhaseReport",
     "PointKind",
@@ -1166,6 +1167,9 @@ class CourseDirection(Record):
     """The modes of the rows, each once."""
     blow_ups: tuple[BlowUp, ...]
     """Values at which efforts grow without bound, in ascending order."""
+    peaks: tuple[PeakEffort, ...] = ()
+    """Where the effort of each drive is greatest, by its magnitude; absent where one grows without bound, where
+    there are several states, and with friction in hinges."""
     locked: tuple[LockedRange, ...] = ()
     """With friction in hinges: ranges without a solution."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
@@ -1566,7 +1570,9 @@ class EnergyReport(Record):
     hinges: tuple[Named, ...] = ()
     """Dissipated by the friction of each hinge that has some."""
     loads: tuple[Named, ...]
-    """Work of each load other than constant springs."""
+    """Work of each load other than constant springs; of a pad what its damper takes, as a negative number."""
+    pads: tuple[Named, ...] = ()
+    """The part of the potential energy that the spring of each pad stores at the end."""
     drives: tuple[Named, ...]
     """Work of each drive."""
     impulses: float
@@ -2255,6 +2261,18 @@ class PatternSummary(Record):
     """Solutions and gap states that a guided slider rejects because it would tip."""
     gap_patterns: int
     """Patterns with gap states that were tried besides."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PeakEffort(Record):
+    """Where an effort is greatest."""
+
+    drive: int
+    """The number of the drive."""
+    at: float
+    """The value of what is varied."""
+    effort: float
+    """The effort there (N or N m)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

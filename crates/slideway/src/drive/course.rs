@@ -1,6 +1,7 @@
 //! The efforts over a parameter, a coordinate or friction.
 
 use super::efforts::{Efforts, GROWTH};
+use super::peak::peaks;
 use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
@@ -13,7 +14,7 @@ use crate::solve::{Stages, pattern};
 use std::ops::ControlFlow;
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
-const SAME_ROW: f64 = 1e-9;
+pub(super) const SAME_ROW: f64 = 1e-9;
 /// Places nearer to zero than this share of the range are zero.
 const ROUNDING: f64 = 1e-12;
 /// Steps between which efforts that pass through infinity, and changes of the number of solutions, are sought.
@@ -43,16 +44,19 @@ pub(super) fn direction(
     };
     let stages = Stages::new(varied.model())?;
     let mut blow_ups = growing_ends(&found.existence, &stages, efforts);
-    blow_ups.extend(poles(efforts, range, &found));
+    let places: Vec<(f64, Option<Efforts>)> =
+        evenly(range, STEPS).map(|value| (value, efforts(value))).collect();
+    blow_ups.extend(poles((&places, efforts), range, &found));
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
     let course = Tabulated { varied, efforts: &efforts, range, found: &found, blow_ups: &blow_ups, work };
     let rows = course.rows(steps);
     let modes = modes(&rows, &Naming::new(varied.model())?);
+    let peaks = peaks(&places, (&found, &rows, &blow_ups), efforts);
     let without_mode_problem = RangeWithoutProblem::of(&found);
     let sampled = found.method == Method::Bracketing;
     Ok((
         Guarantee { sampled, words: guarantee(&found, &varied.shown_in) },
-        CourseDirection { direction, rows, modes, blow_ups, locked: Vec::new(), without_mode_problem },
+        CourseDirection { direction, rows, modes, blow_ups, peaks, locked: Vec::new(), without_mode_problem },
     ))
 }
 
@@ -69,9 +73,11 @@ pub(super) fn modes(rows: &[CourseRow], naming: &Naming) -> Vec<CourseMode> {
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes
 /// its sign between evenly spaced values without vanishing.
-fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &ModesFound) -> Vec<BlowUp> {
-    let places: Vec<(f64, Option<Efforts>)> =
-        evenly([from, to], STEPS).map(|value| (value, at(value))).collect();
+fn poles(
+    (places, at): (&[(f64, Option<Efforts>)], impl Fn(f64) -> Option<Efforts>),
+    [from, to]: [f64; 2],
+    found: &ModesFound,
+) -> Vec<BlowUp> {
     let mut poles = Vec::new();
     for mode in &found.existence.modes {
         let inside = places.iter().filter(|(value, _)| mode.from.at < *value && *value < mode.to.at);

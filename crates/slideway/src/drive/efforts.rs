@@ -62,6 +62,11 @@ impl Efforts {
         Some(unknowns.iter().skip(unknowns.len() - self.drives).map(|effort| effort + 0.0).collect())
     }
 
+    /// How many drives there are.
+    pub(super) fn drives(&self) -> usize {
+        self.drives
+    }
+
     /// The patterns that have a solution, preload-gap states among them, as long as `goes_on`.
     ///
     /// # Errors

@@ -30,11 +30,12 @@
 //! # Files
 //! `drive` adds the efforts of drives to the mode problem as outputs (`solve::Parts`), so that each branch,
 //! and its growth without bound, comes from the modes that `limits` finds. With friction in hinges each row is solved
-//! by itself (`sampled.rs`).
+//! by itself (`sampled.rs`). `peak.rs` finds where over a range an effort is greatest.
 
 mod continuum;
 mod course;
 mod efforts;
+mod peak;
 mod report;
 mod sampled;
 mod state;
@@ -44,7 +45,8 @@ mod words;
 pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
-    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, LockedRange, SCHEMA, Sense,
+    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, LockedRange, PeakEffort, SCHEMA,
+    Sense,
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
@@ -164,5 +166,6 @@ fn course(
         directions: vec![forwards, backwards],
         sampled: guarantee.sampled,
         guarantee: guarantee.words,
+        can_tip: model.has_guided_sliders(),
     })
 }

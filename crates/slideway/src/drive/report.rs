@@ -215,6 +215,9 @@ pub struct Course {
     pub sampled: bool,
     /// Account, in words, of what can be missed.
     pub guarantee: String,
+    /// Whether no solution may mean that a guided slider tips, and not that it jams.
+    #[serde(skip)]
+    pub(super) can_tip: bool,
 }
 
 /// The efforts over what is varied in one direction of motion.
@@ -230,11 +233,27 @@ pub struct CourseDirection {
     pub modes: Vec<CourseMode>,
     /// Values at which efforts grow without bound, in ascending order.
     pub blow_ups: Vec<BlowUp>,
+    /// Where the effort of each drive is greatest, by its magnitude; absent where one grows without bound, where there are
+    /// several states, and with friction in hinges.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub peaks: Vec<PeakEffort>,
     /// With friction in hinges: ranges without a solution.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub locked: Vec<LockedRange>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+}
+
+/// Where an effort is greatest.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PeakEffort {
+    /// The number of the drive.
+    pub drive: usize,
+    /// The value of what is varied.
+    pub at: f64,
+    /// The effort there (N or N m).
+    pub effort: f64,
 }
 
 /// A range in which no effort moves the mechanism.

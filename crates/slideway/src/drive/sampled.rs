@@ -51,7 +51,7 @@ pub(super) fn direction(
     let without_mode_problem = Vec::new();
     Ok((
         Guarantee { sampled: true, words: GUARANTEE.to_owned() },
-        CourseDirection { direction, rows, modes, blow_ups, locked, without_mode_problem },
+        CourseDirection { direction, rows, modes, blow_ups, peaks: Vec::new(), locked, without_mode_problem },
     ))
 }
 

@@ -4,8 +4,8 @@ use super::report::{
     Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution, EffortRange,
     LockedRange, Sense,
 };
-use super::words::{advice, is_stable, percents, sentences, share, without_limit};
-use crate::limits::{RangeWithoutProblem, no_answer};
+use super::words::{advice, greatest, is_stable, percents, sentences, share, without_limit};
+use crate::limits::{RangeWithoutProblem, no_answers};
 use crate::report::page::Page;
 use crate::report::{
     OpenRange, Proof, Report, Style, Verdict, ends_in_words, joints_in_words, precise, spaced,
@@ -51,7 +51,7 @@ impl Page<'_, DriveReport> {
         for direction in &report.directions {
             self.status(direction.status, &sentences(report, direction).join(" "));
         }
-        advice(report).iter().for_each(|line| self.line(line));
+        advice(report).into_iter().chain(greatest(report)).for_each(|line| self.line(&line));
     }
 
     fn direction(&mut self, direction: &DriveDirection) {
@@ -155,8 +155,9 @@ impl Page<'_, DriveReport> {
                 let [from, to] = [unit.precise_number(*from), unit.precise(*to)];
                 self.line(&format!("  From {} = {from} to {to} it jams.", course.vary.name));
             }
-            for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
-                self.line(&no_answer([*from, *to], &course.vary.shown_in, reason));
+            let ranges = RangeWithoutProblem::told(&direction.without_mode_problem);
+            for line in no_answers(&ranges, &course.vary.shown_in, details) {
+                self.line(&format!("  {line}"));
             }
         }
         self.line("");
@@ -171,7 +172,7 @@ impl Page<'_, DriveReport> {
         let details = self.is_verbose();
         let units = self.effort_units();
         let rows: Vec<CourseCells> =
-            direction.rows.iter().map(|row| course_row(row, &course.vary.shown_in, &units)).collect();
+            direction.rows.iter().map(|row| course_row(row, course, &units)).collect();
         let with_notes = rows.iter().any(|row| !row.note.is_empty());
         let mut header = vec![course.vary.shown_in.title(&course.vary.name)];
         header.extend(details.then(|| "signs".to_owned()));
@@ -228,7 +229,7 @@ struct CourseCells {
     note: String,
 }
 
-fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> CourseCells {
+fn course_row(row: &CourseRow, course: &Course, units: &[Unit]) -> CourseCells {
     let note = match (&row.pattern, &row.frictionless) {
         _ if row.range.is_some() => "undetermined",
         (Some(_), _) => match row.attainability {
@@ -237,7 +238,8 @@ fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> CourseCells {
             Some(Verdict::Flutter) => "flutters",
             Some(Verdict::Undecided | Verdict::NotComputed) => "stability not decided",
         },
-        (None, Some(_)) => "no solution",
+        (None, Some(_)) if course.can_tip => "no solution",
+        (None, Some(_)) => "it jams",
         (None, None) => "no answer",
     };
     let drives = || units.iter().enumerate();
@@ -257,7 +259,7 @@ fn course_row(row: &CourseRow, shown_in: &Unit, units: &[Unit]) -> CourseCells {
     let range = row.range.as_ref().and_then(|range| range.efficiency).map(percents);
     numbers.push(range.or_else(|| row.efficiency.map(share)).unwrap_or_default());
     CourseCells {
-        at: shown_in.precise_number(row.at),
+        at: course.vary.shown_in.precise_number(row.at),
         signs: row.pattern.as_deref().map(spaced).unwrap_or_default(),
         numbers,
         note: note.to_owned(),

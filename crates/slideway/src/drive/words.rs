@@ -1,8 +1,8 @@
 //! The sentences on driven motion.
 
 use super::report::{
-    Approach, BlowUp, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency, EfficiencyKind,
-    EffortRange, Sense,
+    Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
+    EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
 use crate::report::effort::{self, times_friction};
 use crate::report::{Status, Verdict, spaced};
@@ -19,7 +19,31 @@ pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
         .iter()
         .flat_map(|direction| sentences(report, direction))
         .chain(advice(report))
+        .chain(greatest(report))
         .collect()
+}
+
+/// The greatest efforts over what is varied: "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an
+/// effort that hardly varies.
+pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
+    let Some(course) = &report.course else { return Vec::new() };
+    let vary = &course.vary;
+    let range = vary.shown_in.range(&vary.name, [vary.from, vary.to]);
+    let one = |direction: &CourseDirection, peak: &PeakEffort| {
+        let drive = &report.drives[peak.drive];
+        let unit = report.units.of(drive.unit);
+        let shown = |effort: f64| unit.brief(effort.abs());
+        let efforts = direction.rows.iter().filter_map(|row| row.efforts.as_ref());
+        let varies = efforts.into_iter().any(|row| shown(row[peak.drive]) != shown(peak.effort));
+        let place = vary.shown_in.brief(peak.at);
+        let told = format!("{} is greatest at {place}: {}.", drive.name, unit.brief(peak.effort));
+        varies.then(|| match direction.direction {
+            Sense::Model => format!("Over {range}, {told}"),
+            Sense::Reversed => format!("Backwards, over {range}, {told}"),
+        })
+    };
+    let peaks = course.directions.iter().flat_map(|way| way.peaks.iter().map(move |peak| (way, peak)));
+    peaks.filter_map(|(way, peak)| one(way, peak)).collect()
 }
 
 /// The advice that makes an undetermined effort determinate.
@@ -32,7 +56,7 @@ pub(super) fn advice(report: &DriveReport) -> Option<String> {
 /// efficiency 55 %.", "It would jam from mu = 0.6667 (2.222 times this friction)."
 pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec<String> {
     let whole = |clause: String| match direction.direction {
-        Sense::Reversed => format!("Backwards {clause}"),
+        Sense::Reversed => format!("Backwards, {clause}"),
         // All but names of drives and joints.
         Sense::Model
             if ["it ", "infinitely ", "friction holds "].iter().any(|word| clause.starts_with(word)) =>
@@ -119,7 +143,8 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
         _ if is_idle => ", all of it against friction".to_owned(),
         (EfficiencyKind::Driving, Some(value)) => format!(": efficiency {}", percent(value)),
         (EfficiencyKind::Braking, Some(value)) => {
-            format!(" to brake the load: efficiency {}", percent(value))
+            let comma = if needs.iter().any(|need| need.ends_with("without friction")) { "," } else { "" };
+            format!("{comma} to brake the load: efficiency {}", percent(value))
         }
         (EfficiencyKind::HeldByFriction, _) => {
             return format!("friction holds the load: to move it, {}", needs.join(", "));

@@ -84,8 +84,8 @@ impl Doubt {
                 face.question("solve")
             ),
             Self::NothingPresses => {
-                "whether it jams can only be told under a load: add the resistance, the weight \
-                or the acceleration that the drive works against"
+                "so it moves as without friction, but only exactly here: try a load or place a little beside; if a \
+                load is missing, add the resistance, the weight or the acceleration that the drive works against"
                     .to_owned()
             }
         }

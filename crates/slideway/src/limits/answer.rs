@@ -53,6 +53,11 @@ impl RangeWithoutProblem {
             |gap: &super::found::Gap| Self { from: end(gap.from), to: end(gap.to), reason: gap.reason() };
         found.gaps.iter().map(range).collect()
     }
+
+    /// Each with its reason.
+    pub(crate) fn told(ranges: &[Self]) -> Vec<([f64; 2], &str)> {
+        ranges.iter().map(|range| ([range.from, range.to], range.reason.as_str())).collect()
+    }
 }
 
 /// The names of a mechanism's parts, and how its guides lie.

@@ -157,6 +157,6 @@ impl Knowledge {
 impl Gap {
     /// The first reason, in words.
     pub(crate) fn reason(&self) -> String {
-        self.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string())
+        self.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.of_range())
     }
 }

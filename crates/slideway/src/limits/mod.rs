@@ -63,7 +63,7 @@ pub use report::{
     REST_SCHEMA, RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, VariedQuantity,
 };
 pub use rest::{rest_limits, rest_limits_with};
-pub(crate) use text::{could_be_missed, no_answer};
+pub(crate) use text::{could_be_missed, no_answers};
 pub use varied::{Variable, variables};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;

@@ -134,8 +134,8 @@ impl Page<'_, LimitsReport> {
         if !gaps.is_empty() {
             self.line("");
         }
-        for RangeWithoutProblem { from, to, reason } in gaps {
-            self.line(&no_answer([*from, *to], unit, reason));
+        for line in no_answers(&RangeWithoutProblem::told(gaps), unit, verbose) {
+            self.line(&format!("  {line}"));
         }
     }
 
@@ -203,13 +203,24 @@ pub(crate) fn could_be_missed(width: &str) -> String {
     format!("Checked every {width}; a narrower range could be missed.")
 }
 
-/// Where there is no mode problem, and why.
-pub(crate) fn no_answer([from, to]: [f64; 2], unit: &Unit, reason: &str) -> String {
-    let place = match [from, to].map(|end| unit.precise_number(end)) {
-        [from, to] if from == to => format!("At {}", unit.with(&from)),
-        [from, to] => format!("From {from} to {}", unit.with(&to)),
-    };
-    format!("  {place} there is no answer, which is no jam: {reason}.")
+/// Where there is no mode problem, and why. Ranges that follow each other without room between them, as they are shown, are
+/// one, with the reason of the widest; with details each is there.
+pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool) -> Vec<String> {
+    let shown = |at: f64| unit.precise_number(at);
+    let joined = ranges.chunk_by(|(one, _), (next, _)| !details && shown(one[1]) == shown(next[0]));
+    let joined = joined.filter_map(|chunk| {
+        let ([first, _], _) = chunk.first()?;
+        let ([_, last], _) = chunk.last()?;
+        let width = |([from, to], _): &([f64; 2], &str)| to - from;
+        let (_, reason) =
+            chunk.iter().reduce(|one, other| if width(other) > width(one) { other } else { one })?;
+        let place = match [shown(*first), shown(*last)] {
+            [from, to] if from == to => format!("At {}", unit.with(&from)),
+            [from, to] => format!("From {from} to {}", unit.with(&to)),
+        };
+        Some(format!("{place} there is no answer, which is no jam: {reason}."))
+    });
+    joined.collect()
 }
 
 fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {
@@ -325,4 +336,24 @@ pub(super) fn at_most(value: f64, shown_in: &Unit) -> String {
     let rounded = (value / unit).ceil() * unit;
     let text = if (-4.0..6.0).contains(&exponent) { number(rounded) } else { format!("{rounded:.1e}") };
     shown_in.with(&text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::no_answers;
+    use crate::units::Unit;
+
+    #[test]
+    fn ranges_without_answer_that_meet_are_one_with_the_reason_of_the_widest() {
+        let near = f64::from_bits(1.0_f64.to_bits() + 1);
+        let ranges =
+            [([0.0, 1.0], "out of its guide"), ([1.0, near], "ill-conditioned"), ([2.0, 2.0], "singular")];
+        let told = |details| no_answers(&ranges, &Unit::default(), details);
+        let joined = [
+            "From 0 to 1 there is no answer, which is no jam: out of its guide.",
+            "At 2 there is no answer, which is no jam: singular.",
+        ];
+        assert_eq!(told(false), joined);
+        assert_eq!(told(true).len(), 3);
+    }
 }

@@ -281,11 +281,8 @@ fn words(meaning: &ClassMeaning) -> String {
         ClassMeaning::Moves { as_in_model: true, opposite: false, tips_opposite, .. } => {
             format!("can only move as in the model; in the opposite direction {}", without(*tips_opposite))
         }
-        ClassMeaning::Moves { opposite: true, tips_as_in_model: false, .. } => {
-            "can only move against the direction of the model".to_owned()
-        }
-        ClassMeaning::Moves { opposite: true, .. } => {
-            format!("can only move against the direction of the model; as in the model {}", without(true))
+        ClassMeaning::Moves { opposite: true, tips_as_in_model, .. } => {
+            format!("can only move in the opposite direction; as in the model {}", without(*tips_as_in_model))
         }
         ClassMeaning::Moves { tips_as_in_model, tips_opposite, .. } if tips_as_in_model == tips_opposite => {
             format!("{} in both directions", without(*tips_opposite))

@@ -22,7 +22,7 @@
 //! let history = simulate(&crank, &SimulateOptions::new(0.05))?;
 //! assert_eq!(history.end, End::Finished);
 //! // The piston reverses at its dead centre.
-//! assert!(history.events.iter().any(|event| event.words.contains("cylinder reverses")));
+//! assert!(history.events.iter().any(|event| event.words.contains("piston reverses")));
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 //!

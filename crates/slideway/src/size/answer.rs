@@ -126,7 +126,7 @@ fn cause(end: &End) -> MetEnd {
 }
 
 fn gap(gap: &SizeGap, same_ends: SameEnds) -> RangeWithoutPosition {
-    let reason = gap.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string());
+    let reason = gap.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.of_range());
     RangeWithoutPosition { from: same_ends.told(gap.from), to: same_ends.told(gap.to), reason }
 }
 

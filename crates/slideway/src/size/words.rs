@@ -2,7 +2,7 @@
 
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
-use crate::limits::no_answer;
+use crate::limits::no_answers;
 use crate::report::number::precise;
 use crate::report::{NO_DRIVE, Tipping, without_solution};
 use crate::units::{Unit, brief};
@@ -41,10 +41,9 @@ impl Words<'_> {
             sentences.push(NO_DRIVE.to_owned());
         }
         let report = self.report;
-        for gap in &report.without_position {
-            let told = no_answer([gap.from, gap.to], &report.vary.shown_in, &gap.reason);
-            sentences.push(told.trim_start().to_owned());
-        }
+        let ranges: Vec<([f64; 2], &str)> =
+            report.without_position.iter().map(|gap| ([gap.from, gap.to], gap.reason.as_str())).collect();
+        sentences.extend(no_answers(&ranges, &report.vary.shown_in, false));
         sentences
     }
 

@@ -95,9 +95,13 @@ impl Unit {
         brief(self.number_of(value))
     }
 
-    /// A heading of a column or an axis: "L in mm".
+    /// A heading of a column or an axis: "L in mm", and "L (in)", as "L in in" reads like a slip.
     pub fn title(&self, what: &str) -> String {
-        if self.name.is_empty() { what.to_owned() } else { format!("{what} in {}", self.name) }
+        match self.name() {
+            "" => what.to_owned(),
+            name if name.starts_with("in") => format!("{what} ({name})"),
+            name => format!("{what} in {name}"),
+        }
     }
 
     /// [`Unit::show`] without the name.

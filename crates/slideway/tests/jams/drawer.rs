@@ -92,7 +92,7 @@ fn the_drawer_jams_where_its_spring_is_slack() {
     assert!((lost - energy).abs() < 1e-7 * energy, "{lost} {energy}");
     assert_eq!(event.successors.len(), 1, "{:?}", event.successors);
     assert!(event.words.contains("it jams: an impulse stops it and dissipates 2.9"), "{}", event.words);
-    assert!(event.words.ends_with("guide stops and sticks"), "{}", event.words);
+    assert!(event.words.ends_with("drawer stops and sticks"), "{}", event.words);
     let last = history.reader().at(1.0).unwrap().configuration;
     assert!(last.rates[0].abs() < 1e-15, "{:?}", last.rates);
     assert!((last.coordinates[0] - 0.3).abs() < 1e-9, "{:?}", last.coordinates);
@@ -326,5 +326,5 @@ fn a_jam_in_a_rolling_carcass_stops_the_drawer_alone() {
     assert!((together.coordinates[1] - 0.3).abs() < 1e-8 && together.rates[1].abs() < 1e-14);
     assert!((stops.time - jams.time - momentum / resistance).abs() < 1e-5, "{}", stops.time);
     assert!((reader.configuration(30.0).unwrap().coordinates[1] - 0.3).abs() < 1e-8);
-    assert!(jams.words.contains("guide stops and sticks"), "{}", jams.words);
+    assert!(jams.words.contains("drawer stops and sticks"), "{}", jams.words);
 }

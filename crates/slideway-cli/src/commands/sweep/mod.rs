@@ -16,6 +16,7 @@ use crate::picture;
 use crate::watch::Watch;
 use plot::Plotting;
 use slideway::progress::Progress;
+use slideway::solve::solve;
 use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_tables::{Control, Encoder, Layout, PartialFile, Resume, RowSource, TableFormat, Written};
 use std::io::{self, IsTerminal, Write};
@@ -64,7 +65,12 @@ fn table(model: &ModelArguments, arguments: &SweepArguments, output: &Output) ->
     let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
     let encoder = Encoder::new(format, layout, metadata(&input));
     let work = Work { source: RowSource::Sweep(&sweep), encoder, plot };
-    work.write(arguments, &destination, watch)
+    let outcome = work.write(arguments, &destination, watch)?;
+    match outcome {
+        // What is refused everywhere is most often the model, and then there is advice.
+        Outcome::Refused => solve(&model).map(|_| outcome).map_err(|faults| input.refused(faults)),
+        outcome => Ok(outcome),
+    }
 }
 
 /// Watches over the work of a sweep.
@@ -185,20 +191,26 @@ impl Work<'_> {
                 watch.finish();
             }
         }
-        if !io::stdout().is_terminal() || output.path().is_some() {
+        let outcome = outcome(&state);
+        if outcome == Outcome::Refused || !io::stdout().is_terminal() || output.path().is_some() {
             complain(sweep.text(&state, output.style_of_text()).trim_end(), output.color());
         }
         if let Some(plot) = self.plot {
             plot.write(&state)?;
         }
-        Ok(Outcome::Done)
+        Ok(outcome)
     }
+}
+
+/// Refused if there were points, and none could be solved.
+fn outcome(state: &SweepState) -> Outcome {
+    if state.tally.points > 0 && state.tally.solved() == 0 { Outcome::Refused } else { Outcome::Done }
 }
 
 /// Tells what a sweep has come to.
 fn tell(sweep: &Sweep, state: &SweepState, output: &Output) -> Result<Outcome, Failure> {
     Output::standard(output.look()).write(&sweep.text(state, output.style_of_text()))?;
-    Ok(Outcome::Done)
+    Ok(outcome(state))
 }
 
 /// Builds the failure of a sweep that was ended before it was done.

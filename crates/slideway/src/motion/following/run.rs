@@ -4,7 +4,7 @@ use super::smooth::{Ended, Smooth};
 use super::stop::{self, Hit};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::motion::decision::Blow;
 use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
@@ -301,22 +301,28 @@ impl<'a, 'm> Run<'a, 'm> {
         let impact =
             stop::impact_of(&hits, (mechanism, &configuration), (&little, self.work), self.decisions)?;
         self.smooth.set_velocities(&impact.after.velocities);
+        let speeds = |joint: JointId| {
+            let speed = |at: &Configuration| {
+                mechanism.slider(joint).map_or(0.0, |slider| at.sliding(mechanism, slider).1.abs())
+            };
+            [speed(&configuration), speed(&impact.after)]
+        };
         let is_over = |cause: &Cause| {
             matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))
         };
         causes.retain(|cause| !is_over(cause));
-        for Blow { stops, energy_lost } in impact.blows {
-            self.note_impulse(energy_lost);
-            for (index, (joint, _)) in stops.into_iter().enumerate() {
+        for Blow { stops, energy_lost } in &impact.blows {
+            self.note_impulse(*energy_lost);
+            for (index, &(joint, _)) in stops.iter().enumerate() {
                 let greatest = hits.iter().any(|hit| hit.joint == joint && hit.greatest);
-                let energy_lost = (index == 0).then_some(energy_lost);
-                causes.push(Cause::Hits { joint, greatest, energy_lost });
+                let energy_lost = (index == 0).then_some(*energy_lost);
+                causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost });
             }
         }
         for Hit { joint, greatest, .. } in hits {
             let is_told = |cause: &Cause| matches!(cause, Cause::Hits { joint: told, .. } if *told == joint);
             if !causes.iter().any(is_told) {
-                causes.push(Cause::Hits { joint, greatest, energy_lost: Some(0.0) });
+                causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost: Some(0.0) });
             }
         }
         Ok(true)

@@ -46,6 +46,8 @@ pub enum Cause {
         joint: JointId,
         /// Whether it is the stop at the greatest displacement.
         greatest: bool,
+        /// How fast it arrives and how fast it bounces back (m/s).
+        speeds: [f64; 2],
         /// Kinetic energy that is lost (J); of joints that act on one another the first has that of all.
         energy_lost: Option<f64>,
     },

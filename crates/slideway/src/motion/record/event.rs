@@ -1,12 +1,14 @@
 //! What happens between the phases of a motion, and in words.
 
 use crate::configuration::Configuration;
-use crate::ids::{ContactId, Frame, JointId};
+use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::mechanism::{Mechanism, Slider};
+use crate::model::SliderKind;
 use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
 use crate::motion::moving::cause::Cause;
 use crate::pattern::phase::{ContactPhase, JointPhase, Phase, sliding_joints};
+use crate::report::number::against;
 use crate::solve::mode_in_words;
 use nalgebra::Vector2;
 
@@ -132,12 +134,21 @@ impl Words<'_> {
             Cause::TravelLimit { joint, greatest } => {
                 format!("{} reaches the {} displacement of its travel", self.name(*joint), end(*greatest))
             }
-            Cause::Hits { joint, greatest, energy_lost } => {
+            Cause::Hits { joint, greatest, speeds, energy_lost } => {
                 let hits =
                     format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
+                let [before, after] = speeds.map(|speed| self.mechanism.units.of("m/s").brief(speed));
+                let bounces = if against(speeds[1], speeds[0]) != "0" {
+                    format!("and bounces back with {after}")
+                } else {
+                    "without bouncing".to_owned()
+                };
                 match energy_lost {
-                    Some(energy) => format!("{hits}, which dissipates {}", self.energy(*energy)),
-                    None => format!("{hits} in the same impact"),
+                    Some(energy) => {
+                        let lost = self.mechanism.units.of("J").brief(*energy);
+                        format!("{hits} with {before} {bounces} ({lost} lost)")
+                    }
+                    None => format!("{hits} in the same impact, with {before}, {bounces}"),
                 }
             }
             Cause::MeetsPad { joint, greatest } => {
@@ -166,6 +177,12 @@ impl Words<'_> {
                     format!("{name} starts to slide: it {}", self.state("is now", index, *joint, after))
                 }
                 (JointPhase::Sliding(old), JointPhase::Sliding(new)) if old != new => {
+                    // That it bounces back says so already.
+                    let bounces =
+                        |cause: &Cause| matches!(cause, Cause::Hits { joint: hit, .. } if hit == joint);
+                    if before.contacts == after.contacts && causes.iter().any(bounces) {
+                        return None;
+                    }
                     // Nothing happens where a joint without friction turns round: the next event tells.
                     let now = stops
                         || causes
@@ -284,12 +301,30 @@ impl Words<'_> {
         }
     }
 
+    /// What moves at a joint: the body that slides, where this is the only joint in which it does; else the joint. The pin
+    /// of a slot is named after its joint, too.
     fn name(&self, joint: JointId) -> &str {
-        &self.mechanism.joints[joint.index()].name
+        moving(self.mechanism, joint)
     }
 
     fn contact(&self, contact: ContactId) -> &str {
         &self.mechanism.contacts[contact.index()].name
+    }
+}
+
+/// The name of the body that slides in a joint, where this is the only joint in which it does, and of the joint elsewhere: of
+/// hinges, of pins in slots, where the ground is the block.
+pub(in crate::motion) fn moving(mechanism: &Mechanism, joint: JointId) -> &str {
+    let block = |joint: JointId| {
+        let slider = mechanism.slider(joint).filter(|slider| slider.kind != SliderKind::Pin)?;
+        slider.block.body()
+    };
+    let is_only = |body: BodyId| {
+        sliding_joints(mechanism).into_iter().filter(|other| block(*other) == Some(body)).count() == 1
+    };
+    match block(joint).filter(|body| is_only(*body)) {
+        Some(body) => &mechanism.bodies[body.index()].name,
+        None => &mechanism.joints[joint.index()].name,
     }
 }
 

@@ -11,7 +11,7 @@ fn a_block_slides_to_rest() {
     let stop = &history.events[1];
     assert!(matches!(stop.causes[..], [Cause::Stops(_)]));
     assert!((stop.time - 0.8).abs() < 1e-12, "{}", stop.time);
-    assert_eq!(stop.words, "guide stops and sticks");
+    assert_eq!(stop.words, "block stops and sticks");
     let mut reader = history.reader();
     for (time, place, velocity) in [(0.3, 0.6 - 0.1125, 1.25), (0.8, 0.8, 0.0), (2.0, 0.8, 0.0)] {
         let sample = reader.at(time).unwrap();

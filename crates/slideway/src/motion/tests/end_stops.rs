@@ -80,7 +80,9 @@ fn perfect_restitution_keeps_the_energy() {
     for (index, (time, lost)) in hits.iter().enumerate() {
         assert!((time - 0.25 - 0.5 * index as f64).abs() < 1e-9 && lost.abs() < 1e-12);
     }
-    assert!(history.events[1].words.starts_with("guide hits the stop at its greatest displacement"));
+    assert!(history.events[1].words.starts_with(
+        "block hits the stop at its greatest displacement with 4 m/s and bounces back with 4 m/s ("
+    ));
 }
 
 /// Two ends: one that gives back the half, and one at which the motion ends. From 0 at 2 m/s it hits after

@@ -27,7 +27,7 @@ fn viscous_friction_on_an_incline_leads_to_a_terminal_speed() {
     assert_eq!(history.events.len(), 2, "{:#?}", history.events);
     let late = history.events[1].time - stop;
     assert!(late.abs() < 1e-9, "{late:e}");
-    assert!(history.events[1].words.starts_with("guide reverses"), "{}", history.events[1].words);
+    assert!(history.events[1].words.starts_with("block reverses"), "{}", history.events[1].words);
     let mut reader = history.reader();
     for at in [0.1, 0.2, 0.35, 1.0, 2.0, 4.0] {
         let (from, v, w, x) = if at < stop { (0.0, start, up, 0.0) } else { (stop, 0.0, down, top) };

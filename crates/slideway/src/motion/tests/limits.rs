@@ -59,7 +59,7 @@ fn travel_ends_it() {
     let history = run(&text, &SimulateOptions::new(2.0));
     assert!(matches!(history.end, End::TravelLimit(_)));
     assert!((history.stop() - (2.0 - 1.5_f64.sqrt()) / 2.5).abs() < 1e-11, "{}", history.stop());
-    assert!(history.events[1].words.ends_with("guide reaches the greatest displacement of its travel"));
+    assert!(history.events[1].words.ends_with("block reaches the greatest displacement of its travel"));
 }
 
 /// A block of 20 N that sticks is pressed down with (10 N/s) t more: each of its ends has half of it, 15 N

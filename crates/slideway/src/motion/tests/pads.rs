@@ -5,6 +5,7 @@ use crate::fault::FaultKind;
 use crate::limits::{LimitsOptions, limits};
 use crate::model::{Model, Settings};
 use crate::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
+use crate::report::{Report, Style};
 use crate::solve::solve;
 use crate::standstill::{HoldOptions, hold};
 
@@ -45,9 +46,9 @@ fn an_undamped_pad_gives_everything_back() {
             "{meets} {leaves}"
         );
     }
-    assert_eq!(history.events[1].words, "guide meets the pad at its greatest displacement");
-    assert_eq!(history.events[2].words, "guide leaves the pad at its greatest displacement");
-    assert!(history.events[3].words.starts_with("guide meets the pad at its least displacement"));
+    assert_eq!(history.events[1].words, "block meets the pad at its greatest displacement");
+    assert_eq!(history.events[2].words, "block leaves the pad at its greatest displacement");
+    assert!(history.events[3].words.starts_with("block meets the pad at its least displacement"));
     // In the middle of the pad all of the energy of 4 J is in its spring.
     let mut reader = history.reader();
     let middle = reader.at(0.5 + half / 2.0).unwrap().energy;
@@ -123,6 +124,15 @@ fn a_block_rests_inside_a_preloaded_pad() {
     assert!((50.0 - 5000.0 * depth).abs() <= 2.0 && last.configuration.rates == [0.0], "{depth}");
     assert!((last.energy.potential - 2500.0 * depth * depth).abs() < 1e-9);
     assert!(history.energy_error < 1e-7, "{:e}", history.energy_error);
+    // Nothing but the pad stores energy here; what its damper takes has a line of its own.
+    let report = crate::motion::report(&history, &SimulateOptions::new(3.0));
+    let [stored] = &report.energy.pads[..] else { panic!("{:?}", report.energy.pads) };
+    assert_eq!((&*stored.name, stored.value), ("guide.greatest_pad", report.energy.potential[1]));
+    let text = report.text(Style::PLAIN);
+    for told in ["of which stored in guide.greatest_pad", "dissipated by the damper of guide.greatest_pad"] {
+        assert!(text.contains(told), "{text}");
+    }
+    assert!(!text.contains("work of guide."), "{text}");
     // `hold` knows the pad: between 9.6 and 10.4 mm friction holds, beyond it moves.
     for (depth, holds) in [(0.0097, true), (0.0103, true), (0.0095, false), (0.0105, false)] {
         let model = Model::parse(&text).unwrap();
@@ -325,8 +335,8 @@ rate = "14.8 mm/s"
 fn a_reversal_without_friction_is_told_by_the_next_event() {
     let history = run(&with_stop(&block("0", "rate = 2", ""), "{ stiffness = 2e4 }"), 3.0);
     let told = words(&history).join("\n");
-    assert!(told.contains("guide has reversed since the last event"), "{told}");
-    assert!(!told.contains("guide reverses"), "{told}");
+    assert!(told.contains("block has reversed since the last event"), "{told}");
+    assert!(!told.contains("block reverses"), "{told}");
 }
 
 /// A block of 2 kg whose mass centre is c = L = 0.2 m above its guide slides into a pad of k = 5000 N/m and

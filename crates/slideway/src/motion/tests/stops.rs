@@ -100,7 +100,7 @@ components = [\"8 N/s * t\", 0]
         assert!((history.stop() - 0.5).abs() < 1e-9, "{}", history.stop());
         let last = history.events.last().unwrap();
         assert!(matches!(last.causes[..], [Cause::Tips(_)]), "{:?}", last.causes);
-        assert!(last.words.contains("guide begins to tip in its guide"), "{}", last.words);
+        assert!(last.words.contains("block begins to tip in its guide"), "{}", last.words);
     }
 }
 

@@ -1,20 +1,27 @@
 //! Why a motion ends, as a kind and as a sentence.
 
+use crate::ids::JointId;
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
-use crate::motion::record::event::Event;
+use crate::motion::record::event::{Event, moving};
 use crate::motion::record::history::{End, History};
-use crate::report::count;
 
 /// The end in a sentence.
 pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> String {
     let mechanism = &history.mechanism;
     let time = history.mechanism.units.of("s").brief(history.stop());
-    let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
+    let joint = |joint: &JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => finished(history, &time),
-        End::TravelLimit(id) => format!("It ends at {time}: {} reaches a limit of its travel.", joint(id)),
-        End::OverlapVanished(id) => format!("It ends at {time}: {} leaves its guide.", joint(id)),
+        End::TravelLimit(id) => format!(
+            "It ends at {time}: {} reaches the end of its travel{}, and {} has no stop there.",
+            moving(mechanism, *id),
+            at_speed(history, *id),
+            joint(id)
+        ),
+        End::OverlapVanished(id) => {
+            format!("It ends at {time}: {} leaves its guide.", moving(mechanism, *id))
+        }
         End::ReactionLimit(id) => format!(
             "It ends at {time}: the normal force of {} reaches its limit, which counts as a jam.",
             mechanism.contacts[id.index()].name
@@ -27,6 +34,9 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             format!("It ends at {time}: {} tips; model it as a block slider to go on.", joint(id))
         }
         End::NoContinuation => format!("It ends at {time}: it can neither stick nor start to slide."),
+        End::Jammed if history.stop() == history.start() => {
+            format!("It jams at once, at {time}: no motion can follow, not even after an impulse.")
+        }
         End::Jammed => format!("It jams at {time}: no motion can follow, not even after an impulse."),
         End::Accumulation => format!("It ends at {time}: events follow each other faster and faster."),
         End::StepLimit => format!(
@@ -50,30 +60,42 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
 fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
     let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest());
-    // The stop itself is no event before it.
-    let end = rest.map_or(f64::INFINITY, |rest| rest.from);
-    let counts =
-        |event: &&Event| event.is_reported() && !event.causes.contains(&Cause::Start) && event.time < end;
-    let after = match history.events.iter().filter(counts).count() {
-        0 => String::new(),
-        events => format!(" after {}", count(events, "event", "events")),
-    };
     let Some(rest) = rest else {
         let bodies = 3 * history.mechanism.bodies.len();
         let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
         let what = if moves { "It is still moving" } else { "Nothing moves" };
-        return format!("{what} at {time}{after}.{}", jams_on_the_way(jams.len()));
+        return format!("{what} at {time}.{}", jams_on_the_way(jams.len()));
     };
     let from = history.mechanism.units.of("s").brief(rest.from);
     if jams.last() == Some(&rest.from) {
         let before = jams_on_the_way(jams.len() - 1);
-        return format!("It jams at {from}{after} and stays at rest until {time}.{before}");
+        return format!("It jams at {from} and stays at rest until {time}.{before}");
     }
     let jams = jams_on_the_way(jams.len());
     if rest.from <= history.start() {
-        return format!("It stays at rest until {time}.{jams}");
+        return format!("It stays at rest until {time}{}.{jams}", held_by_drives(history));
     }
-    format!("It comes to rest at {from}{after} and stays so until {time}.{jams}")
+    format!("It comes to rest at {from} and stays so until {time}.{jams}")
+}
+
+/// ", as the drive motor prescribes", where drives prescribe all motion: what rests then does so with or without friction.
+fn held_by_drives(history: &History) -> String {
+    let mechanism = &history.mechanism;
+    let names: Vec<&str> = mechanism.drives.iter().map(|drive| &*drive.name).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        all if all.len() < mechanism.coordinates.len() => String::new(),
+        [one] => format!(", as the drive {one} prescribes"),
+        several => format!(", as the drives {} prescribe", several.join(", ")),
+    }
+}
+
+/// " with 628 mm/s", of the last state.
+fn at_speed(history: &History, joint: JointId) -> String {
+    let mechanism = &history.mechanism;
+    let Some(slider) = mechanism.slider(joint) else { return String::new() };
+    let speed = history.at_end().0.sliding(mechanism, slider).1.abs();
+    format!(" with {}", mechanism.units.of("m/s").brief(speed))
 }
 
 fn jams(event: &Event) -> bool {

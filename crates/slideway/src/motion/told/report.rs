@@ -5,7 +5,7 @@ use super::series::Series;
 use crate::choice::kinds;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Pad};
 use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
@@ -14,6 +14,7 @@ use crate::motion::record::history::{End, Energy, History, PhaseInterval};
 use crate::pattern::phase::JointPhase;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// Version of the layout of a [`SimulateReport`]; it changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/simulate/1";
@@ -200,8 +201,11 @@ pub struct EnergyReport {
     /// Dissipated by the friction of each hinge that has some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hinges: Vec<Named>,
-    /// Work of each load other than constant springs.
+    /// Work of each load other than constant springs; of a pad what its damper takes, as a negative number.
     pub loads: Vec<Named>,
+    /// The part of the potential energy that the spring of each pad stores at the end.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pads: Vec<Named>,
     /// Work of each drive.
     pub drives: Vec<Named>,
     /// Lost in impulses.
@@ -221,6 +225,13 @@ pub struct Named {
     pub name: String,
     /// J
     pub value: f64,
+}
+
+impl Named {
+    /// The name and the number.
+    pub(super) fn parts(&self) -> (&str, f64) {
+        (&self.name, self.value)
+    }
 }
 
 /// Cost of a simulation.
@@ -282,7 +293,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         phases: phases(history),
         end: end_report(history, options),
         hints: hints(history),
-        energy: energy(history, &energies),
+        energy: energy(history, (&last, &energies)),
         position_drift: history.drift.position,
         velocity_drift: history.drift.velocity,
         statistics: StatisticsReport {
@@ -408,7 +419,7 @@ fn sign(joint: JointPhase) -> i8 {
     }
 }
 
-fn energy(history: &History, stop: &Energy) -> EnergyReport {
+fn energy(history: &History, (last, stop): (&Configuration, &Energy)) -> EnergyReport {
     let mechanism = &history.mechanism;
     // Before any impulse at the start.
     let initial = &history.initial;
@@ -418,6 +429,10 @@ fn energy(history: &History, stop: &Energy) -> EnergyReport {
     let contacts = mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect();
     let loads = mechanism.loads.iter().map(|load| load.name.to_string()).collect();
     let drives = mechanism.drives.iter().map(|drive| drive.name.to_string()).collect();
+    let stored = |(name, pad): (&Arc<str>, &Pad)| Named {
+        name: name.to_string(),
+        value: pad.elastic(last.depth(mechanism, pad))[0],
+    };
     EnergyReport {
         kinetic: [kinetic(mechanism, initial), stop.kinetic],
         potential: [potential(mechanism, initial), stop.potential],
@@ -425,6 +440,7 @@ fn energy(history: &History, stop: &Energy) -> EnergyReport {
         hinges: named(names_of_hinges(mechanism), &stop.hinges),
         loads: named(loads, &stop.loads),
         drives: named(drives, &stop.drives),
+        pads: mechanism.pads().map(stored).collect(),
         impulses: stop.impulses,
         error: history.energy_error,
         relative_error: match (history.energy_error, history.energy_scale) {

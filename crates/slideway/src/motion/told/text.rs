@@ -1,5 +1,6 @@
 //! A motion as readable text: a log of events, and the accuracy.
 
+use super::log::{LogLine, lines};
 use super::report::{EndKind, EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
 use crate::report::number::{against, number};
@@ -9,10 +10,6 @@ use crate::units::Unit;
 
 /// Energies below this fraction of the greatest are rounding.
 const LITTLE: f64 = 1e-13;
-/// From a longer log, this many events are shown at the beginning, ...
-const FIRST: usize = 40;
-/// ... and this many at the end.
-const LAST: usize = 10;
 
 /// The start, the events, the end, the energies. Of a long log, only the beginning and the end are shown.
 impl Report for SimulateReport {
@@ -37,11 +34,14 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
     text.heading();
     text.end();
     report.hints.iter().for_each(|hint| text.line(&format!("Hint: {hint}")));
-    text.events(all_events);
-    text.line("");
-    text.state("At the end", &report.last);
-    text.energy();
-    text.quality();
+    // Where nothing happens there is nothing to list.
+    if report.stop > report.start || !report.events.is_empty() {
+        text.events(all_events);
+        text.line("");
+        text.state("At the end", &report.last);
+        text.energy();
+        text.quality();
+    }
     text
 }
 
@@ -154,19 +154,26 @@ impl Page<'_, SimulateReport> {
         } else {
             self.headline("Events");
         }
-        let all = all || events.len() <= FIRST + LAST;
-        let (first, last) = if all { (events.len(), events.len()) } else { (FIRST, events.len() - LAST) };
-        let shown = || events[..first].iter().chain(&events[last..]);
+        let lines = lines(events, all || self.is_verbose());
+        let shown = || {
+            lines.iter().filter_map(|line| if let LogLine::Event(event) = line { Some(*event) } else { None })
+        };
         let modes = shown().filter_map(|event| event.mode.as_ref()).map(|mode| spaced(mode).len());
         let widths = (
             shown().map(|event| when(event, &self.seconds()).len()).max().unwrap_or(0),
             modes.max().unwrap_or(0),
         );
-        events[..first].iter().for_each(|event| self.event(event, widths));
-        if !all {
-            let left_out = count(last - first, "event is", "events are");
-            self.line(&format!("  ... {left_out} left out here; --all-events shows them"));
-            events[last..].iter().for_each(|event| self.event(event, widths));
+        for line in &lines {
+            match line {
+                LogLine::Event(event) => self.event(event, widths),
+                LogLine::LeftOut(events) => {
+                    let left_out = count(*events, "event is", "events are");
+                    self.line(&format!("  ... {left_out} left out here; --all-events shows them"));
+                }
+                LogLine::Bounces { hits, .. } => self.line(&format!(
+                    "  ... it hits this stop {hits} times more, ever less; --all-events shows them"
+                )),
+            }
         }
     }
 
@@ -189,7 +196,8 @@ impl Page<'_, SimulateReport> {
             let jump = if branch.continues { "" } else { "; its forces jump" };
             let sticks = branch.mode.chars().all(|sign| sign == '=');
             let otherwise = if sticks { "stick" } else { "go on in another contact mode" };
-            let signs = if details { format!(", signs {}", spaced(&branch.mode)) } else { String::new() };
+            let signs = format!(", signs {}", spaced(&branch.mode));
+            let signs = if details || !sticks { signs } else { String::new() };
             line(&format!(
                 "or branch {}: it could also {otherwise}{}{signs}{jump}",
                 branch.number,
@@ -211,15 +219,19 @@ impl Page<'_, SimulateReport> {
         let [kinetic, potential] =
             [energy.kinetic, energy.potential].map(|[start, stop]| vec![shown(start), shown(stop)]);
         let mut rows = vec![row("kinetic", kinetic), row("potential", potential)];
-        let mut add = |what: &str, list: &[Named]| {
-            for Named { name, value } in list.iter().filter(|named| named.value.abs() > LITTLE * greatest) {
-                rows.push(row(&format!("{what} {name}"), vec![String::new(), unit.number(*value)]));
+        let mut add = |what: &str, list: &mut dyn Iterator<Item = (&str, f64)>| {
+            for (name, value) in list.filter(|(_, value)| value.abs() > LITTLE * greatest) {
+                rows.push(row(&format!("{what} {name}"), vec![String::new(), unit.number(value)]));
             }
         };
-        add("dissipated by friction at", &energy.friction);
-        add("dissipated by friction in", &energy.hinges);
-        add("work of", &energy.loads);
-        add("work of", &energy.drives);
+        let is_pad = |named: &&Named| energy.pads.iter().any(|pad| pad.name == named.name);
+        let (pads, loads): (Vec<&Named>, Vec<&Named>) = energy.loads.iter().partition(is_pad);
+        add("  of which stored in", &mut energy.pads.iter().map(Named::parts));
+        add("dissipated by friction at", &mut energy.friction.iter().map(Named::parts));
+        add("dissipated by friction in", &mut energy.hinges.iter().map(Named::parts));
+        add("dissipated by the damper of", &mut pads.into_iter().map(|pad| (pad.name.as_str(), -pad.value)));
+        add("work of", &mut loads.into_iter().map(Named::parts));
+        add("work of", &mut energy.drives.iter().map(Named::parts));
         if energy.impulses != 0.0 {
             rows.push(row("lost in impulses", vec![String::new(), unit.number(energy.impulses)]));
         }
