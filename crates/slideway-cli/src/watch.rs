@@ -230,6 +230,7 @@ fn left([first, last]: [(Duration, f64); 2], elapsed: Duration) -> Option<f64> {
 
 impl Drop for Watch {
     fn drop(&mut self) {
+        drop(self.over.take());
         WATCHED.store(false, Ordering::Relaxed);
     }
 }

@@ -159,7 +159,7 @@ fn hold_answers() {
         (held("bracket-on-pole", &[], None), "It holds."),
         (
             held("bracket-on-pole", &[], Some("W")),
-            "Self-locking: it holds any `W` from mu_static = 0.25, its present value.",
+            "Just self-locking, from mu_static = 0.25, its present value: with any less it slips.",
         ),
         (
             held("bracket-on-pole", &[("x", "0.2 m")], Some("W")),
@@ -191,7 +191,7 @@ fn hold_answers() {
         ),
         (
             held("slider-crank-with-pins", &[("mu_pin", "0.3")], Some("gas")),
-            "Not decided: no state of rest was found, but some states could not be examined. Ask again with slightly more or less friction or load.",
+            "It does not hold: it starts to slide (phi: 7164 rad/s^2). It would hold with -0.4922 to -0.3355 times `gas`. Whether any static friction makes it self-locking was not decided.",
         ),
         (
             held("telescopic-boom", &[], Some("cylinder_1")),

@@ -397,7 +397,11 @@ fn a_map_of_rest_is_that_of_its_closed_form() {
         let mu = middle([0.2, 0.6], column, size[0]);
         let x = middle([0.1, 0.5], row, size[1]);
         let class = &report.classes[report.class_at(column, row)];
-        assert_eq!(class.meaning, ClassMeaning::Rest { holds: Some(x >= 0.1524 / (2.0 * mu)) }, "{mu} {x}");
+        assert_eq!(
+            class.meaning,
+            ClassMeaning::Rest { holds: Some(x >= 0.1524 / (2.0 * mu)), may_slip: false },
+            "{mu} {x}"
+        );
     }
 }
 
