@@ -10,6 +10,7 @@ use crate::report::page::Page;
 use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, joints_in_words, spaced};
 use crate::standstill::CoordinateValue;
 use crate::units::Unit;
+use std::cmp::Ordering;
 
 impl Report for LimitsReport {
     fn answer(&self) -> String {
@@ -31,7 +32,7 @@ impl Report for LimitsReport {
 
 impl Report for RestLimitsReport {
     fn answer(&self) -> String {
-        self.spans.iter().map(|span| self.in_words(span)).collect::<Vec<_>>().join(" ")
+        self.in_sentences().join(" ")
     }
 
     /// Each stretch in a sentence.
@@ -49,7 +50,7 @@ impl Report for RestLimitsReport {
         let at = if at.is_empty() { String::new() } else { format!(" at {}", at.join(", ")) };
         text.line(&format!("At rest{at}, {range} (in the model {value})"));
         text.line("");
-        self.spans.iter().for_each(|span| text.headline(&self.in_words(span)));
+        self.in_sentences().iter().for_each(|sentence| text.headline(sentence));
         let narrower = unit.precise((vary.to - vary.from) / STEPS as f64);
         if text.is_verbose() {
             text.line(&self.guarantee);
@@ -61,8 +62,22 @@ impl Report for RestLimitsReport {
 }
 
 impl RestLimitsReport {
-    /// "mu from 0.2 to 1: it can stay at rest."
-    fn in_words(&self, SpanOfRest { from, to, holds, reason }: &SpanOfRest) -> String {
+    /// A sentence for each stretch; a single value beside it is not said to be in it.
+    fn in_sentences(&self) -> Vec<String> {
+        let is_alone = |span: Option<&SpanOfRest>, at: f64| span.is_some_and(|span| [span.from, span.to] == [at; 2]);
+        let spans = self.spans.iter().enumerate();
+        let sentence = |(index, span): (usize, &SpanOfRest)| {
+            let before = index.checked_sub(1).and_then(|before| self.spans.get(before));
+            let ends = [is_alone(before, span.from), is_alone(self.spans.get(index + 1), span.to)];
+            self.in_words(span, if span.from < span.to { ends } else { [false; 2] })
+        };
+        spans.map(sentence).collect()
+    }
+
+    /// "mu from 0.2 to 1: it can stay at rest.", "Q above 0, up to 20 N: it does not hold." where the ends that are marked
+    /// do not belong to it.
+    fn in_words(&self, span: &SpanOfRest, without: [bool; 2]) -> String {
+        let SpanOfRest { from, to, holds, reason } = span;
         let unit = &self.vary.shown_in;
         let verdict = match (holds, reason) {
             (_, Some(reason)) => format!("there is no answer: {reason}"),
@@ -73,7 +88,13 @@ impl RestLimitsReport {
         let place = if from == to {
             format!("{} = {}", self.vary.name, unit.precise(*from))
         } else {
-            unit.range(&self.vary.name, [*from, *to])
+            let (name, [from, to]) = (&self.vary.name, [unit.precise_number(*from), unit.precise(*to)]);
+            match without {
+                [false, false] => format!("{name} from {from} to {to}"),
+                [true, false] => format!("{name} above {from}, up to {to}"),
+                [false, true] => format!("{name} from {from} on, below {to}"),
+                [true, true] => format!("{name} above {from}, below {to}"),
+            }
         };
         format!("{place}: {verdict}.")
     }
@@ -95,8 +116,8 @@ impl Page<'_, LimitsReport> {
         self.line("");
         if let Some(summary) = &report.summary {
             self.headline(summary);
-            let stretches = report.conclusion.iter().filter(|_| report.conclusion.len() > 1);
-            stretches.for_each(|sentence| self.line(sentence));
+            let repeats = report.summary_says_all && !self.is_verbose() || report.conclusion.len() == 1;
+            report.conclusion.iter().filter(|_| !repeats).for_each(|sentence| self.line(sentence));
         } else {
             report.conclusion.iter().for_each(|sentence| self.headline(sentence));
         }
@@ -131,8 +152,9 @@ impl Page<'_, LimitsReport> {
         if !gaps.is_empty() {
             self.line("");
         }
-        for RangeWithoutProblem { from, to, reason } in gaps {
-            self.line(&no_answer([*from, *to], unit, reason));
+        for same in gaps.chunk_by(|one, next| one.reason == next.reason) {
+            let ranges: Vec<[f64; 2]> = same.iter().map(|gap| [gap.from, gap.to]).collect();
+            self.line(&no_answer_in(&ranges, unit, &same[0].reason));
         }
     }
 
@@ -154,7 +176,12 @@ impl Page<'_, LimitsReport> {
             row.extend((verbose && has_orientation).then(|| orientation(mode).to_owned()));
             row
         };
-        let rows: Vec<Vec<String>> = modes.iter().map(row).collect();
+        let mut sorted: Vec<&ModeLimits> = modes.iter().collect();
+        // Their signs, which sort them, are not shown.
+        if !verbose {
+            sorted.sort_by(|one, other| one.from.partial_cmp(&other.from).unwrap_or(Ordering::Equal));
+        }
+        let rows: Vec<Vec<String>> = sorted.into_iter().map(row).collect();
         self.table(&titles, &rows);
         for mode in modes.iter().filter(|_| verbose) {
             let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
@@ -201,12 +228,21 @@ pub(crate) fn could_be_missed(width: &str) -> String {
 }
 
 /// Where there is no mode problem, and why.
-pub(crate) fn no_answer([from, to]: [f64; 2], unit: &Unit, reason: &str) -> String {
-    let place = match [from, to].map(|end| unit.precise_number(end)) {
-        [from, to] if from == to => format!("At {}", unit.with(&from)),
-        [from, to] => format!("From {from} to {}", unit.with(&to)),
+pub(crate) fn no_answer(range: [f64; 2], unit: &Unit, reason: &str) -> String {
+    no_answer_in(&[range], unit, reason)
+}
+
+/// [`no_answer`] of several ranges for the same reason: "At 0 and 180 deg there is no answer..."
+fn no_answer_in(ranges: &[[f64; 2]], unit: &Unit, reason: &str) -> String {
+    let place = |range: &[f64; 2]| match range.map(|end| unit.precise_number(end)) {
+        [from, to] if from == to => format!("at {}", unit.with(&from)),
+        [from, to] => format!("from {from} to {}", unit.with(&to)),
     };
-    format!("  {place} there is no answer, which is no jam: {reason}.")
+    let mut places: Vec<String> = ranges.iter().map(place).collect();
+    places.dedup();
+    let mut places = places.join(" and ");
+    places[..1].make_ascii_uppercase();
+    format!("  {places} there is no answer, which is no jam: {reason}.")
 }
 
 fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {

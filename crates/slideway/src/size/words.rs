@@ -36,11 +36,13 @@ impl Words<'_> {
     pub(super) fn conclusion(&self) -> Vec<String> {
         let mut sentences = vec![self.answer()];
         sentences.push(self.present());
-        sentences.extend(self.constant());
-        if !self.driven && self.report.against == MarginKind::Locking {
+        let report = self.report;
+        if !report.met.is_empty() {
+            sentences.extend(self.constant());
+        }
+        if !self.driven && report.against == MarginKind::Locking && report.present.is != SampleKind::Finite {
             sentences.push(NO_DRIVE.to_owned());
         }
-        let report = self.report;
         for gap in &report.without_position {
             let told = no_answer([gap.from, gap.to], &report.vary.shown_in, &gap.reason);
             sentences.push(told.trim_start().to_owned());
@@ -64,6 +66,12 @@ impl Words<'_> {
                 let best =
                     best.and_then(|(at, margin)| Some((at, report.against.told(margin, report.margin).1?)));
                 match best {
+                    Some((_, margin)) if self.constant().is_some() && !report.against.is_limit() => {
+                        format!(
+                            "{wish}: no {name} from {range} {gives}; the safety factor is {} at any {name}.",
+                            brief(margin)
+                        )
+                    }
                     Some((at, level)) if report.against.is_limit() => format!(
                         "{wish}: no {name} from {range} {gives}; {} comes nearest to it, with {}.",
                         quantity(report, at),
@@ -89,7 +97,12 @@ impl Words<'_> {
         let report = self.report;
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
         let bare = report.vary.shown_in.precise_number(interval.from);
-        match (interval.from_is, interval.to_is) {
+        // A single value without an answer at an end of the range says nothing of what is beyond, and is named by itself.
+        let is_single = |end: f64| report.without_position.iter().any(|gap| [gap.from, gap.to] == [end; 2]);
+        let cause = |is: MetEnd, end: f64| {
+            if is == MetEnd::NoPosition && is_single(end) { MetEnd::Range } else { is }
+        };
+        match (cause(interval.from_is, report.vary.from), cause(interval.to_is, report.vary.to)) {
             (MetEnd::Range, MetEnd::Range) => format!("can have any value from {bare} to {to}"),
             (MetEnd::NoPosition, MetEnd::Range) => {
                 format!("at least {from}, below which there is no answer (examined up to {to})")
@@ -136,7 +149,7 @@ impl Words<'_> {
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking => "it is on the verge of jamming".to_owned(),
-                _ => format!("the load {load} is just held, however great it is"),
+                _ => format!("the load `{load}` is just held, however great it is"),
             },
             (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
             (_, None) => never(report),
@@ -159,18 +172,20 @@ impl Words<'_> {
             }
             (MarginKind::SelfLocking, true) => {
                 format!(
-                    "it would be self-locking under {load} at {factor} times this static friction, {enough}"
+                    "it would be self-locking under `{load}` at {factor} times this static friction, {enough}"
                 )
             }
             (MarginKind::SelfLocking, false) => format!(
-                "it is self-locking under {load}; static friction would have to fall to {factor} of its value"
+                "it is self-locking under `{load}`; static friction would have to fall to {factor} of its value"
             ),
-            (_, _) if margin == 0.0 => format!("no static friction holds every {load}"),
+            (_, _) if margin == 0.0 => format!("no static friction holds every `{load}`"),
             (_, true) => {
-                format!("it holds the load {load}, however great, with a safety factor of {factor}, {enough}")
+                format!(
+                    "it holds the load `{load}`, however great, with a safety factor of {factor}, {enough}"
+                )
             }
             (_, false) => format!(
-                "a great {load} is not held; static friction would have to be {} times greater",
+                "a great `{load}` is not held; static friction would have to be {} times greater",
                 brief(margin.recip())
             ),
         }
@@ -185,6 +200,9 @@ impl Words<'_> {
         // A limit that no value keeps since there is no solution says nothing of how it depends.
         let never_told =
             least == f64::INFINITY && greatest == f64::INFINITY && !self.report.against.is_limit();
+        if is_same && greatest == 0.0 && self.report.against == MarginKind::Locking {
+            return Some("No friction, however great, jams it anywhere in this range.".to_owned());
+        }
         (is_same || never_told)
             .then(|| format!("The {} does not depend on {}.", subject(self.report), self.report.vary.name))
     }
@@ -194,8 +212,8 @@ fn never(report: &SizeReport) -> String {
     let load = report.load.as_deref().unwrap_or_default();
     match report.against {
         MarginKind::Locking => "more friction would not jam it".to_owned(),
-        MarginKind::SelfLocking => format!("no static friction, however great, holds every {load}"),
-        MarginKind::Hold => format!("{load} is held without friction, however great it is"),
+        MarginKind::SelfLocking => format!("no static friction, however great, holds every `{load}`"),
+        MarginKind::Hold => format!("`{load}` is held without friction, however great it is"),
         // These are numbers wherever there is a solution.
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure | MarginKind::Efficiency => {
             "there is no number".to_owned()
@@ -229,10 +247,10 @@ fn wish(report: &SizeReport) -> String {
         }
         MarginKind::Locking => format!("For a safety factor of {margin} against jamming"),
         MarginKind::SelfLocking => {
-            format!("For a safety factor of {margin} against self-locking under {load}")
+            format!("So that `{load}` does not lock it, with a safety factor of {margin}")
         }
         MarginKind::Hold => {
-            format!("To hold the load {load}, however great, with a safety factor of {margin}")
+            format!("To hold the load `{load}`, however great, with a safety factor of {margin}")
         }
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure => {
             format!("For a {} of {} at most", subject(report), level(report, report.margin))
