@@ -734,8 +734,12 @@ impl FaultKind {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
-            Self::Syntax { message } if ["must be quoted", "number prefix"].iter().any(|one| message.contains(one)) => {
-                Some("a quantity with a unit stands in quotes, such as `\"0.5 m\"`; so do expressions and names")
+            Self::Syntax { message }
+                if ["must be quoted", "number prefix"].iter().any(|one| message.contains(one)) =>
+            {
+                Some(
+                    "a quantity with a unit stands in quotes, such as `\"0.5 m\"`; so do expressions and names",
+                )
             }
             Self::Syntax { message } if message.contains("invalid key-value pair") => {
                 Some("a model is TOML; a problem given by matrices, in JSON, is another kind of file")

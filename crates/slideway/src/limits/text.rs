@@ -64,7 +64,8 @@ impl Report for RestLimitsReport {
 impl RestLimitsReport {
     /// A sentence for each stretch; a single value beside it is not said to be in it.
     fn in_sentences(&self) -> Vec<String> {
-        let is_alone = |span: Option<&SpanOfRest>, at: f64| span.is_some_and(|span| [span.from, span.to] == [at; 2]);
+        let is_alone =
+            |span: Option<&SpanOfRest>, at: f64| span.is_some_and(|span| [span.from, span.to] == [at; 2]);
         let spans = self.spans.iter().enumerate();
         let sentence = |(index, span): (usize, &SpanOfRest)| {
             let before = index.checked_sub(1).and_then(|before| self.spans.get(before));
@@ -199,7 +200,7 @@ impl Page<'_, LimitsReport> {
 
 impl LimitsReport {
     /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits."
-    fn known_in_words(&self) -> String {
+    pub fn known_in_words(&self) -> String {
         let unit = &self.vary.shown_in;
         let counts = || self.counts.iter().chain(self.reversed.iter().flat_map(|reversed| &reversed.counts));
         let worst = counts().map(|count| count.known).max();

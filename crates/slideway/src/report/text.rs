@@ -201,7 +201,8 @@ impl Text<'_> {
         self.boundary(solution);
         // Of the only solution the answer says what becomes of its speeds, unless drives are what matters.
         let is_said = is_only && solution.drives.is_empty() && report.rates_not_given.is_empty();
-        let mut speeds = if is_said && !self.is_verbose() { Vec::new() } else { report.changes_in_words(solution) };
+        let mut speeds =
+            if is_said && !self.is_verbose() { Vec::new() } else { report.changes_in_words(solution) };
         if is_only {
             speeds.extend(report.rest_in_words(solution));
         }

@@ -321,3 +321,19 @@ fn modes_on_both_sides_of_a_load_that_vanishes() {
         assert!((efforts[0] - solved.solutions[0].drives[0].effort).abs() < 1e-9, "{row:?}");
     }
 }
+
+/// "200..800 mm" means millimetres at both ends; what `sweep` is told by a count needs none here.
+#[test]
+fn the_unit_of_a_range_is_that_of_both_ends() {
+    for (text, told) in [
+        ("L=200..800mm", "L=200 mm..800mm"),
+        ("L=200 ..8e2 mm", "L=200 mm..8e2 mm"),
+        ("phi=-5..90 deg", "phi=-5 deg..90 deg"),
+        ("mu=0..1", "mu=0..1"),
+        ("L=200mm..800", "L=200mm..800"),
+    ] {
+        assert_eq!(text.parse::<Vary>().expect("a range").to_string(), told);
+    }
+    let counted = "mu=0..1:11".parse::<Vary>().expect_err("a count");
+    assert!(counted.sorted()[0].kind.hint().is_some_and(|hint| hint.starts_with("no number of values")));
+}
