@@ -140,7 +140,7 @@ impl Vary {
     }
 }
 
-/// From "NAME" or "NAME=FROM..TO".
+/// From "NAME" or "NAME=FROM..TO"; a number before an end with a unit has that unit, too.
 impl FromStr for Vary {
     type Err = Faults;
 
