@@ -63,8 +63,7 @@ fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
             "infinitely many states are possible, and their efforts are not known.".to_owned()
         }
         ([], Status::Unknown) => {
-            "not decided: it is on the verge of jamming, and rounding hides on which side. Take it as jammed."
-                .to_owned()
+            "it is not decided whether it moves: it is on the verge of jamming. Take it as jammed.".to_owned()
         }
         ([], _) => stuck(report, direction, is_advised),
         ([only], _) => format!("{}.{}", needs_one(report, direction, only), unsettled(only.attainability)),
