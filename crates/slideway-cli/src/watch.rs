@@ -208,11 +208,11 @@ impl Watch {
 fn left(told: &[(Duration, f64)], elapsed: Duration) -> Option<f64> {
     let (&first, &last) = (told.first()?, told.last()?);
     let done = last.1 - first.1;
-    let middle = first.0 + (elapsed - first.0) / 2;
+    let middle = first.0 + elapsed.saturating_sub(first.0) / 2;
     let at_middle = told.iter().rfind(|one| one.0 <= middle)?.1;
     let is_even = (0.25..=0.75).contains(&((last.1 - at_middle) / done));
-    let seconds = (last.0 - first.0).as_secs_f64() * (1.0 - last.1) / done;
-    let left = seconds - (elapsed - last.0).as_secs_f64();
+    let seconds = last.0.saturating_sub(first.0).as_secs_f64() * (1.0 - last.1) / done;
+    let left = seconds - elapsed.saturating_sub(last.0).as_secs_f64();
     (is_even && left > 0.0).then_some(left)
 }
 
