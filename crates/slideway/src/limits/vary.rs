@@ -153,7 +153,7 @@ impl FromStr for Vary {
             let (from, to) = (from.trim(), to.trim());
             // "200..800 mm": the unit is that of both.
             return Ok(match unit_after_number(to).filter(|_| from.parse::<f64>().is_ok()) {
-                Some(unit) => Self::between(name, &format!("{from} {unit}"), to),
+                Some(unit) => Self::between(name, format!("{from} {unit}"), to),
                 None => Self::between(name, from, to),
             });
         }
@@ -166,7 +166,7 @@ impl FromStr for Vary {
 fn unit_after_number(text: &str) -> Option<&str> {
     Unit::of_quantity(text)?;
     let begins = |&(at, _): &(usize, char)| text[..at].trim_end().parse::<f64>().is_ok();
-    let (at, _) = text.char_indices().filter(begins).last()?;
+    let (at, _) = text.char_indices().rfind(begins)?;
     Some(text[at..].trim()).filter(|unit| !unit.is_empty())
 }
 
