@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::faulty_input::FaultyInput;
 use crate::output::complain;
 use anstream::ColorChoice;
-use slideway::fault::{Fault, FaultKind, Faults};
+use slideway::fault::{Doubt, Fault, FaultKind, Faults};
 use slideway::gallery;
 use slideway::limits::{Vary, variables};
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
@@ -59,6 +59,20 @@ impl Input {
         let model = self.model_without_warnings()?;
         let mut all = warnings(&model);
         all.append(ranges_at_middle(&model));
+        self.warn(all)?;
+        Ok(model)
+    }
+
+    /// Returns the model with its settings for questions on rest: [`Input::model`] without the warning that nothing presses
+    /// a guide in motion, where a jam is looked for.
+    ///
+    /// # Errors
+    /// As [`Input::model`].
+    pub(crate) fn model_at_rest(&self) -> Result<Model, Failure> {
+        let model = self.model_without_warnings()?;
+        let mut all = ranges_at_middle(&model);
+        let concerns_rest = |fault: &&Fault| fault.kind != FaultKind::Doubt(Doubt::NothingPresses);
+        all.extend(warnings(&model).sorted().into_iter().filter(concerns_rest).cloned());
         self.warn(all)?;
         Ok(model)
     }

@@ -77,9 +77,9 @@ pub(crate) struct Watch {
     start: Instant,
     shown: Duration,
     limit: Option<Duration>,
-    /// When it was first asked how much had been done, when that last changed, and both times how much it
-    /// was.
-    told: Option<[(Duration, f64); 2]>,
+    /// When it was first asked how much had been done, and when that had changed, with how much it was: at most five
+    /// times a second, but always the latest.
+    told: Vec<(Duration, f64)>,
     line: ProgressLine,
     halt: Option<Halt>,
     /// Tells whoever gives the work up that it is over, by being dropped.
@@ -104,7 +104,7 @@ impl Watch {
             start,
             shown: Duration::ZERO,
             limit,
-            told: None,
+            told: Vec::new(),
             line: ProgressLine::new(),
             halt: None,
             over: None,
@@ -172,12 +172,24 @@ impl Watch {
     fn tell(&mut self, progress: &Progress) {
         let elapsed = self.start.elapsed();
         if let Some(fraction) = progress.fraction {
-            let [first, last] = self.told.unwrap_or([(elapsed, fraction); 2]);
-            self.told = Some([first, if fraction == last.1 { last } else { (elapsed, fraction) }]);
+            self.note(elapsed, fraction);
         }
         if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
             self.shown = elapsed;
             self.line.show(&self.words(progress, elapsed));
+        }
+    }
+
+    fn note(&mut self, elapsed: Duration, fraction: f64) {
+        if self.told.last().is_some_and(|last| last.1 == fraction) {
+            return;
+        }
+        if let [.., before, last] = &mut *self.told
+            && elapsed < before.0 + BETWEEN
+        {
+            *last = (elapsed, fraction);
+        } else {
+            self.told.push((elapsed, fraction));
         }
     }
 
@@ -207,13 +219,16 @@ impl Watch {
             let bar = ["#".repeat(filled), "-".repeat(BAR - filled)].concat();
             let _ = write!(text, "[{bar}] {:.1} %, ", 100.0 * fraction);
         }
-        let _ = write!(text, "{} {}, ", progress.done, progress.counted);
+        // A bar says more than that the first is not done.
+        if progress.done > 0 || progress.fraction.is_none() {
+            let _ = write!(text, "{} {}, ", progress.done, progress.counted);
+        }
         if let Some(found) = progress.found {
             let _ = write!(text, "{found} found, ");
         }
         text.push_str(&rough(elapsed.as_secs_f64()));
         // A search goes on by leaps.
-        let left = self.told.filter(|_| progress.found.is_none()).and_then(|told| left(told, elapsed));
+        let left = if progress.found.is_none() { left(&self.told, elapsed) } else { None };
         if let Some(left) = left {
             let _ = write!(text, ", {} left", rough(left));
         }
@@ -221,11 +236,17 @@ impl Watch {
     }
 }
 
-/// The seconds left if the rest goes on as it went until the work last changed; none where that time is over.
-fn left([first, last]: [(Duration, f64); 2], elapsed: Duration) -> Option<f64> {
-    let rate = (last.1 - first.1) / last.0.saturating_sub(first.0).as_secs_f64();
-    let left = (1.0 - last.1) / rate - elapsed.saturating_sub(last.0).as_secs_f64();
-    (rate > 0.0 && left > 0.0).then_some(left)
+/// The seconds left if the rest goes on as it went until the work last changed; none where that time is over, and where
+/// one half of the time brought more than three times as much as the other: then nobody knows.
+fn left(told: &[(Duration, f64)], elapsed: Duration) -> Option<f64> {
+    let (&first, &last) = (told.first()?, told.last()?);
+    let done = last.1 - first.1;
+    let middle = first.0 + elapsed.saturating_sub(first.0) / 2;
+    let at_middle = told.iter().rfind(|one| one.0 <= middle)?.1;
+    let is_even = (0.25..=0.75).contains(&((last.1 - at_middle) / done));
+    let seconds = last.0.saturating_sub(first.0).as_secs_f64() * (1.0 - last.1) / done;
+    let left = seconds - elapsed.saturating_sub(last.0).as_secs_f64();
+    (is_even && left > 0.0).then_some(left)
 }
 
 impl Drop for Watch {
@@ -240,12 +261,27 @@ mod tests {
     use super::left;
     use std::time::Duration;
 
-    /// A tenth in the first second leaves nine more, and less with every second in which nothing is done.
+    const SECOND: Duration = Duration::from_secs(1);
+
+    /// A tenth in each second: five are left after the fifth, and less while the next tenth takes long.
     #[test]
-    fn the_time_left_never_grows_while_nothing_is_done() {
-        let told = [(Duration::ZERO, 0.0), (Duration::from_secs(1), 0.1)];
-        let at = |seconds| left(told, Duration::from_secs(seconds));
-        assert_eq!([1, 4, 9, 10].map(at), [Some(9.0), Some(6.0), Some(1.0), None]);
-        assert_eq!(left([told[0]; 2], Duration::from_secs(1)), None);
+    fn the_time_left_shrinks_while_work_goes_on_evenly() {
+        let told: Vec<(Duration, f64)> =
+            (0..=5).map(|tenth| (tenth * SECOND, f64::from(tenth) / 10.0)).collect();
+        let close = |left: Option<f64>, wanted: f64| left.is_some_and(|left| (left - wanted).abs() < 1e-9);
+        assert!(close(left(&told, 5 * SECOND), 5.0));
+        assert!(close(left(&told, 6 * SECOND), 4.0));
+    }
+
+    /// A tenth in the first second and nothing since; a thousandth in a second, and then nine tenths in another: nobody knows
+    /// how long the rest takes.
+    #[test]
+    fn no_time_is_left_by_work_that_goes_unevenly() {
+        let standing = [(Duration::ZERO, 0.0), (SECOND, 0.1)];
+        assert_eq!([2, 4, 9].map(|seconds| left(&standing, seconds * SECOND)), [None; 3]);
+        let leaping = [(Duration::ZERO, 0.0), (SECOND, 0.001), (2 * SECOND, 0.9)];
+        assert_eq!(left(&leaping, 3 * SECOND), None);
+        assert_eq!(left(&leaping[..1], SECOND), None);
+        assert_eq!(left(&[], SECOND), None);
     }
 }

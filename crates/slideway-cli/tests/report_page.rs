@@ -48,7 +48,7 @@ fn pages_have_all_parts_and_need_nothing_else() {
     for part in [
         "<h1>A bar sliding in two horizontal slots</h1>",
         "3 solutions: from this state it can go on in 3 ways.",
-        "This is proven.",
+        "Proven: there are no other solutions.",
         "Solution 3 of 3",
         "Preload gap 1 of 1",
         "<h3>Margins of friction</h3>",

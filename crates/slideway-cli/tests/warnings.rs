@@ -37,7 +37,7 @@ told! {
     bare_number_in_place_of_one_of_the_file: 1 ["drive", KITCHEN, "--set", "width=480"];
     length_towers: 0 ["drive", KITCHEN, "--set", "width=500 mm", "--set", "L=300 m", "--set", "mu=0.7"];
     bare_coordinate: 0 ["solve", DRAWER, "--at", "out=0.1"];
-    bare_range: 0 ["limits", DRAWER, "--vary", "depth=0.2..450 mm"];
+    bare_range: 0 ["limits", DRAWER, "--vary", "depth=200 mm..0.45"];
     bare_axis: 0 ["map", DRAWER, "--x", "mu=0..1", "--y", "a=0.1..0.2", "--size", "20x20", "--output", MAP, "--force"];
     bare_values_of_a_sweep: 0 ["sweep", DRAWER, "--vary", "depth=450 mm,0.5", "--vary", "a=0.1..0.2:2"];
     bare_samples: 0 ["sweep", DRAWER, "--vary", "a=normal(200 mm, 0.01)", "--samples", "2"];
@@ -48,7 +48,7 @@ told! {
     nothing_presses: 0 ["size", "models/drawer.toml", "--set", "Q=0 N", "--vary", "L=200 mm..400 mm", "--margin", "2"];
     range_at_middle: 0 ["limits", DRAWER, "--set", "mu=0.14..0.26", "--vary", "a=100 mm..200 mm"];
     strict: 2 ["solve", DRAWER, "--set", "depth=450", "--strict"];
-    strict_range: 2 ["limits", DRAWER, "--vary", "depth=0.2..450 mm", "--strict"];
+    strict_range: 2 ["limits", DRAWER, "--vary", "depth=200 mm..0.45", "--strict"];
     strict_without_warnings: 0 ["solve", DRAWER, "--strict"];
     strict_check: 2 ["check", ENGINE, "--strict"];
     three_dots: 2 ["limits", DRAWER, "--vary", "mu=0...1"];

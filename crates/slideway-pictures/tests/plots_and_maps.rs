@@ -89,8 +89,8 @@ fn the_paper_s_figures() {
         "excluded: no solution",
         "normal force in N",
         // To the right another solution stays, to the left none is left.
-        "0.45265396: grows without bound",
-        "0.45265396: locking",
+        "0.452654: grows without bound",
+        "0.452654: locking",
     ] {
         assert!(svg.contains(words), "{words}");
     }

@@ -331,7 +331,7 @@ fn efforts_and_efficiency_over_friction() {
     let [zone] = &figure.panels[0].zones[..] else { panic!("one excluded interval") };
     assert_eq!(zone.meaning, "no solution moving as in the model");
     assert!((zone.from - 2.0 / 3.0).abs() < 1e-12 && zone.to == 1.0, "{zone:?}");
-    assert!(texts(&svg(&figure)).iter().any(|text| text == "0.66666667: grows without bound"));
+    assert!(texts(&svg(&figure)).iter().any(|text| text == "0.666667: grows without bound"));
     assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report")), None);
     // What comes from infinity beyond 2/3 is a threshold: dashed, cut, and told of.
     let threshold =

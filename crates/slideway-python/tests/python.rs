@@ -103,7 +103,7 @@ fn the_package_passes_its_tests() {
         ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--force-reinstall", "--no-deps"];
     run(Command::new(&python).args(install).arg(wheel));
     let program = target.join("debug").join("slideway");
-    let tests = "-m pytest -q -n auto --dist worksteal --nbmake --nbmake-timeout=900 tests notebooks";
+    let tests = "-m pytest -q -n auto --dist worksteal tests";
     run(Command::new(&python)
         .args(tests.split(' '))
         .current_dir(package)

@@ -64,6 +64,18 @@ impl Fault {
         Self { kind, place: Some(place) }
     }
 
+    /// The fault with the name of the quantity whose formula has no value.
+    #[must_use]
+    pub(crate) fn in_formula(self, what: &str) -> Self {
+        let kind = match self.kind {
+            FaultKind::Expression(kind @ ExpressionFaultKind::NotFinite { .. }) => {
+                FaultKind::WithoutValue { what: what.to_owned(), kind }
+            }
+            kind => kind,
+        };
+        Self { kind, ..self }
+    }
+
     /// A fault of an argument that is no setting.
     pub fn of_argument(kind: FaultKind, text: &str, span: Range<usize>) -> Self {
         Self::new(kind, Place { source: Source::Argument(Arc::from(text)), span })
@@ -266,6 +278,8 @@ pub enum FaultKind {
     // Quantities.
     #[error("{0}")]
     Expression(ExpressionFaultKind),
+    #[error("the formula of {what} has no value: {kind}")]
+    WithoutValue { what: String, kind: ExpressionFaultKind },
     #[error("{found} where {wanted} is expected")]
     WrongDimension { wanted: Dimension, found: Dimension },
     #[error("{what} cannot depend on the motion, but it uses `{symbol}`")]
@@ -411,7 +425,7 @@ pub enum FaultKind {
     // Assembly of the state.
     #[error("the mechanism cannot be assembled in this state: {} by {gap}", opening(joint, loop_joints))]
     NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
-    #[error("{state} is too far from the drawing: {steps} steps only reached {reached}")]
+    #[error("{state} is too far from the drawing: following the motion there ended at {reached}")]
     TooFar { state: String, reached: String, steps: usize },
     #[error("the work was ended before the positions of the bodies were known")]
     WorkEnded,
@@ -510,7 +524,7 @@ impl FaultKind {
 
     /// Whether a formula has no value at its arguments, as the root of a negative number.
     pub(crate) fn is_without_value(&self) -> bool {
-        matches!(self, Self::Expression(ExpressionFaultKind::NotFinite { .. }))
+        matches!(self, Self::Expression(ExpressionFaultKind::NotFinite { .. }) | Self::WithoutValue { .. })
     }
 
     /// Whether something is said to be absent.
@@ -549,7 +563,7 @@ impl FaultKind {
     /// Hints that depend on the values.
     fn hint_of_values(&self, face: &dyn Face) -> Option<String> {
         match self {
-            Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
+            Self::Expression(kind) | Self::WithoutValue { kind, .. } => kind.hint().or_else(|| expression_hint(kind)),
             Self::Axis { problem, .. } => problem.hint_for(face),
             Self::Doubt(doubt) => Some(doubt.hint_for(face)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
@@ -670,7 +684,11 @@ impl FaultKind {
                 format!("choose a greater {}, or an earlier {}", face.option("until"), face.option("time"))
             }
             Self::HeldLoadNeeded { .. } => {
-                format!("name it with {}; the name of a drive stands for its effort", face.option("load"))
+                format!(
+                    "name it with {}; the name of a drive stands for its effort. To vary something else, give it a range, \
+                     NAME=FROM..TO",
+                    face.option("load")
+                )
             }
             _ => return None,
         })
@@ -694,7 +712,7 @@ impl FaultKind {
             {
                 Some("`lb`, `oz` and `kg` are units of mass; those of force are `lbf`, `ozf`, `kgf` and `N`")
             }
-            Self::WrongDimension { .. } => Some(
+            Self::WrongDimension { found, .. } if *found == Dimension::NONE => Some(
                 "plain numbers are in SI units (m, kg, s, N, rad) on their own, and pure numbers in products",
             ),
             Self::DependsOnMotion { .. } => {
@@ -724,8 +742,25 @@ impl FaultKind {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
+            Self::Syntax { message }
+                if ["must be quoted", "number prefix"].iter().any(|one| message.contains(one)) =>
+            {
+                Some(
+                    "a quantity with a unit stands in quotes, such as `\"0.5 m\"`; so do expressions and names",
+                )
+            }
+            Self::Syntax { message } if message.contains("invalid key-value pair") => {
+                Some("a model is TOML; a problem given by matrices, in JSON, is another kind of file")
+            }
+            Self::SameAxes { .. } => Some("choose another quantity for one of them"),
+            Self::MalformedRange { text, .. } if text.contains(':') => {
+                Some("no number of values is needed: write FROM..TO")
+            }
             Self::MalformedRange { text, .. } if ends_of_range(text).is_err() => {
                 Some("two dots stand between the ends of a range: FROM..TO")
+            }
+            Self::MalformedRange { .. } => {
+                Some("write a range with two dots between its ends, such as `L=200mm..800mm`")
             }
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::TooFar { .. } => Some("draw the mechanism closer to this state"),
@@ -750,8 +785,11 @@ impl FaultKind {
             ),
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
-                "friction coefficients must be linear functions of it, and nothing else may depend on it",
+                "give it a range, NAME=FROM..TO; only a parameter on which nothing but friction depends, linearly, needs none",
             ),
+            Self::RangeNeeded { .. } => {
+                Some("write both ends with units, for instance `x=-10mm..10mm` or `phi=20deg..70deg`")
+            }
             Self::TooManyContacts { .. } | Self::TooManyStates { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
             }

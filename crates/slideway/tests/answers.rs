@@ -48,7 +48,7 @@ fn drive_answers() {
         ),
         (
             driven("drawer", &[("mu", "2/3")]),
-            "It is not decided whether it moves. Backwards, push needs 10 N (20 N without friction) to brake the load: efficiency 50 %. Backwards, it does not jam at any friction while it moves.",
+            "It is not decided whether it moves: it is on the verge of jamming. Take it as jammed. Backwards, push needs 10 N (20 N without friction) to brake the load: efficiency 50 %. Backwards, it does not jam at any friction while it moves.",
         ),
         (
             driven("wedge", &[]),
@@ -305,7 +305,7 @@ fn simulate_answers() {
                 &with(rate, &format!("{rate}\n[loads.force]\ntype = \"force\"\nat = \"block.C\"\n{force}")),
                 &options(2.0),
             ),
-            "It ends at 1.3 s: `sqrt` has no finite value for -2.2204e-16.",
+            "It ends at 1.3 s: the formula of the x component of force has no value: `sqrt` has no finite value for -2.2204e-16.",
         ),
         (
             simulated(&model(TIPPING_PRESS, &[("mu", "1.3")]), &options(0.1)),

@@ -1,11 +1,11 @@
 //! The first line of `solve`, `limits` and `size`, for every kind of outcome: what one would say to a colleague.
 
-use slideway::limits::{LimitsOptions, Vary, limits};
+use slideway::limits::{LimitsOptions, Vary, limits, rest_limits};
 use slideway::model::Settings;
 use slideway::report::{Report, Status, Style};
 use slideway::size::{SizeOptions, size};
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::{Model, gallery, solve};
+use slideway::{HoldOptions, Model, gallery, solve};
 use std::ops::ControlFlow;
 
 fn model(name: &str) -> Model {
@@ -32,8 +32,8 @@ fn answer(model: &Model) -> String {
 fn a_drawer_moves_or_jams() {
     assert_eq!(
         answer(&model("drawer")),
-        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). \
-         While it moves, it is safe for any load up to 2.222 times this friction."
+        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction); below \
+         that no load jams it while it moves."
     );
     assert_eq!(
         answer(&with("drawer", &[("mu", "0.7")])),
@@ -101,8 +101,31 @@ fn a_search_that_ends_early_says_so() {
 fn a_boundary_within_rounding_is_not_decided() {
     assert_eq!(
         answer(&with("drawer", &[("mu", "2/3")])),
-        "Not decided: it is at a boundary, and rounding hides whether it moves or jams. Ask again with slightly more or less \
-         friction or load."
+        "Not decided: it is on the verge of jamming, and rounding hides on which side. Take it as jammed, or ask again with \
+         slightly more or less friction or load."
+    );
+}
+
+/// With mu = 1 L / (2 a) exactly: the carriage is in equilibrium under any greater pull.
+#[test]
+fn forces_without_bound_are_on_the_verge_of_jamming() {
+    let settings = Settings::default().parameter("L", "60 mm").parameter("a", "200 mm");
+    let carriage = slideway::template::find("carriage").expect("a template");
+    let text = carriage.model(&settings, "carriage.toml").expect("sound");
+    assert_eq!(
+        answer(&finding(&text)),
+        "On the verge of jamming the forces are undetermined: pull 2.207 N or more."
+    );
+}
+
+/// On the way back no friction jams it under its load, but above L / (2 a) a second way exists: 2/3 of 0.8 is 0.8333.
+#[test]
+fn this_load_and_others_are_two_things() {
+    let back = with("drawer", &[("mu", "0.8"), ("v", "-0.1 m/s")]);
+    assert_eq!(
+        answer(&back),
+        "2 solutions: from this state it can go on in 2 ways; push needs 9.091 or -100 N. However much all friction grows, it \
+         has a solution. Other loads can jam it or leave it several ways to move, already from 0.8333 times this friction on."
     );
 }
 
@@ -121,8 +144,8 @@ fn a_limit_is_one_sentence() {
     );
     assert_eq!(
         over("klepp-2002", Vary::between("mu_1", 0.0, 1.5)),
-        "mu_1 from 0 to 0.45265396: it slows down (one solution). mu_1 from 0.45265396 to 0.47647077: two solutions. mu_1 \
-         from 0.47647077 to 1.5: three solutions."
+        "mu_1 from 0 to 0.452654: it slows down (one solution). mu_1 from 0.452654 to 0.476471: two solutions. mu_1 from 0.476471 \
+         to 1.5: three solutions."
     );
     let found = |text: &str, vary: Vary| {
         limits(&finding(text), &LimitsOptions::new(vary)).expect("an answer").answer()
@@ -139,6 +162,37 @@ fn a_limit_is_one_sentence() {
         over("drawer", Vary::between("L", 0.1, 0.5)),
         "It jams below L = 0.18 m (the model has 0.4 m)."
     );
+    // Below 45 mm the rod cannot reach.
+    assert_eq!(
+        found(include_str!("../../../docs/src/examples/press.toml"), Vary::usual("l")),
+        "It jams for l from 45 to 52.48 mm (the model has 100 mm)."
+    );
+}
+
+/// A sentence that repeats the first one is left to the details; modes come in the order in which they are met.
+#[test]
+fn limits_say_nothing_twice() {
+    let jam =
+        limits(&model("drawer"), &LimitsOptions::new(Vary::between("mu", 0.0, 1.5))).expect("an answer");
+    let [brief, verbose] = [false, true].map(|verbose| jam.text(Style::PLAIN.verbose(verbose)));
+    assert!(
+        !brief.contains("0.666667 to 1.5: it jams") && verbose.contains("0.666667 to 1.5: it jams"),
+        "{brief}"
+    );
+    let gate =
+        limits(&model("gate-on-two-posts"), &LimitsOptions::new(Vary::usual("mu"))).expect("an answer");
+    let text = gate.text(Style::PLAIN.width(1000));
+    let first = |line: &str| line.split_whitespace().next().and_then(|word| word.parse::<f64>().ok());
+    let begins: Vec<f64> =
+        text.lines().skip_while(|line| *line != "Contact modes").filter_map(first).collect();
+    assert!(begins.len() > 2 && begins.is_sorted(), "{text}");
+}
+
+/// A drawer without resistance rests; a value that stands alone is not in the range beside it.
+#[test]
+fn a_single_value_is_not_in_the_range_beside_it() {
+    let over = rest_limits(&model("drawer"), &Vary::between("Q", 0.0, 20.0), &HoldOptions::default());
+    assert!(over.expect("an answer").answer().contains("Q above 0, up to 20 N: it does not hold."));
 }
 
 /// The block is at rest on the belt, and starts forwards with it; the peg slows down from mu = 5/24 on.
@@ -152,7 +206,7 @@ fn limits_say_what_becomes_of_the_speed() {
     );
     let peg = finding(include_str!("../../../docs/src/examples/peg-pushed-by-load.toml"));
     let peg = over(&peg, Vary::between("mu", 0.0, 0.5));
-    let speeds = "mu from 0 to 0.20833333: it speeds up (one solution). mu from 0.20833333 to 0.5: it slows down (one solution).";
+    let speeds = "mu from 0 to 0.208333: it speeds up (one solution). mu from 0.208333 to 0.5: it slows down (one solution).";
     assert!(peg.starts_with(speeds), "{peg}");
 }
 
@@ -180,7 +234,14 @@ fn a_dimension_and_the_present_safety_factor_are_two() {
     assert_eq!(
         short.expect("an answer").answer(),
         "For a safety factor of 2 against jamming: no L from 0.05 to 0.1 m gives it; the greatest safety factor that was found \
-         is 0.55555556, at 0.1 m. The model has L = 0.4 m: its safety factor is 2.222, which is enough."
+         is 0.555556, at 0.1 m. The model has L = 0.4 m: its safety factor is 2.222, which is enough."
+    );
+    // At constant velocity the mass is of no account: L / (2 mu a) = 2.222.
+    let mass = size(&model("drawer"), &SizeOptions::new(Vary::between("m", 1.0, 9.0), 3.0));
+    assert_eq!(
+        mass.expect("an answer").answer(),
+        "For a safety factor of 3 against jamming: no m from 1 to 9 kg gives it; the safety factor is 2.222 at any m. The model \
+         has m = 5 kg: its safety factor is 2.222, which is too little."
     );
     let any = size(&model("klepp-2002"), &SizeOptions::new(Vary::between("l", 0.2, 5.0), 1.0));
     let any = any.expect("an answer").answer();

@@ -23,11 +23,12 @@ Examples:
     --against self-locking
 
 The margin is a factor on friction. Its meaning depends on --against:
-  locking       kinetic friction may grow by it before no motion is possible
-  self-locking  static friction may grow by it before the load is held however
-                great it is: for what must come loose, as a cam or a wedge
-  hold          static friction may be divided by it while the load is held
-                however great it is: for what must hold, as a clamp
+  locking       for what must move: kinetic friction may grow by it before no
+                motion is possible
+  self-locking  for what must come loose: static friction may grow by it before
+                the load is held however great it is
+  hold          for what must hold, as a clamp or a bracket: static friction may
+                be divided by it while the load is held however great it is
 The load of a margin at rest can be the effort of a drive. --max-pressure needs
 a `pad`, the area in contact, at the sliding joints of the model.
 
@@ -93,7 +94,7 @@ pub(crate) struct SizeArguments {
 #[group(multiple = false)]
 struct Wanted {
     /// The wanted margin, a factor on friction. With 1, the default, it just does not lock.
-    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    #[arg(long, value_name = "FACTOR", value_parser = positive, allow_hyphen_values = true)]
     margin: Option<f64>,
 
     /// Instead of a margin: no drive may need more than this, such as "30 N" or "2 N m".

@@ -11,12 +11,9 @@ pub(super) fn choice<C: Choice + Send + Sync>() -> impl TypedValueParser<Value =
     PossibleValuesParser::new(words).map(|word| C::of_word(&word).expect("one of the words"))
 }
 
-/// A positive number.
+/// A positive number, such as 1.5 or 150 %.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
-        _ => Err("it must be a positive number".to_owned()),
-    }
+    limit(text, &[""], "a positive number, such as `1.5`").map(|limit| limit.value)
 }
 
 /// A limit in SI units, and the unit in which it was typed, if it has one.

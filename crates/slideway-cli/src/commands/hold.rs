@@ -14,7 +14,7 @@ use slideway::standstill::{self, HoldOptions};
 pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
     let input = Input::read(&arguments.model, output.color())?;
-    let model = input.model()?;
+    let model = input.model_at_rest()?;
     let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
     options.load.clone_from(&arguments.load);
     let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());

@@ -249,6 +249,9 @@ impl RawFault {
             Self::Empty | Self::NotAnObject { .. } => {
                 Some(r#"for instance {"type": "lcp", "M": [[2, 1], [1, 2]], "q": [-1, 1]}"#.to_owned())
             }
+            Self::Json { line: 1, column: 0..=2, .. } => {
+                Some("a problem given by matrices is JSON; a model of a mechanism, in TOML, is another kind of file".to_owned())
+            }
             Self::UnknownKey { nearest: Some(nearest), .. }
             | Self::UnknownType { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownKey { kind, .. } => Some(format!("known here: {}", listed(&kind.names()))),

@@ -85,9 +85,9 @@ fn answer_at(parameters: &[String], report: &SolveReport) -> String {
     let followed =
         report.steps_from_drawing.map_or_else(String::new, |steps| format!("; {}", text(&followed(steps))));
     let complete = if report.complete == Proof::Proven {
-        "This is proven."
+        "Proven: there are no other solutions."
     } else {
-        "That these are all is not proven."
+        "Not proven: there may be other solutions."
     };
     format!(
         "<p>{},\n{},\n{}{drives}.\nState: {}{followed}.</p>\n\
@@ -278,7 +278,7 @@ pub(super) fn limits_of(limits: &LimitsReport) -> String {
         text(&unit.title("From")),
         text(&unit.title("To")),
         all(&limits.modes, |row| mode(row, unit)),
-        text(&limits.guarantee),
+        text(&limits.known_in_words()),
     )
 }
 

@@ -160,9 +160,12 @@ impl Text<'_> {
                 self.line("Every motion has inertia: the mass matrix is regular.");
             }
         } else {
-            let motions = report.inertia.motions_without.join("; ");
-            let nevertheless = if report.condition.is_some() { " The drives prescribe it." } else { "" };
-            self.line(&format!("Without inertia: {motions}.{nevertheless}"));
+            let motions = &report.inertia.motions_without;
+            let [these, them] =
+                if motions.len() == 1 { ["this motion", "it"] } else { ["these motions", "them"] };
+            let nevertheless =
+                report.condition.map_or(String::new(), |_| format!(" The drives prescribe {them}."));
+            self.line(&format!("No mass resists {these}: {}.{nevertheless}", motions.join("; ")));
         }
         if let Some(condition) = report.condition.filter(|_| self.is_verbose()) {
             self.line(&format!("Condition of the kinetic equations: {}.", number(condition)));

@@ -154,6 +154,13 @@ pub(crate) fn motion_in_words(
     let scale = (0..mechanism.bodies.len())
         .map(|b| motion[3 * b].hypot(motion[3 * b + 1]).max(size * motion[3 * b + 2].abs()))
         .fold(0.0, f64::max);
+    // "(0.1, 0.2)", with rounding errors against `scale` as 0.
+    let shown = |vector: Vector2<f64>, scale: f64, si: &str| {
+        let unit = mechanism.units.of(si);
+        let [x, y] = [vector.x, vector.y]
+            .map(|value| unit.number(if value.abs() < 1e-9 * scale { 0.0 } else { value }));
+        unit.with(&format!("({x}, {y})"))
+    };
     let mut parts = Vec::new();
     for (index, body) in mechanism.bodies.iter().enumerate() {
         let velocity = Vector2::new(motion[3 * index], motion[3 * index + 1]);
@@ -161,23 +168,12 @@ pub(crate) fn motion_in_words(
         if angular.abs() * size > 1e-6 * scale {
             // The pole: the point that stays at rest, c + rot90(v)/omega.
             let pole = configuration.poses[index].position + rot90(velocity) / angular;
-            let length = mechanism.units.of("m");
-            let pole = components(pole.map(|value| length.number_of(value)), length.number_of(size));
-            parts.push(format!("{} rotates about {}", body.name, length.with(&pole)));
+            parts.push(format!("{} rotates about {}", body.name, shown(pole, size, "m")));
         } else if velocity.norm() > 1e-6 * scale {
-            parts.push(format!("{} moves along {}", body.name, components(velocity.normalize(), 1.0)));
+            parts.push(format!("{} moves along {}", body.name, shown(velocity.normalize(), 1.0, "")));
         }
     }
     parts.join(", ")
-}
-
-/// "(0.1, 0.2)", with rounding errors against `scale` as 0.
-fn components(vector: Vector2<f64>, scale: f64) -> String {
-    let rounded = |value: f64| {
-        let text = format!("{:.4}", if value.abs() < 1e-9 * scale { 0.0 } else { value });
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    };
-    format!("({}, {})", rounded(vector.x), rounded(vector.y))
 }
 
 /// The joints that take part in a state of self-stress: in a combination of rows that vanishes.

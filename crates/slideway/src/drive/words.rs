@@ -86,7 +86,9 @@ fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
         (_, Status::Continuum) => {
             "infinitely many states are possible, and their efforts are not known.".to_owned()
         }
-        ([], Status::Unknown) => "it is not decided whether it moves.".to_owned(),
+        ([], Status::Unknown) => {
+            "it is not decided whether it moves: it is on the verge of jamming. Take it as jammed.".to_owned()
+        }
         ([], _) => stuck(report, direction, is_advised),
         ([only], _) => format!("{}.{}", needs_one(report, direction, only), unsettled(only.attainability)),
         (several, _) => needs_several(report, several),

@@ -249,7 +249,7 @@ pub(super) fn report(
     let (found, _) = forwards;
     let forwards = naming.direction(forwards);
     let reversed = reversed.map(|found| naming.direction(found));
-    let Conclusion { summary, sentences: mut conclusion } =
+    let Conclusion { summary, says_all, sentences: mut conclusion } =
         conclusion((varied, found.method), &forwards, reversed.as_ref());
     let speeds = forwards.modes.iter().flat_map(|mode| &mode.speeds);
     if speeds.filter(|speed| speed.friction_exceeds_loads).count() > 0 {
@@ -280,6 +280,7 @@ pub(super) fn report(
         reversed,
         conclusion,
         summary,
+        summary_says_all: says_all,
         not_examined: not_examined(found),
     }
 }

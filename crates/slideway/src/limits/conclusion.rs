@@ -3,6 +3,7 @@
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
+use crate::units::number::counted;
 
 /// Verdict that a mechanism with drives has one solution.
 const MOVES: &str = "it moves";
@@ -13,6 +14,8 @@ const JAMS: &str = "it jams";
 pub(super) struct Conclusion {
     /// The limit in one sentence, if there is one only: "It jams from mu = 0.6667 on (the model has 0.3)."
     pub(super) summary: Option<String>,
+    /// Whether the sentences say nothing more.
+    pub(super) says_all: bool,
     /// A sentence for each stretch.
     pub(super) sentences: Vec<String>,
 }
@@ -35,7 +38,9 @@ pub(super) fn conclusion(
             _ => joined.push(piece),
         }
     }
-    let summary = summary(&joined, varied);
+    let gaps = forwards.without_mode_problem.iter().map(|gap| [gap.from, gap.to]).collect::<Vec<_>>();
+    let summary = summary(&joined, &gaps, varied);
+    let is_plain = joined.iter().all(|piece| piece.verdict == MOVES || piece.verdict == JAMS);
     let pieces = joined.into_iter().map(|piece| piece.sentence(varied, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
         let sentence = |at: &f64| {
@@ -53,11 +58,12 @@ pub(super) fn conclusion(
     let sentences: Vec<String> = pieces.chain(single(forwards, "")).chain(other).collect();
     // Where a single value has a state of its own there is more to say.
     let summary = summary.filter(|_| forwards.between_faces_at.is_empty());
-    Conclusion { summary, sentences }
+    Conclusion { says_all: is_plain && summary.is_some(), summary, sentences }
 }
 
-/// The limit in one sentence, if the mechanism moves on one side of it and jams on the other.
-fn summary(pieces: &[Piece], varied: &Varied) -> Option<String> {
+/// The limit in one sentence, if the mechanism moves on one side of it and jams on the other, up to an end of the range or
+/// to a gap without an answer.
+fn summary(pieces: &[Piece], gaps: &[[f64; 2]], varied: &Varied) -> Option<String> {
     let now = varied
         .present()
         .ok()
@@ -74,10 +80,20 @@ fn summary(pieces: &[Piece], varied: &Varied) -> Option<String> {
         [only] if only.verdict == JAMS => Some(format!("It jams {}{now}.", all(only))),
         [one, other] if one.to != other.from => None,
         [one, other] if one.is_motion && other.verdict == JAMS => {
-            Some(format!("It jams from {} on{now}.", at(other)))
+            let ends = gaps.iter().any(|[from, _]| *from >= other.to);
+            Some(if ends {
+                format!("It jams {}{now}.", all(other))
+            } else {
+                format!("It jams from {} on{now}.", at(other))
+            })
         }
         [one, other] if one.verdict == JAMS && other.is_motion => {
-            Some(format!("It jams below {}{now}.", at(other)))
+            let begins = gaps.iter().any(|[_, to]| *to <= one.from);
+            Some(if begins {
+                format!("It jams {}{now}.", all(one))
+            } else {
+                format!("It jams below {}{now}.", at(other))
+            })
         }
         _ => None,
     }
@@ -122,9 +138,7 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
             (0, _) => "it moves in a preload gap",
             (1, _) if driven => MOVES,
             (1, _) => ONE_SOLUTION,
-            (2, _) => "two solutions",
-            (3, _) => "three solutions",
-            _ => "more than three solutions",
+            (solutions, _) => &format!("{} solutions", counted(solutions)),
         };
         let is_motion = count.solutions == 1 && !count.continuum;
         let verdict = verdict.to_owned();
@@ -177,10 +191,10 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Pi
         let verdict = match (one, other) {
             (None, None) => "it can move in both directions".to_owned(),
             (None, Some(without)) => {
-                format!("it can only move as in the model; in the opposite direction {without}")
+                format!("it moves as in the model; in the opposite direction {without}")
             }
             (Some(without), None) => {
-                format!("it can only move against the direction of the model; as in the model {without}")
+                format!("as in the model {without}; in the opposite direction it moves")
             }
             (Some(one), Some(other)) if one == other => format!("{one} in both directions"),
             (Some(one), Some(other)) => format!("{one}; in the opposite direction {other}"),

@@ -52,6 +52,9 @@ pub struct LimitsReport {
     /// The limit in one sentence, if there is one only.
     #[serde(skip)]
     pub(super) summary: Option<String>,
+    /// Whether the other sentences of the conclusion only repeat it.
+    #[serde(skip)]
+    pub(super) summary_says_all: bool,
     /// Sentences on what was left out; absent if nothing was.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_examined: Vec<String>,

@@ -10,6 +10,7 @@ use crate::report::page::Page;
 use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, joints_in_words, spaced};
 use crate::standstill::CoordinateValue;
 use crate::units::Unit;
+use std::cmp::Ordering;
 
 impl Report for LimitsReport {
     fn answer(&self) -> String {
@@ -31,7 +32,7 @@ impl Report for LimitsReport {
 
 impl Report for RestLimitsReport {
     fn answer(&self) -> String {
-        self.spans.iter().map(|span| self.in_words(span)).collect::<Vec<_>>().join(" ")
+        self.in_sentences().join(" ")
     }
 
     /// Each stretch in a sentence.
@@ -49,7 +50,7 @@ impl Report for RestLimitsReport {
         let at = if at.is_empty() { String::new() } else { format!(" at {}", at.join(", ")) };
         text.line(&format!("At rest{at}, {range} (in the model {value})"));
         text.line("");
-        self.spans.iter().for_each(|span| text.headline(&self.in_words(span)));
+        self.in_sentences().iter().for_each(|sentence| text.headline(sentence));
         let narrower = unit.precise((vary.to - vary.from) / STEPS as f64);
         if text.is_verbose() {
             text.line(&self.guarantee);
@@ -61,8 +62,23 @@ impl Report for RestLimitsReport {
 }
 
 impl RestLimitsReport {
-    /// "mu from 0.2 to 1: it holds."
-    fn in_words(&self, SpanOfRest { from, to, holds, may_slip, reason }: &SpanOfRest) -> String {
+    /// A sentence for each stretch; a single value beside it is not said to be in it.
+    fn in_sentences(&self) -> Vec<String> {
+        let is_alone =
+            |span: Option<&SpanOfRest>, at: f64| span.is_some_and(|span| [span.from, span.to] == [at; 2]);
+        let spans = self.spans.iter().enumerate();
+        let sentence = |(index, span): (usize, &SpanOfRest)| {
+            let before = index.checked_sub(1).and_then(|before| self.spans.get(before));
+            let ends = [is_alone(before, span.from), is_alone(self.spans.get(index + 1), span.to)];
+            self.in_words(span, if span.from < span.to { ends } else { [false; 2] })
+        };
+        spans.map(sentence).collect()
+    }
+
+    /// "mu from 0.2 to 1: it holds.", "Q above 0, up to 20 N: it does not hold." where the ends that are marked do not
+    /// belong to it.
+    fn in_words(&self, span: &SpanOfRest, without: [bool; 2]) -> String {
+        let SpanOfRest { from, to, holds, may_slip, reason } = span;
         let unit = &self.vary.shown_in;
         let verdict = match (holds, reason) {
             (_, Some(reason)) => format!("there is no answer: {reason}"),
@@ -76,7 +92,13 @@ impl RestLimitsReport {
         let place = if from == to {
             format!("{} = {}", self.vary.name, unit.precise(*from))
         } else {
-            unit.range(&self.vary.name, [*from, *to])
+            let (name, [from, to]) = (&self.vary.name, [unit.precise_number(*from), unit.precise(*to)]);
+            match without {
+                [false, false] => format!("{name} from {from} to {to}"),
+                [true, false] => format!("{name} above {from}, up to {to}"),
+                [false, true] => format!("{name} from {from} on, below {to}"),
+                [true, true] => format!("{name} above {from}, below {to}"),
+            }
         };
         format!("{place}: {verdict}.")
     }
@@ -98,8 +120,8 @@ impl Page<'_, LimitsReport> {
         self.line("");
         if let Some(summary) = &report.summary {
             self.headline(summary);
-            let stretches = report.conclusion.iter().filter(|_| report.conclusion.len() > 1);
-            stretches.for_each(|sentence| self.line(sentence));
+            let repeats = report.summary_says_all && !self.is_verbose() || report.conclusion.len() == 1;
+            report.conclusion.iter().filter(|_| !repeats).for_each(|sentence| self.line(sentence));
         } else {
             report.conclusion.iter().for_each(|sentence| self.headline(sentence));
         }
@@ -157,7 +179,12 @@ impl Page<'_, LimitsReport> {
             row.extend((verbose && has_orientation).then(|| orientation(mode).to_owned()));
             row
         };
-        let rows: Vec<Vec<String>> = modes.iter().map(row).collect();
+        let mut sorted: Vec<&ModeLimits> = modes.iter().collect();
+        // Their signs, which sort them, are not shown.
+        if !verbose {
+            sorted.sort_by(|one, other| one.from.partial_cmp(&other.from).unwrap_or(Ordering::Equal));
+        }
+        let rows: Vec<Vec<String>> = sorted.into_iter().map(row).collect();
         self.table(&titles, &rows);
         for mode in modes.iter().filter(|_| verbose) {
             let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
@@ -175,7 +202,7 @@ impl Page<'_, LimitsReport> {
 
 impl LimitsReport {
     /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits."
-    fn known_in_words(&self) -> String {
+    pub fn known_in_words(&self) -> String {
         let unit = &self.vary.shown_in;
         let counts = || self.counts.iter().chain(self.reversed.iter().flat_map(|reversed| &reversed.counts));
         let worst = counts().map(|count| count.known).max();
@@ -203,24 +230,28 @@ pub(crate) fn could_be_missed(width: &str) -> String {
     format!("Checked every {width}; a narrower range could be missed.")
 }
 
-/// Where there is no mode problem, and why. Ranges that follow each other without room between them, as they are shown, are
-/// one, with the reason of the widest; with details each is there.
+/// Where there is no mode problem, and why: "At 0 and 180 deg there is no answer..." Ranges that follow each other without
+/// room between them, as they are shown, are one, with the reason of the widest; with details each is there.
 pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool) -> Vec<String> {
     let shown = |at: f64| unit.precise_number(at);
-    let joined = ranges.chunk_by(|(one, _), (next, _)| !details && shown(one[1]) == shown(next[0]));
-    let joined = joined.filter_map(|chunk| {
-        let ([first, _], _) = chunk.first()?;
-        let ([_, last], _) = chunk.last()?;
+    let adjoining = ranges.chunk_by(|(one, _), (next, _)| !details && shown(one[1]) == shown(next[0]));
+    let joined = adjoining.filter_map(|chunk| {
         let width = |([from, to], _): &([f64; 2], &str)| to - from;
         let (_, reason) =
             chunk.iter().reduce(|one, other| if width(other) > width(one) { other } else { one })?;
-        let place = match [shown(*first), shown(*last)] {
-            [from, to] if from == to => format!("At {}", unit.with(&from)),
-            [from, to] => format!("From {from} to {}", unit.with(&to)),
-        };
-        Some(format!("{place} there is no answer, which is no jam: {reason}."))
+        let (([from, _], _), ([_, to], _)) = (chunk.first()?, chunk.last()?);
+        Some(([shown(*from), shown(*to)], *reason))
     });
-    joined.collect()
+    let joined: Vec<([String; 2], &str)> = joined.collect();
+    let place = |([from, to], _): &([String; 2], &str)| {
+        if from == to { format!("at {}", unit.with(from)) } else { format!("from {from} to {}", unit.with(to)) }
+    };
+    let sentence = |same: &[([String; 2], &str)]| {
+        let mut places = same.iter().map(place).collect::<Vec<_>>().join(" and ");
+        places[..1].make_ascii_uppercase();
+        format!("{places} there is no answer, which is no jam: {}.", same[0].1)
+    };
+    joined.chunk_by(|(_, one), (_, next)| one == next).map(sentence).collect()
 }
 
 fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {

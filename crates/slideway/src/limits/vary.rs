@@ -6,6 +6,7 @@ use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
 use crate::model::{Model, Value};
 use crate::solve::last_change;
+use crate::units::Unit;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 use std::str::FromStr;
@@ -139,19 +140,34 @@ impl Vary {
     }
 }
 
-/// From "NAME" or "NAME=FROM..TO".
+/// From "NAME" or "NAME=FROM..TO"; a number before an end with a unit has that unit, too.
 impl FromStr for Vary {
     type Err = Faults;
 
     fn from_str(text: &str) -> Result<Self, Faults> {
         let Some((name, range)) = text.split_once('=') else { return Ok(Self::usual(text.trim())) };
         let name = name.trim();
-        if let Ok(Some((from, to))) = ends_of_range(range) {
-            return Ok(Self::between(name, from.trim(), to.trim()));
+        if let Ok(Some((from, to))) = ends_of_range(range)
+            && !to.contains(':')
+        {
+            let (from, to) = (from.trim(), to.trim());
+            // "200..800 mm": the unit is that of both.
+            return Ok(match unit_after_number(to).filter(|_| from.parse::<f64>().is_ok()) {
+                Some(unit) => Self::between(name, format!("{from} {unit}"), to),
+                None => Self::between(name, from, to),
+            });
         }
         let kind = FaultKind::MalformedRange { text: range.to_owned(), name: name.to_owned() };
         Err(Fault::of_argument(kind, text, text.len() - range.len()..text.len()).into())
     }
+}
+
+/// The unit behind a number: "mm" of "800 mm"; none where the text is no number with a unit.
+fn unit_after_number(text: &str) -> Option<&str> {
+    Unit::of_quantity(text)?;
+    let begins = |&(at, _): &(usize, char)| text[..at].trim_end().parse::<f64>().is_ok();
+    let (at, _) = text.char_indices().rfind(begins)?;
+    Some(text[at..].trim()).filter(|unit| !unit.is_empty())
 }
 
 impl fmt::Display for Vary {

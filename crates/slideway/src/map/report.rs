@@ -11,7 +11,7 @@ use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::{Answered, NO_DRIVE, Report, SpeedChange, Style, indented, precise, spaced};
 use crate::units::Unit;
-use crate::units::number::brief;
+use crate::units::number::{brief, counted};
 use serde::Serialize;
 
 /// Version of the layout of a [`MapReport`]; changes whenever a field is renamed or removed.
@@ -312,17 +312,6 @@ fn words(meaning: &ClassMeaning) -> String {
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
-    }
-}
-
-fn counted(number: usize) -> String {
-    match number {
-        2 => "two".to_owned(),
-        3 => "three".to_owned(),
-        4 => "four".to_owned(),
-        5 => "five".to_owned(),
-        6 => "six".to_owned(),
-        several => several.to_string(),
     }
 }
 

@@ -115,7 +115,7 @@ impl Formula {
         } else {
             self.expression.evaluate_on(values, pieces)
         };
-        let value = value.map_err(|fault| self.origin.fault(fault))?;
+        let value = value.map_err(|fault| self.origin.fault(fault).in_formula(&self.what))?;
         let (allowed, wanted) = match self.allowed {
             Allowed::Any => (true, ""),
             Allowed::Positive => (value.lower() > 0.0, POSITIVE),

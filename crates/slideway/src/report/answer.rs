@@ -30,9 +30,9 @@ impl SolveReport {
                 format!("Not decided: the search is not finished; so far it found no solution. {MORE_TIME}")
             }
             Status::Unknown => {
-                format!(
-                    "Not decided: it is at a boundary, and rounding hides whether it moves or jams. {NEARBY}"
-                )
+                "Not decided: it is on the verge of jamming, and rounding hides on which side. Take it as jammed, or ask \
+                     again with slightly more or less friction or load."
+                    .to_owned()
             }
         }
     }
@@ -58,15 +58,35 @@ impl SolveReport {
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
             sentences.push(format!("The number of solutions changes from {}.", at(changes)));
         }
+        let any_load = self.any_load_in_words(margins);
         match jams {
+            Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
+                let end = end_in_words(margins, &at(jams));
+                return vec![format!(
+                    "{}; below that no load jams it while it moves.",
+                    end.trim_end_matches('.')
+                )];
+            }
             Some(jams) => sentences.push(end_in_words(margins, &at(jams))),
             None if margins.another_count.is_none() && self.has_friction() => {
-                sentences.push("While it moves, more friction would not jam it.".to_owned());
+                let with = if margins.uniqueness.is_some() { " under this load" } else { "" };
+                sentences.push(if self.status == Status::Several {
+                    "However much all friction grows, it has a solution.".to_owned()
+                } else {
+                    format!("While it moves, more friction would not jam it{with}.")
+                });
             }
             None => {}
         }
-        sentences.extend(self.any_load_in_words(margins));
+        sentences.extend(any_load);
         sentences
+    }
+
+    /// Whether every load has one solution as long as the present one has: then one sentence says both.
+    fn is_safe_until(&self, margins: &Margins, jams: f64) -> bool {
+        let is_only_end = margins.another_count.is_none_or(|changes| changes == jams);
+        let is_plain = margins.tips.is_empty() && margins.solutions_again.is_none() && self.sharing.is_none();
+        is_only_end && is_plain && margins.uniqueness.is_some_and(|factor| brief(factor) == brief(jams))
     }
 
     /// How the answer is known, and which states there are beside solutions: "Proven: it is the only solution."
@@ -215,28 +235,26 @@ impl SolveReport {
         format!("It moves in a preload gap, {loose} pressed by its preload alone{moves}.")
     }
 
-    /// "While it moves, it is safe for any load up to 2.222 times this friction."
+    /// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
     fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
         let factor = margins.uniqueness?;
         let times = format!("{} times this friction", brief(factor));
-        let [any, every] = if self.sharing.is_some() {
-            ["any load, play, misalignment and stiffness", "every load, play, misalignment and stiffness"]
+        let [no, other] = if self.sharing.is_some() {
+            ["no load, play, misalignment or stiffness", "Other loads, play, misalignment or stiffness"]
         } else {
-            ["any load", "every load"]
+            ["no load", "Other loads"]
         };
         Some(if factor < 1.0 {
-            format!(
-                "Not safe for {every}: from {times} on, some can jam it or leave it several ways to move."
-            )
+            format!("{other} can jam it or leave it several ways to move, already from {times} on.")
         } else {
-            safe_up_to(any, &times)
+            safe_up_to(no, &times)
         })
     }
 
     fn without_margins(&self) -> Vec<String> {
         let least = self
             .unique_at_least
-            .map(|factor| safe_up_to("any load", &format!("at least {} times this friction", brief(factor))));
+            .map(|factor| safe_up_to("no load", &format!("at least {} times this friction", brief(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()
@@ -263,7 +281,7 @@ fn end_in_words(margins: &Margins, at: &str) -> String {
     }
 }
 
-/// "While it moves, it is safe for any load up to 2.222 times this friction."
-fn safe_up_to(any: &str, times: &str) -> String {
-    format!("While it moves, it is safe for {any} up to {times}.")
+/// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
+fn safe_up_to(no: &str, times: &str) -> String {
+    format!("Up to {times} {no} jams it while it moves, or leaves it several ways to go on.")
 }

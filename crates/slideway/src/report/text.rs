@@ -21,6 +21,11 @@ impl Report for SolveReport {
         let mut text = Page::new(self, style);
         text.heading();
         text.verdict();
+        // The loads at rest are the same for all solutions.
+        let at_rest = self.solutions.iter().find_map(|solution| self.rest_in_words(solution));
+        if let Some(at_rest) = at_rest.filter(|_| self.solutions.len() + self.preload_gap_states.len() > 1) {
+            text.line(&at_rest);
+        }
         text.margins();
         text.uncertainty();
         for (index, solution) in self.solutions.iter().enumerate() {
@@ -179,11 +184,11 @@ impl Text<'_> {
         self.boundary(solution);
         // Of the only solution the answer says what becomes of its speeds, unless drives are what matters.
         let is_said = is_only && solution.drives.is_empty() && report.rates_not_given.is_empty();
-        let speeds = if is_said && !self.is_verbose() {
-            report.rest_in_words(solution).into_iter().collect()
-        } else {
-            report.speeds_in_words(solution)
-        };
+        let mut speeds =
+            if is_said && !self.is_verbose() { Vec::new() } else { report.changes_in_words(solution) };
+        if is_only {
+            speeds.extend(report.rest_in_words(solution));
+        }
         speeds.iter().for_each(|line| self.line(&format!("  {line}")));
         if !is_only || self.is_verbose() || solution.attainability.verdict != Verdict::Attainable {
             self.line(&format!("  {}", solution.attainability.in_words()));
@@ -268,17 +273,17 @@ impl Text<'_> {
             ));
         }
         let factors = [
-            ("another number of solutions", margins.another_count),
-            ("no solution", margins.no_solution),
-            ("solutions again", margins.solutions_again),
-            ("exactly one solution for any load, up to", margins.uniqueness),
-            ("it would move, below", margins.moves_below.map(|below| below.factor)),
+            ("another number of solutions from", margins.another_count),
+            ("no solution from", margins.no_solution),
+            ("solutions again from", margins.solutions_again),
+            ("exactly one solution for any load up to", margins.uniqueness),
+            ("solutions below", margins.moves_below.map(|below| below.factor)),
         ];
         let factors = factors.into_iter().filter_map(|(what, factor)| Some((what, factor?)));
         let factors: Vec<String> =
-            factors.map(|(what, factor)| format!("{what} {}", number(factor))).collect();
+            factors.map(|(what, factor)| format!("{what} {} times", number(factor))).collect();
         if !factors.is_empty() {
-            self.line(&format!("Factors on all friction: {}.", factors.join("; ")));
+            self.line(&format!("Compared with this friction: {}.", factors.join("; ")));
         }
     }
 

@@ -71,7 +71,10 @@ impl Undetermined {
     pub(crate) fn cause(&self) -> String {
         match self.sharing.as_slice() {
             [] if !self.friction.is_empty() => self.standing_in_words(),
-            [] => "a mode with vanishing determinant leaves forces undetermined".to_owned(),
+            [] if self.normal_forces.iter().any(|range| range.from.is_none() || range.to.is_none()) => {
+                "on the verge of jamming the forces are undetermined".to_owned()
+            }
+            [] => "forces are undetermined, since equations of this contact mode are dependent".to_owned(),
             joints => format!("how {} share the load is undetermined", joints.join(", ")),
         }
     }

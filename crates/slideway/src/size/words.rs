@@ -36,8 +36,11 @@ impl Words<'_> {
     pub(super) fn conclusion(&self) -> Vec<String> {
         let mut sentences = vec![self.answer()];
         sentences.push(self.present());
-        sentences.extend(self.constant());
-        if !self.driven && self.report.against == MarginKind::Locking {
+        let report = self.report;
+        if !report.met.is_empty() {
+            sentences.extend(self.constant());
+        }
+        if !self.driven && report.against == MarginKind::Locking && report.present.is != SampleKind::Finite {
             sentences.push(NO_DRIVE.to_owned());
         }
         let report = self.report;
@@ -63,6 +66,12 @@ impl Words<'_> {
                 let best =
                     best.and_then(|(at, margin)| Some((at, report.against.told(margin, report.margin).1?)));
                 match best {
+                    Some((_, margin)) if self.constant().is_some() && !report.against.is_limit() => {
+                        format!(
+                            "{wish}: no {name} from {range} {gives}; the safety factor is {} at any {name}.",
+                            brief(margin)
+                        )
+                    }
                     Some((at, level)) if report.against.is_limit() => format!(
                         "{wish}: no {name} from {range} {gives}; {} comes nearest to it, with {}.",
                         quantity(report, at),
@@ -138,7 +147,7 @@ impl Words<'_> {
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking => "it is on the verge of jamming".to_owned(),
-                _ => format!("the load {load} is just held, however great it is"),
+                _ => format!("the load `{load}` is just held, however great it is"),
             },
             (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
             (_, None) => never(report),
@@ -161,18 +170,20 @@ impl Words<'_> {
             }
             (MarginKind::SelfLocking, true) => {
                 format!(
-                    "it would be self-locking under {load} at {factor} times this static friction, {enough}"
+                    "it would be self-locking under `{load}` at {factor} times this static friction, {enough}"
                 )
             }
             (MarginKind::SelfLocking, false) => format!(
-                "it is self-locking under {load}; static friction would have to fall to {factor} of its value"
+                "it is self-locking under `{load}`; static friction would have to fall to {factor} of its value"
             ),
-            (_, _) if margin == 0.0 => format!("no static friction holds every {load}"),
+            (_, _) if margin == 0.0 => format!("no static friction holds every `{load}`"),
             (_, true) => {
-                format!("it holds the load {load}, however great, with a safety factor of {factor}, {enough}")
+                format!(
+                    "it holds the load `{load}`, however great, with a safety factor of {factor}, {enough}"
+                )
             }
             (_, false) => format!(
-                "it does not hold every {load}; it needs {} times its static friction",
+                "it does not hold every `{load}`; it needs {} times its static friction",
                 brief(margin.recip())
             ),
         }
@@ -187,6 +198,9 @@ impl Words<'_> {
         // A limit that no value keeps since there is no solution says nothing of how it depends.
         let never_told =
             least == f64::INFINITY && greatest == f64::INFINITY && !self.report.against.is_limit();
+        if is_same && greatest == 0.0 && self.report.against == MarginKind::Locking {
+            return Some("No friction, however great, jams it anywhere in this range.".to_owned());
+        }
         (is_same || never_told)
             .then(|| format!("The {} is the same throughout this range.", subject(self.report)))
     }
@@ -196,8 +210,8 @@ fn never(report: &SizeReport) -> String {
     let load = report.load.as_deref().unwrap_or_default();
     match report.against {
         MarginKind::Locking => "more friction would not jam it".to_owned(),
-        MarginKind::SelfLocking => format!("no static friction, however great, holds every {load}"),
-        MarginKind::Hold => format!("{load} is held without friction, however great it is"),
+        MarginKind::SelfLocking => format!("no static friction, however great, holds every `{load}`"),
+        MarginKind::Hold => format!("`{load}` is held without friction, however great it is"),
         // These are numbers wherever there is a solution.
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure | MarginKind::Efficiency => {
             "there is no number".to_owned()
@@ -231,10 +245,10 @@ fn wish(report: &SizeReport) -> String {
         }
         MarginKind::Locking => format!("For a safety factor of {margin} against jamming"),
         MarginKind::SelfLocking => {
-            format!("For a safety factor of {margin} against self-locking under {load}")
+            format!("So that `{load}` does not lock it, with a safety factor of {margin}")
         }
         MarginKind::Hold => {
-            format!("To hold the load {load}, however great, with a safety factor of {margin}")
+            format!("To hold the load `{load}`, however great, with a safety factor of {margin}")
         }
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure => {
             format!("For a {} of {} at most", subject(report), level(report, report.margin))

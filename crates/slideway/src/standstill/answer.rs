@@ -219,7 +219,6 @@ fn threshold(known: &Threshold, value: f64) -> String {
 
 /// That motions without inertia leave the start of the motion open.
 pub(super) fn without_inertia(report: &HoldReport) -> Option<String> {
-    let start = if report.holds { "Whether it could also start to move" } else { "How it starts to move" };
     let is_open = !report.motions_without_inertia.is_empty();
-    is_open.then(|| format!("{start} is not computed: the moving parts have no mass."))
+    is_open.then(|| "The moving parts have no mass, so only the forces at rest are examined.".to_owned())
 }

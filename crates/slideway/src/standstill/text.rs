@@ -238,7 +238,7 @@ impl Text<'_> {
         let report = self.report;
         self.line("");
         self.line(match report.undecided {
-            0 => "Every state of joints and contacts was examined, in rounded numbers.",
+            0 => "Computed, not proven: every state of joints and contacts was examined.",
             _ => "Some states of joints and contacts could not be examined.",
         });
         if !self.is_verbose() {

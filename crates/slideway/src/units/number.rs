@@ -1,4 +1,4 @@
-//! Numbers for people: five significant digits, four in sentences.
+//! Numbers for people: five significant digits, six of limits, four in sentences.
 
 /// Values below this multiple of the greatest beside them are rounding errors, and shown as 0.
 const NOISE: f64 = 1e-13;
@@ -16,7 +16,12 @@ pub(crate) fn brief(value: f64) -> String {
 fn significant(value: f64, digits: i32) -> String {
     if !value.is_finite() {
         // Reports hold no such number; what is computed from theirs may still be too large.
-        return if value.is_nan() { "undefined" } else { "beyond all bounds" }.to_owned();
+        let words = if value.is_nan() {
+            "undefined"
+        } else {
+            ["below -1e308", "beyond 1e308"][usize::from(value > 0.0)]
+        };
+        return words.to_owned();
     }
     if value == 0.0 {
         return "0".to_owned();
@@ -43,19 +48,26 @@ pub(crate) fn against(value: f64, scale: f64) -> String {
     if value.abs() <= NOISE * scale { "0".to_owned() } else { number(value) }
 }
 
-/// Eight significant digits, as limits are known to more than other numbers.
+/// Six significant digits, as limits are known to more than other numbers.
 pub fn precise(value: f64) -> String {
-    if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
-        return number(value);
+    significant(value, 6)
+}
+
+/// A number of things, in a word if it is small: "two".
+pub(crate) fn counted(number: usize) -> String {
+    match number {
+        2 => "two".to_owned(),
+        3 => "three".to_owned(),
+        4 => "four".to_owned(),
+        5 => "five".to_owned(),
+        6 => "six".to_owned(),
+        several => several.to_string(),
     }
-    // The first number of digits behind the point that gives eight significant ones.
-    let digits = (2..12).find(|&digits| value.abs() >= 10_f64.powi(7 - digits)).unwrap_or(12);
-    without_end_zeros(&format!("{value:.*}", usize::try_from(digits).unwrap_or(12))).to_owned()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{against, brief, number};
+    use super::{against, brief, number, precise};
 
     #[test]
     fn sentences_have_four_significant_digits() {
@@ -87,11 +99,29 @@ mod tests {
             (0.000_123_456, "0.00012346"),
             (1.234_56e-5, "1.2346e-5"),
             (-2.5e7, "-2.5e7"),
-            (f64::INFINITY, "beyond all bounds"),
+            (f64::INFINITY, "beyond 1e308"),
+            (f64::NEG_INFINITY, "below -1e308"),
             (f64::NAN, "undefined"),
         ];
         for (value, text) in table {
             assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn limits_have_six_significant_digits() {
+        let table = [
+            (2.0 / 3.0, "0.666667"),
+            (0.15, "0.15"),
+            (1_283.330_1, "1283.33"),
+            (-301.234_567, "-301.235"),
+            (0.000_123_456_7, "0.000123457"),
+            (999_999.9, "1e6"),
+            (1_234_567.0, "1.23457e6"),
+            (0.0, "0"),
+        ];
+        for (value, text) in table {
+            assert_eq!(precise(value), text);
         }
     }
 

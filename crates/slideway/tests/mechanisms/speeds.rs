@@ -117,8 +117,8 @@ fn limits_tell_where_the_acceleration_vanishes() {
     assert_eq!((up.from, up.to, down.to), (0.0, down.from, 1.0));
     assert_close(up.to, 5.0 / 24.0, 0.0, 1e-15);
     let stretches = [
-        "mu from 0 to 0.20833333: it speeds up (one solution).",
-        "mu from 0.20833333 to 1: it slows down (one solution).",
+        "mu from 0 to 0.208333: it speeds up (one solution).",
+        "mu from 0.208333 to 1: it slows down (one solution).",
     ];
     assert_eq!(report.conclusion[..2], stretches);
 }

@@ -95,9 +95,12 @@ fn dimension(
     settings: &Settings,
     color: ColorChoice,
 ) -> Result<Answer, Failure> {
+    // Another value in answer to a question.
+    let mut typed = None;
     loop {
         let prompt = format!("{}, {} [{}]: ", parameter.name, parameter.meaning, parameter.value);
-        let Some(value) = reply(&prompt)? else { return Ok(Answer::Ended) };
+        let value = if typed.is_some() { typed.take() } else { reply(&prompt)? };
+        let Some(value) = value else { return Ok(Answer::Ended) };
         if value.is_empty() {
             return Ok(Answer::Kept);
         }
@@ -109,13 +112,15 @@ fn dimension(
             say(&slip(&faults), color);
             continue;
         };
-        match reply(&format!("{value}? [Enter: yes] "))?.as_deref() {
+        let answer = reply(&format!("{value}? [Enter: yes] "))?;
+        match answer.as_deref() {
             None => return Ok(Answer::Ended),
+            Some("n" | "N" | "no") => {}
             Some("" | "y" | "Y" | "yes") => match template.model(&with(&value), FILE) {
                 Ok(_) => return Ok(Answer::Value(with(&value))),
                 Err(faults) => say(&slip(&faults), color),
             },
-            Some(_) => {}
+            Some(_) => typed = answer,
         }
     }
 }
@@ -133,7 +138,10 @@ fn with_unit(faults: &Faults) -> Option<String> {
 
 /// The first fault in one line.
 fn slip(faults: &Faults) -> String {
-    faults.sorted().first().map_or_else(String::new, |first| format!("Not possible: {}.", first.kind))
+    faults.sorted().first().map_or_else(String::new, |first| {
+        let hint = first.kind.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
+        format!("Not possible: {}{hint}.", first.kind)
+    })
 }
 
 /// Asks for the name of the file until it can be written; gives it and what writes it.
