@@ -33,7 +33,9 @@ async function slidersTried(page) {
 /** Whether the page shows an answer to what was dragged last. */
 async function isAnswered(page) {
   await settled(page);
-  return page.evaluate(() => ["one", "several", "none"].includes(document.getElementById("verdict-box").dataset.status));
+  return page.evaluate(() =>
+    ["one", "several", "none"].includes(document.getElementById("verdict-box").dataset.status),
+  );
 }
 
 /** Drags sliders of every model of the gallery; `drag` moves one, and gives the value at which it ends, within how many steps. */

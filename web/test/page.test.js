@@ -5,17 +5,7 @@ import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { test } from "node:test";
 import { top } from "../tools/places.js";
-import {
-  choose,
-  close,
-  dragWithMouse,
-  gallery,
-  limits,
-  setUp,
-  settled,
-  skip,
-  verdict,
-} from "./browser.js";
+import { choose, close, dragWithMouse, gallery, limits, setUp, settled, skip, verdict } from "./browser.js";
 
 const set = setUp();
 const text = (name) => readFileSync(resolve(top, "models", `${name}.toml`), "utf8");
