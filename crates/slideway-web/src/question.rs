@@ -115,7 +115,8 @@ impl Asked {
     /// # Errors
     /// All faults of both, with the warnings of settings that may be the reason for them.
     pub(crate) fn model(&self) -> Result<Model, Faults> {
-        self.set(&self.file()?)
+        let file = self.file()?;
+        self.set(&file)
     }
 
     /// The model of the text alone. One question after another is about the same text: it is read once.

@@ -12,7 +12,7 @@ use slideway::model::Model;
 use slideway::progress::Callback;
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
-use slideway_pictures::drawing::{Bounds, Held, Sheet, pieces};
+use slideway_pictures::drawing::{Held, Sheet, pieces};
 
 /// A state of a model.
 pub(crate) struct State {

@@ -31,9 +31,9 @@ const MARGIN: f64 = 24.0;
 /// By multiples of this a place grows that is held.
 const STEP: f64 = SPACE;
 /// The smallest part of its usual room that a mechanism has where drawings are narrow.
-const LEAST_ROOM: f64 = 0.25;
+const LEAST_ROOM: f64 = 0.4;
 /// By so much of it the room shrinks at least, until a drawing is narrow enough.
-const LEAST_STEP: f64 = 0.02;
+const LEAST_STEP: f64 = 0.05;
 
 /// A sheet of drawings.
 #[derive(Debug, Clone, PartialEq)]
@@ -192,15 +192,20 @@ pub fn pieces(
         Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held, room)
     };
     let mut room = held.map_or(1.0, |held| held.room);
+    let mut narrowest = (f64::INFINITY, Vec::new());
     loop {
         let pieces = within(room);
         let widest = pieces.iter().map(|sheet| sheet.bounds.size().x).fold(0.0, f64::max);
+        // Where it is crowded labels stand farther outside: what is smaller is not always narrower.
+        if narrowest.1.is_empty() || widest < narrowest.0 {
+            narrowest = (widest, pieces);
+        }
         let excess = (widest + growth - most) / usual_room(mechanism)[0];
         if held.is_some() || excess <= 0.0 || room <= LEAST_ROOM {
-            return pieces;
+            return narrowest.1;
         }
         // One that is as high as its room is narrower than that: each step is one that can be seen.
-        room = (room - excess.max(LEAST_STEP)).max(LEAST_ROOM);
+        room = (room - excess.clamp(LEAST_STEP, 2.0 * LEAST_STEP)).max(LEAST_ROOM);
     }
 }
 
